@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# A room of the house is one static library: skyfit_room(model SOURCES ... LINK ...) makes skyfit::model.
+
+add_library(skyfit_warnings INTERFACE)
+target_compile_options(skyfit_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(SKYFIT_WERROR)
+  target_compile_options(skyfit_warnings INTERFACE -Werror)
+endif()
+
+function(skyfit_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  add_library(skyfit_${name} STATIC ${ROOM_SOURCES})
+  add_library(skyfit::${name} ALIAS skyfit_${name})
+  set_target_properties(skyfit_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(skyfit_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/skyfit>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(skyfit_${name} PUBLIC cxx_std_20)
+  target_link_libraries(skyfit_${name} PUBLIC ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE_LINK}
+    $<BUILD_INTERFACE:skyfit_warnings>)
+endfunction()

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every source of reference skies, by name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data_refs/samples.h"
+
+namespace skyfit::refs {
+
+enum class Sampling {
+  kPrincipalPlane,  // every 5 deg from -85 to 85 deg view zenith in the sun's vertical plane
+  kTregenza         // the 145 patches of the Tregenza hemisphere
+};
+
+struct ReferenceEntry {
+  std::string name;         // "cie:12"
+  std::string description;  // one line
+};
+
+// The shipped references: cie:1 .. cie:15 and cie:traditional-overcast.
+std::vector<ReferenceEntry> shipped_references();
+
+// `name` is a shipped reference or the path of a CSV of samples (columns in data_refs/sample_csv.h). For analytic
+// references the suns (zenith, radians) and the sampling say where they are read; a CSV brings its own.
+// Throws std::invalid_argument / std::runtime_error with one line that names file, line, field, value, expectation.
+Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith, Sampling sampling);
+
+// Shipped presets: "bodare-2014", "bruneton-2008", "earth-clear", "mars"; JSON text.
+std::vector<std::string> shipped_preset_names();
+std::string shipped_preset_json(std::string_view name);  // throws std::invalid_argument that lists the names
+
+}  // namespace skyfit::refs

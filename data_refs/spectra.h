@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The standard tabulated inputs: CIE 1931 colour matching functions, ASTM E490 solar spectrum, ozone cross section
+// (provenance in the CSV files beside this header, which are compiled in).
+#pragma once
+
+#include "model/photometry.h"
+
+namespace skyfit::refs {
+
+const SpectralData& standard_spectral_data();
+
+}  // namespace skyfit::refs

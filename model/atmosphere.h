@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The atmosphere that skyfit fits: a spherical planet under exponential layers of air and aerosol and a layer of ozone.
+// Lengths in metres, coefficients in 1/m, wavelengths in nm. Height h is measured from the bottom radius; densities are
+// relative to h = 0: rho(h) = exp(-h / H). Source: Bruneton & Neyret 2008, section 2, with the aerosol's wavelength
+// dependence of Angstrom and an ozone layer.
+#pragma once
+
+#include <string>
+
+namespace skyfit {
+
+enum class PhaseType { kCornetteShanks, kHenyeyGreenstein, kTwoLobe };
+enum class OzoneProfile {
+  kTent,        // 0 at 10 km, 1 at 25 km, 0 at 40 km
+  kExponential  // with the scale height of the air
+};
+
+// Scattering coefficient at h = 0: value * (lambda / wavelength)^-exponent.
+template <class T>
+struct PowerLaw {
+  double wavelength_nm = 550;
+  T value{};       // 1/m at wavelength_nm
+  T exponent{};    // > 0: bluer is stronger
+};
+
+template <class T>
+struct Rayleigh {
+  PowerLaw<T> scattering_per_m{550, T(1.216e-5), T(4.08)};
+  T scale_height_m{8000.0};
+};
+
+// The aerosol's phase function; all forms integrate to 1 over the sphere, g > 0 scatters forward.
+// kTwoLobe: weight CS(g1) + (1 - weight) CS(g2) with CS Cornette & Shanks 1992.
+template <class T>
+struct AerosolPhase {
+  PhaseType type = PhaseType::kCornetteShanks;
+  T g{0.76};                             // one lobe only
+  T g1{0.8}, g2{0.3}, weight{0.5};       // two lobes only; weight is that of g1
+};
+
+template <class T>
+struct Mie {
+  PowerLaw<T> scattering_per_m{550, T(2.2e-5), T(1.0)};
+  T single_scattering_albedo{0.9};  // scattering / extinction
+  T scale_height_m{1200.0};
+  AerosolPhase<T> phase;
+};
+
+template <class T>
+struct Ozone {
+  T column_du{300.0};  // vertical column, Dobson units; 1 DU = 2.687e20 molecules / m^2
+  OzoneProfile profile = OzoneProfile::kTent;
+};
+
+template <class T>
+struct Atmosphere {
+  double bottom_radius_m = 6360e3;
+  double top_radius_m = 6460e3;
+  Rayleigh<T> rayleigh;
+  Mie<T> mie;
+  Ozone<T> ozone;
+  T ground_albedo{0.1};  // Lambertian
+};
+
+// Throws std::invalid_argument with one line that names the preset path, the value and what was expected, when a
+// parameter is not finite or not physical (negative coefficient, albedo outside 0..1, |g| >= 1, top <= bottom ...).
+void validate(const Atmosphere<double>& atmosphere);
+
+}  // namespace skyfit

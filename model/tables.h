@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Look-up tables of an atmosphere for real-time rendering: four wavelengths in RGBA (the nodes of a ColorRule), values
+// per unit solar irradiance. Mappings: Bruneton 2017, in model/shared/mapping.glsl, shared with the shaders.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "model/atmosphere.h"
+#include "model/photometry.h"
+
+namespace skyfit {
+
+struct TableSizes {
+  int transmittance_mu = 256, transmittance_r = 64;
+  int irradiance_mu_s = 64, irradiance_r = 16;
+  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 32, scattering_nu = 8;
+};
+
+// width varies fastest; depth = 1 for 2D.
+struct Table {
+  int width = 0, height = 0, depth = 0;
+  std::vector<float> rgba;
+};
+
+struct AtmosphereTables {
+  Atmosphere<double> atmosphere;
+  ColorRule color;
+  TableSizes sizes;
+  Table transmittance;  // x: mu, y: r; from a point to the top of the atmosphere (pure number)
+  Table irradiance;     // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit solar irradiance
+  // 3D textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to the ground:
+  Table rayleigh_like;  // single Rayleigh amplitude + multiple scattering / Rayleigh phase function (sr^0); light that
+                        // comes straight from the ground to the eye is not in it: the renderer draws the ground
+  Table single_mie;     // single aerosol scattering / aerosol phase function (pure number)
+};
+
+// Progress in 0..1; may be empty.
+AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color, const TableSizes& sizes,
+                                int threads, const std::function<void(double)>& progress);
+
+}  // namespace skyfit
