@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# A room of the house is one static library: skyfit_room(model SOURCES ... LINK ...) makes skyfit::model.
+# A room of the house is one static library of the .cc files in its folder: skyfit_room(model LINK ...) makes
+# skyfit::model.
 
 add_library(skyfit_warnings INTERFACE)
 target_compile_options(skyfit_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
@@ -8,8 +9,9 @@ if(SKYFIT_WERROR)
 endif()
 
 function(skyfit_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
-  add_library(skyfit_${name} STATIC ${ROOM_SOURCES})
+  cmake_parse_arguments(ROOM "" "" "LINK;PRIVATE_LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  add_library(skyfit_${name} STATIC ${sources})
   add_library(skyfit::${name} ALIAS skyfit_${name})
   set_target_properties(skyfit_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(skyfit_${name} PUBLIC
