@@ -23,13 +23,16 @@ struct ReferenceEntry {
 // The shipped references: cie:1 .. cie:15 and cie:traditional-overcast.
 std::vector<ReferenceEntry> shipped_references();
 
-// `name` is a shipped reference or the path of a CSV of samples (columns in data_refs/sample_csv.h). For analytic
-// references the suns (zenith, radians) and the sampling say where they are read; a CSV brings its own.
-// Throws std::invalid_argument / std::runtime_error with one line that names file, line, field, value, expectation.
-Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith, Sampling sampling);
+// `name` is a shipped reference or the path of a CSV of samples (columns in
+// data_refs/sample_csv.h). For analytic references the suns (zenith, radians) and the sampling say
+// where they are read; a CSV brings its own. Throws std::invalid_argument / std::runtime_error with
+// one line that names file, line, field, value, expectation.
+Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
+                         Sampling sampling);
 
 // Shipped presets: "bodare-2014", "bruneton-2008", "earth-clear", "mars"; JSON text.
 std::vector<std::string> shipped_preset_names();
-std::string shipped_preset_json(std::string_view name);  // throws std::invalid_argument that lists the names
+std::string shipped_preset_json(
+    std::string_view name);  // throws std::invalid_argument that lists the names
 
 }  // namespace skyfit::refs

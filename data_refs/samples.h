@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sample is a sample: a CIE curve point, a Tregenza patch, a line of a CSV become the same struct.
+// A sample is a sample: a CIE curve point, a Tregenza patch, a line of a CSV become the same
+// struct.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The standard tabulated inputs: CIE 1931 colour matching functions, ASTM E490 solar spectrum, ozone cross section
-// (provenance in the CSV files beside this header, which are compiled in).
+// The standard tabulated inputs: CIE 1931 colour matching functions, ASTM E490 solar spectrum,
+// ozone cross section (provenance in the CSV files beside this header, which are compiled in).
 #pragma once
 
 #include "model/photometry.h"

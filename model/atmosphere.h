@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atmosphere that skyfit fits: a spherical planet under exponential layers of air and aerosol and a layer of ozone.
-// Lengths in metres, coefficients in 1/m, wavelengths in nm. Height h is measured from the bottom radius; densities are
-// relative to h = 0: rho(h) = exp(-h / H). Source: Bruneton & Neyret 2008, section 2, with the aerosol's wavelength
-// dependence of Angstrom and an ozone layer.
+// The atmosphere that skyfit fits: a spherical planet under exponential layers of air and aerosol
+// and a layer of ozone. Lengths in metres, coefficients in 1/m, wavelengths in nm. Height h is
+// measured from the bottom radius; densities are relative to h = 0: rho(h) = exp(-h / H). Source:
+// Bruneton & Neyret 2008, section 2, with the aerosol's wavelength dependence of Angstrom and an
+// ozone layer.
 #pragma once
 
 #include <string>
@@ -19,8 +20,8 @@ enum class OzoneProfile {
 template <class T>
 struct PowerLaw {
   double wavelength_nm = 550;
-  T value{};       // 1/m at wavelength_nm
-  T exponent{};    // > 0: bluer is stronger
+  T value{};     // 1/m at wavelength_nm
+  T exponent{};  // > 0: bluer is stronger
 };
 
 template <class T>
@@ -34,13 +35,13 @@ struct Rayleigh {
 template <class T>
 struct AerosolPhase {
   PhaseType type = PhaseType::kCornetteShanks;
-  T g{0.76};                             // one lobe only
-  T g1{0.8}, g2{0.3}, weight{0.5};       // two lobes only; weight is that of g1
+  T g{0.76};                        // one lobe only
+  T g1{0.8}, g2{0.3}, weight{0.5};  // two lobes only; weight is that of g1
 };
 
 template <class T>
 struct Mie {
-  PowerLaw<T> scattering_per_m{550, T(2.2e-5), T(1.0)};
+  PowerLaw<T> scattering_per_m{550, T(2.2e-5), T(1.3)};
   T single_scattering_albedo{0.9};  // scattering / extinction
   T scale_height_m{1200.0};
   AerosolPhase<T> phase;
@@ -62,8 +63,9 @@ struct Atmosphere {
   T ground_albedo{0.1};  // Lambertian
 };
 
-// Throws std::invalid_argument with one line that names the preset path, the value and what was expected, when a
-// parameter is not finite or not physical (negative coefficient, albedo outside 0..1, |g| >= 1, top <= bottom ...).
+// Throws std::invalid_argument with one line that names the preset path, the value and what was
+// expected, when a parameter is not finite or not physical (negative coefficient, albedo outside
+// 0..1, |g| >= 1, top <= bottom ...).
 void validate(const Atmosphere<double>& atmosphere);
 
 }  // namespace skyfit

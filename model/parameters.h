@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of the atmosphere's continuous parameters: one row each, with the one name that report, command line and
-// preset use. Everything that lists, fits, bounds or differentiates parameters reads this table.
+// The table of the atmosphere's continuous parameters: one row each, with the one name that report,
+// command line and preset use. Everything that lists, fits, bounds or differentiates parameters
+// reads this table.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // From radiance per unit solar irradiance to luminance and colour, with few wavelengths.
-// Radiances of the model are per unit solar spectral irradiance at normal incidence (1/sr), smooth in wavelength; the
-// weights V(lambda) E_sun(lambda) are not. A Gauss rule for such a weight needs 4 solutions instead of 81.
+// Radiances of the model are per unit solar spectral irradiance at normal incidence (1/sr), smooth
+// in wavelength; the weights V(lambda) E_sun(lambda) are not. A Gauss rule for such a weight needs
+// 4 solutions instead of 81.
 #pragma once
 
 #include <array>
@@ -18,9 +19,9 @@ struct Spectrum {
 
 // The tabulated inputs of the model; data_refs/spectra.h delivers the standard ones.
 struct SpectralData {
-  Spectrum x_bar, y_bar, z_bar;      // CIE 1931 2 deg colour matching functions
-  Spectrum solar_irradiance;         // W m^-2 nm^-1 at 1 au
-  Spectrum ozone_cross_section;      // m^2 per molecule
+  Spectrum x_bar, y_bar, z_bar;  // CIE 1931 2 deg colour matching functions
+  Spectrum solar_irradiance;     // W m^-2 nm^-1 at 1 au
+  Spectrum ozone_cross_section;  // m^2 per molecule
 };
 
 // One wavelength at which the model is solved.
@@ -30,23 +31,27 @@ struct WavelengthNode {
 };
 
 // Nodes that read the tabulated ozone cross section as it is: for spectral radiances.
-std::vector<WavelengthNode> spectral_nodes(const SpectralData& data, const std::vector<double>& wavelengths_nm);
+std::vector<WavelengthNode> spectral_nodes(const SpectralData& data,
+                                           const std::vector<double>& wavelengths_nm);
 
-// luminance in cd/m^2 at 1 au (or illuminance in lx) = sum_k weight[k] * quantity per unit solar irradiance at node k.
+// luminance in cd/m^2 at 1 au (or illuminance in lx) = sum_k weight[k] * quantity per unit solar
+// irradiance at node k.
 struct LuminanceRule {
   std::vector<WavelengthNode> nodes;
   std::vector<double> weight;  // lm/W * W/m^2 = lx
 };
 
-// Gauss rule of `count` nodes for the weight 683.002 V(lambda) E_sun(lambda), 380..780 nm. The ozone cross section at the
-// nodes is that of its weighted least-squares polynomial of degree 3 in wavelength, because the true one is not smooth.
+// Gauss rule of `count` nodes (1 to 16, otherwise std::invalid_argument) for the weight 683.002
+// V(lambda) E_sun(lambda), 380..780 nm. The ozone cross section at the nodes is that of its
+// weighted least-squares polynomial of degree count - 1 in wavelength, because the true one is not
+// smooth.
 LuminanceRule luminance_rule(const SpectralData& data, int count = 4);
 
 // The plain sum over 380..780 nm by 5 nm, the yardstick of the rules.
 LuminanceRule luminance_sum_5nm(const SpectralData& data);
 
-// Four shared wavelengths, one per channel of an RGBA texel, and the matrix that turns them into CIE XYZ (cd/m^2, Y is
-// luminance).
+// Four shared wavelengths, one per channel of an RGBA texel, and the matrix that turns them into
+// CIE XYZ (cd/m^2, Y is luminance).
 struct ColorRule {
   std::array<WavelengthNode, 4> nodes;
   std::array<std::array<double, 4>, 3> xyz_from_nodes;
@@ -54,8 +59,9 @@ struct ColorRule {
 ColorRule color_rule(const SpectralData& data);
 
 // Linear sRGB (IEC 61966-2-1 primaries, D65) from CIE XYZ; row major.
-inline constexpr std::array<std::array<double, 3>, 3> kLinearSrgbFromXyz = {{{3.2404542, -1.5371385, -0.4985314},
-                                                                            {-0.9692660, 1.8760108, 0.0415560},
-                                                                            {0.0556434, -0.2040259, 1.0572252}}};
+inline constexpr std::array<std::array<double, 3>, 3> kLinearSrgbFromXyz = {
+    {{3.2404542, -1.5371385, -0.4985314},
+     {-0.9692660, 1.8760108, 0.0415560},
+     {0.0556434, -0.2040259, 1.0572252}}};
 
 }  // namespace skyfit

@@ -17,8 +17,9 @@ struct Preset {
   nlohmann::json fit;  // null, or what it was fitted to, version, RMS, sigmas, covariance
 };
 
-// Parse and write. Unknown names, missing names, wrong types and unphysical values throw std::invalid_argument with one
-// line `source: path.to.field = value: expected ...`; `source` is the file name that the message shows.
+// Parse and write. Unknown names, missing names, wrong types and unphysical values throw
+// std::invalid_argument with one line `source: path.to.field = value: expected ...`; `source` is
+// the file name that the message shows.
 Preset parse_preset(std::string_view text, std::string_view source);
 std::string preset_to_json(const Preset& preset);
 

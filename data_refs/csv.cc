@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/csv.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace skyfit::refs {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::string_view kBlank = " \t\r";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+[[noreturn]] void fail(std::string_view source, int line, std::string_view message) {
+  throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, message));
+}
+
+// Reads the quoted field at the front of `rest` and removes it, up to the comma or the end.
+std::string take_quoted(std::string_view& rest, std::string_view source, int line) {
+  std::string field;
+  std::size_t i = 1;
+  for (;; ++i) {
+    if (i == rest.size()) fail(source, line, "expected a closing quote before the end of the line");
+    if (rest[i] == '"') {
+      if (i + 1 == rest.size() || rest[i + 1] != '"') break;
+      ++i;
+    }
+    field += rest[i];
+  }
+  rest = trimmed(rest.substr(i + 1));
+  if (!rest.empty() && rest.front() != ',')
+    fail(source, line, "expected a comma after a closing quote");
+  return field;
+}
+
+std::vector<std::string> split_record(std::string_view rest, std::string_view source, int line) {
+  std::vector<std::string> fields;
+  for (;;) {
+    rest = trimmed(rest);
+    if (!rest.empty() && rest.front() == '"') {
+      fields.push_back(take_quoted(rest, source, line));
+    } else {
+      const std::size_t comma = rest.find(',');
+      fields.emplace_back(trimmed(rest.substr(0, comma)));
+      rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma);
+    }
+    if (rest.empty()) return fields;
+    rest.remove_prefix(1);  // the comma
+  }
+}
+
+}  // namespace
+
+CsvTable::CsvTable(std::string_view text, std::string_view source) : source_(source) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  for (int line = 1; !text.empty(); ++line) {
+    const std::size_t end = text.find('\n');
+    const std::string_view content = trimmed(text.substr(0, end));
+    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+    if (content.empty() || content.front() == '#') continue;
+    CsvRecord record{line, split_record(content, source_, line)};
+    if (header_.line == 0) {
+      header_ = std::move(record);
+      continue;
+    }
+    if (record.fields.size() != header_.fields.size()) {
+      fail(source_, line,
+           fmt::format("expected {} fields, got {}", header_.fields.size(), record.fields.size()));
+    }
+    records_.push_back(std::move(record));
+  }
+  if (header_.line == 0)
+    throw std::invalid_argument(source_ + ": is empty, expected a line of column names");
+  for (std::size_t i = 0; i < header_.fields.size(); ++i) {
+    const std::string& name = header_.fields[i];
+    if (name.empty()) fail_header(fmt::format("column {} has no name", i + 1));
+    if (!index_.emplace(name, i).second)
+      fail_header(fmt::format("column {}: expected once, found twice", name));
+  }
+}
+
+const std::string& CsvTable::text(const CsvRecord& record, std::string_view column) const {
+  return record.fields[index_.find(column)->second];
+}
+
+double CsvTable::number(const CsvRecord& record, std::string_view column) const {
+  std::string_view field = text(record, column);
+  if (field.starts_with('+') && !field.starts_with("+-")) field.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) {
+    fail_value(record, column, "a finite number");
+  }
+  return value;
+}
+
+void CsvTable::fail_header(std::string_view message) const { fail(source_, header_.line, message); }
+
+void CsvTable::fail_value(const CsvRecord& record, std::string_view column,
+                          std::string_view expectation) const {
+  constexpr std::size_t kLongest = 60;
+  std::string value = text(record, column);
+  if (value.size() > kLongest) value = value.substr(0, kLongest) + "...";
+  fail(source_, record.line, fmt::format("{} = \"{}\": expected {}", column, value, expectation));
+}
+
+}  // namespace skyfit::refs

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A strict reader of comma-separated values (RFC 4180 on one line per record) for every table that
+// skyfit reads. The first record names the columns. Accepted: CRLF, a byte order mark, blank lines,
+// lines that start with #, quoted fields with "" for a quote, spaces around fields. Every complaint
+// is one std::invalid_argument of one line, `source:line: column = value: expected ...`.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace skyfit::refs {
+
+struct CsvRecord {
+  int line;  // 1 is the first of the file
+  std::vector<std::string> fields;
+};
+
+class CsvTable {
+ public:
+  // Throws when there is no header, a column name is empty or comes twice, a quote is not closed,
+  // or a record has another number of fields than the header.
+  CsvTable(std::string_view text, std::string_view source);
+
+  const std::string& source() const { return source_; }
+  int header_line() const { return header_.line; }
+  const std::vector<std::string>& columns() const { return header_.fields; }
+  const std::vector<CsvRecord>& records() const { return records_; }
+  bool has(std::string_view column) const { return index_.contains(column); }
+
+  // The column must exist.
+  const std::string& text(const CsvRecord& record, std::string_view column) const;
+  // Throws unless the whole field is a finite number.
+  double number(const CsvRecord& record, std::string_view column) const;
+
+  [[noreturn]] void fail_header(std::string_view message) const;
+  [[noreturn]] void fail_value(const CsvRecord& record, std::string_view column,
+                               std::string_view expectation) const;
+
+ private:
+  std::string source_;
+  CsvRecord header_{};
+  std::vector<CsvRecord> records_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+};
+
+}  // namespace skyfit::refs

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/references.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+
+#include "data_refs/cie_sky.h"
+#include "data_refs/embedded.h"
+#include "data_refs/sample_csv.h"
+#include "data_refs/sampling.h"
+
+namespace skyfit::refs {
+namespace {
+
+constexpr std::string_view kCiePrefix = "cie:";
+constexpr std::string_view kTraditionalOvercast = "cie:traditional-overcast";
+constexpr std::string_view kPresetFolder = "presets/", kPresetExtension = ".json";
+
+std::string cie_name(const CieSky& sky) { return fmt::format("{}{}", kCiePrefix, sky.type); }
+
+void expect_suns(std::string_view name, const std::vector<double>& sun_zenith) {
+  if (sun_zenith.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{}: no sun_zenith_deg given, expected at least one", name));
+  }
+  for (const double zenith : sun_zenith) {
+    if (zenith >= 0 && zenith < std::numbers::pi / 2) continue;
+    throw std::invalid_argument(fmt::format(
+        "{}: sun_zenith_deg = {:.9g}: expected 0 <= sun_zenith_deg < 90, a sun above the horizon",
+        name, zenith * 180 / std::numbers::pi));
+  }
+}
+
+Reference sampled(const std::vector<double>& sun_zenith, Sampling sampling,
+                  const std::function<double(const Sample&)>& relative_luminance) {
+  Reference reference;
+  for (std::size_t scan = 0; scan < sun_zenith.size(); ++scan) {
+    for (const SkyDirection& direction : sampling_directions(sampling)) {
+      Sample sample;
+      sample.sun_zenith = sun_zenith[scan];
+      sample.view_zenith = direction.view_zenith;
+      sample.relative_azimuth = direction.relative_azimuth;
+      sample.scan = static_cast<int>(scan);
+      sample.value = relative_luminance(sample);
+      reference.samples.push_back(sample);
+    }
+  }
+  return reference;
+}
+
+// `name` is one of shipped_references().
+Reference analytic_reference(std::string_view name, const std::vector<double>& suns,
+                             Sampling sampling) {
+  if (name == kTraditionalOvercast) {
+    return sampled(suns, sampling, [](const Sample& s) {
+      return traditional_overcast_relative_luminance(s.view_zenith);
+    });
+  }
+  const std::span<const CieSky> skies = cie_skies();
+  const auto sky = std::find_if(skies.begin(), skies.end(),
+                                [&](const CieSky& s) { return cie_name(s) == name; });
+  return sampled(suns, sampling, [&](const Sample& s) {
+    return cie_relative_luminance(*sky, s.sun_zenith, s.view_zenith, scattering_angle(s));
+  });
+}
+
+}  // namespace
+
+std::vector<ReferenceEntry> shipped_references() {
+  std::vector<ReferenceEntry> entries;
+  for (const CieSky& sky : cie_skies()) {
+    entries.push_back(
+        {cie_name(sky), fmt::format("CIE S 011 type {}: {}", sky.type, sky.description)});
+  }
+  entries.push_back({std::string(kTraditionalOvercast),
+                     "CIE traditional overcast sky (Moon & Spencer 1942): (1 + 2 cos Z) / 3"});
+  return entries;
+}
+
+Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
+                         Sampling sampling) {
+  for (const ReferenceEntry& entry : shipped_references()) {
+    if (entry.name != name) continue;
+    expect_suns(name, sun_zenith);
+    Reference reference = analytic_reference(name, sun_zenith, sampling);
+    reference.name = entry.name;
+    reference.description = entry.description;
+    return reference;
+  }
+  const std::filesystem::path file(name);
+  if (std::filesystem::exists(file)) return load_sample_csv(file);
+  throw std::invalid_argument(
+      fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {} or a CSV of samples",
+                  name, cie_skies().size(), kTraditionalOvercast));
+}
+
+std::vector<std::string> shipped_preset_names() {
+  std::vector<std::string> names;
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.name.starts_with(kPresetFolder)) continue;
+    const std::string_view name = file.name.substr(kPresetFolder.size());
+    names.emplace_back(name.substr(0, name.size() - kPresetExtension.size()));
+  }
+  return names;
+}
+
+std::string shipped_preset_json(std::string_view name) {
+  const std::vector<std::string> names = shipped_preset_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw std::invalid_argument(
+        fmt::format("{}: unknown preset, expected one of {}", name, fmt::join(names, ", ")));
+  }
+  return std::string(embedded_text(fmt::format("{}{}{}", kPresetFolder, name, kPresetExtension)));
+}
+
+}  // namespace skyfit::refs

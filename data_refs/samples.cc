@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/samples.h"
+
+#include <cmath>
+
+namespace skyfit::refs {
+
+double scattering_angle(const Sample& sample) {
+  // Vincenty's form of the angle between two directions: exact near 0 and pi, where acos loses half
+  // the digits.
+  const double sin_s = std::sin(sample.sun_zenith), cos_s = std::cos(sample.sun_zenith);
+  const double sin_v = std::sin(sample.view_zenith), cos_v = std::cos(sample.view_zenith);
+  const double sin_az = std::sin(sample.relative_azimuth),
+               cos_az = std::cos(sample.relative_azimuth);
+  const double across = std::hypot(sin_v * sin_az, sin_s * cos_v - cos_s * sin_v * cos_az);
+  return std::atan2(across, cos_s * cos_v + sin_s * sin_v * cos_az);
+}
+
+}  // namespace skyfit::refs

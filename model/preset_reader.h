@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Strict reading of a JSON document: every complaint is one std::invalid_argument of one line that
+// names the source, the line, the full path of the field, its value and what was expected.
+// Duplicate names are an error too.
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace skyfit {
+
+class PresetReader;
+
+class PresetDocument {
+ public:
+  PresetDocument(std::string_view text, std::string_view source);
+
+  // The outermost object; lives as long as the document.
+  PresetReader root() const;
+
+  // `source:line` of the field with that path, or of its nearest enclosing one.
+  std::string place(std::string_view path) const;
+
+ private:
+  std::string source_;
+  nlohmann::json json_;
+  std::map<std::string, int, std::less<>> line_of_path_;
+};
+
+// One object of the document and the path that leads to it.
+class PresetReader {
+ public:
+  PresetReader(const PresetDocument& document, const nlohmann::json& value, std::string path);
+
+  const nlohmann::json& value() const { return value_; }
+  bool has(std::string_view field) const { return value_.contains(field); }
+
+  // Refuses fields that are not in the list.
+  void expect_only(std::initializer_list<std::string_view> fields) const;
+
+  PresetReader object(std::string_view field) const;
+  double number(std::string_view field) const;
+  std::string text(std::string_view field) const;
+
+  [[noreturn]] void fail_value(std::string_view field, std::string_view expectation) const;
+
+ private:
+  std::string path_of(std::string_view field) const;
+  const nlohmann::json& member(std::string_view field, std::string_view expectation) const;
+
+  const PresetDocument& document_;
+  const nlohmann::json& value_;
+  std::string path_;  // empty for the root
+};
+
+}  // namespace skyfit
