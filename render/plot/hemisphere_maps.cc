@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/plot/hemisphere_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace skyfit::plot {
+namespace {
+
+constexpr double kTitleStrip = 26;  // as in the panels, so that both grids' titles line up
+constexpr double kMargin = 8;       // around a map
+constexpr int kScaleSteps = 80;     // colours of the scale
+
+std::string polar(double zenith_deg, double azimuth_deg) {
+  const double azimuth = azimuth_deg * std::numbers::pi / 180;
+  return fmt::format("{:.5f},{:.5f}", zenith_deg / 90 * std::cos(azimuth),
+                     zenith_deg / 90 * std::sin(azimuth));
+}
+
+// Samples of one view zenith, by azimuth in 0..360.
+using Ring = std::map<double, const ComparedSample*>;
+
+std::map<double, Ring> rings_of(const std::vector<ComparedSample>& samples) {
+  std::map<double, Ring> rings;
+  for (const auto& sample : samples) {
+    const double zenith = std::round(sample.view_zenith_deg * 1000) / 1000;
+    const double azimuth = std::fmod(std::fmod(sample.relative_azimuth_deg, 360.0) + 360.0, 360.0);
+    rings[zenith][std::round(azimuth * 1000) / 1000] = &sample;
+  }
+  return rings;
+}
+
+bool equally_spaced(const Ring& ring) {
+  const double step = 360.0 / static_cast<double>(ring.size());
+  double expected = ring.begin()->first;
+  for (const auto& [azimuth, sample] : ring) {
+    if (std::abs(azimuth - expected) > 0.1) return false;
+    expected += step;
+  }
+  return true;
+}
+
+// Outline of a patch: out along the inner arc, back along the outer one; every arc by steps of at
+// most 3 degrees.
+std::string outline(const Patch& patch) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(patch.width_deg / 3)));
+  const double first = patch.azimuth_deg - patch.width_deg / 2, step = patch.width_deg / steps;
+  std::string points;
+  for (int i = 0; i <= steps; ++i)
+    points += polar(patch.outer_zenith_deg, first + i * step) + " to ";
+  if (patch.inner_zenith_deg > 0)
+    for (int i = steps; i >= 0; --i)
+      points += polar(patch.inner_zenith_deg, first + i * step) + " to ";
+  return points + polar(patch.outer_zenith_deg, first);
+}
+
+std::string color_of(const ComparedSample& sample, double limit_percent) {
+  return sample.weight > 0 ? diverging_color(100 * sample.residual, limit_percent)
+                           : std::string(kLeftOutColor);
+}
+
+void draw_sky(Script& script, const std::vector<ComparedSample>& samples, double limit_percent) {
+  const auto patches = patches_of(samples);
+  for (const auto& patch : patches)
+    script.line(
+        "set object polygon from {} behind fs solid border lc rgb '#ffffff' lw 0.4 fc rgb '{}'",
+        outline(patch), color_of(*patch.sample, limit_percent));
+  if (!patches.empty()) return;
+  for (const auto& sample : samples)
+    script.line(
+        "set object circle at {} size 0.03 behind fs solid border lc rgb '{}' lw 0.3 fc rgb '{}'",
+        polar(sample.view_zenith_deg, sample.relative_azimuth_deg), kFrameColor,
+        color_of(sample, limit_percent));
+}
+
+void draw_frame(Script& script, double sun_zenith_deg, bool named) {
+  for (const double zenith : {30.0, 60.0})
+    script.line(
+        "set object circle at 0,0 size {:.9g} front fs empty border lc rgb '#606060' lw 0.5",
+        zenith / 90);
+  script.line("set object circle at 0,0 size 1 front fs empty border lc rgb '{}' lw 1",
+              kFrameColor);
+  script.line("set label '☉' at {} center front font ',15' textcolor rgb '#000000'",
+              polar(sun_zenith_deg, 0));
+  if (!named) return;
+  for (const double zenith : {30.0, 60.0, 90.0})
+    script.line("set label '{:.0f}°' at {} center front font ',9' textcolor rgb '#303030'", zenith,
+                polar(zenith - 7, 90));
+}
+
+void draw_map(Script& script, const SunSamples& sun, std::size_t curve, const Box& cell,
+              double limit_percent, bool named) {
+  const double side = std::min(cell.width, cell.height - kTitleStrip) - kMargin;
+  const double centre = cell.left + cell.width / 2;
+  const Box box{centre - side / 2, cell.top() - kTitleStrip - side, side, side};
+  script.begin_axes(box);
+  script.line("set xrange [-1.01:1.01]; set yrange [-1.01:1.01]");
+  draw_sky(script, sun.hemisphere[curve], limit_percent);
+  draw_frame(script, sun.sun_zenith_deg, named && side > 150);
+  const double rms = rms_log_percent(sun.hemisphere[curve]);
+  const bool wide = cell.width > 170;
+  const std::string error =
+      std::isnan(rms) ? "no samples" : fmt::format("{}{:.1f} %", wide ? "RMS " : "", rms);
+  script.text_label(centre, box.top() + kTitleStrip / 2 - 1,
+                    fmt::format("☉ {:.4g}°   {}", sun.sun_zenith_deg, error),
+                    wide ? "center font ',12'" : "center font ',10'");
+  script.line("plot NaN notitle");
+}
+
+void draw_scale(Script& script, const Box& box, double limit_percent) {
+  script.begin_axes(box);
+  script.line("set border 15 lc rgb '{}' lw 0.8", kFrameColor);
+  script.line("set xrange [{:.9g}:{:.9g}]; set yrange [0:1]", -limit_percent, limit_percent);
+  for (int i = 0; i < kScaleSteps; ++i) {
+    const double step = 2 * limit_percent / kScaleSteps, left = -limit_percent + i * step;
+    const std::string color = diverging_color(left + step / 2, limit_percent);
+    script.line(
+        "set object rectangle from {:.9g},0 to {:.9g},1 behind fs solid border lc rgb '{}' fc rgb "
+        "'{}'",
+        left, left + step, color, color);
+  }
+  script.line(
+      "set xtics {:.9g} scale 0.5 nomirror format '%g' textcolor rgb '#202020' offset 0,0.3",
+      limit_percent / 2);
+  script.text_label(
+      box.left + box.width / 2, box.bottom - 40,
+      "residual 100 ln(model / reference), %     blue: model too dark     red: too bright",
+      "center font ',12'");
+  script.line("plot NaN notitle");
+}
+
+std::size_t best_columns(std::size_t count, const Box& area) {
+  std::size_t best = 1;
+  double best_side = 0;
+  for (std::size_t columns = 1; columns <= count; ++columns) {
+    const std::size_t rows = (count + columns - 1) / columns;
+    const double side = std::min(area.width / static_cast<double>(columns),
+                                 area.height / static_cast<double>(rows) - kTitleStrip);
+    if (side > best_side) {
+      best = columns;
+      best_side = side;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Patch> patches_of(const std::vector<ComparedSample>& samples) {
+  const auto rings = rings_of(samples);
+  if (rings.size() < 3) return {};
+  std::vector<Patch> patches;
+  double inner = 0;
+  for (auto ring = rings.begin(); ring != rings.end(); ++ring) {
+    const auto next = std::next(ring);
+    const double zenith = ring->first;
+    const double outer =
+        next != rings.end() ? (zenith + next->first) / 2 : std::min(2 * zenith - inner, 90.0);
+    const auto count = static_cast<double>(ring->second.size());
+    const bool is_ring = zenith == 0 ? count == 1 : count >= 6 && equally_spaced(ring->second);
+    if (!is_ring || zenith < 0 || outer > 90) return {};
+    for (const auto& [azimuth, sample] : ring->second)
+      patches.push_back({sample, inner, outer, azimuth, 360 / count});
+    inner = outer;
+  }
+  return patches;
+}
+
+double residual_limit_percent(const Suns& suns) {
+  std::vector<double> sizes;
+  for (const auto& sun : suns.shown)
+    for (const auto& sky : sun.hemisphere)
+      for (const auto& sample : sky)
+        if (sample.weight > 0) sizes.push_back(100 * std::abs(sample.residual));
+  if (sizes.empty()) return 1;
+  const auto rank = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(sizes.size() - 1));
+  std::ranges::nth_element(sizes, sizes.begin() + rank);
+  return round_up(std::max(sizes[static_cast<std::size_t>(rank)], 0.01));
+}
+
+void draw_hemisphere_maps(Script& script, const Comparison& comparison, const Suns& suns,
+                          const Box& area, double scale_strip_px) {
+  const std::size_t curves = comparison.curves.size(), count = suns.shown.size();
+  const double limit = residual_limit_percent(suns);
+  const Grid blocks{1, curves, area};
+  for (std::size_t curve = 0; curve < curves; ++curve) {
+    Box block = blocks.cell(curve);
+    if (curves > 1) {
+      block.height -= kTitleStrip;
+      script.begin_axes(block);
+      script.text_label(block.left, block.top() + kTitleStrip / 2, comparison.curves[curve].label,
+                        fmt::format("left font ',12' textcolor rgb '{}'", kCurveColors[curve]));
+      script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
+    }
+    const std::size_t columns = curves == 1 ? panel_columns(count) : best_columns(count, block);
+    const Grid grid{columns, (count + columns - 1) / columns, block};
+    for (std::size_t i = 0; i < count; ++i)
+      draw_map(script, suns.shown[i], curve, grid.cell(i), limit, curve == 0 && i == 0);
+  }
+  const double width = std::min(area.width * 0.8, 520.0);
+  draw_scale(script,
+             {area.left + (area.width - width) / 2, area.bottom - scale_strip_px + 52, width, 14},
+             limit);
+}
+
+}  // namespace skyfit::plot

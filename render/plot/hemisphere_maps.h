@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of the residual over the hemisphere, seen from below the sky: distance from the centre is
+// the view zenith, the sun's azimuth points right, so that the horizontal diameter is the axis of
+// the principal plane's panels.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/plot/script.h"
+#include "render/plot/suns.h"
+
+namespace skyfit::plot {
+
+// The part of the sky that a sample stands for, in polar coordinates of the map, degrees.
+struct Patch {
+  const ComparedSample* sample = nullptr;
+  double inner_zenith_deg = 0, outer_zenith_deg = 0;
+  double azimuth_deg = 0, width_deg = 0;
+};
+
+// Cuts the hemisphere into one patch per sample when the samples form rings of equally spaced
+// azimuths (as Tregenza's 145 do): borders lie midway between the rings. Empty when they do not;
+// such samples are drawn as points.
+std::vector<Patch> patches_of(const std::vector<ComparedSample>& samples);
+
+// Half the width of the colour scale, percent: 98 % of the counted residuals lie within.
+double residual_limit_percent(const Suns& suns);
+
+// One map per sun position and curve, one block of the area per curve, and the colour scale below
+// them.
+void draw_hemisphere_maps(Script& script, const Comparison& comparison, const Suns& suns,
+                          const Box& area, double scale_strip_px);
+
+}  // namespace skyfit::plot

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/plot/plane_panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/plot/legend.h"
+
+namespace skyfit::plot {
+namespace {
+
+constexpr double kTitleStrip = 26;  // above a panel: sun zenith and RMS
+constexpr double kGap = 14;         // right of a panel
+
+struct Range {
+  double lower = std::numeric_limits<double>::infinity(), upper = 0;
+  void include(double value) {
+    if (!(value > 0)) return;
+    lower = std::min(lower, value);
+    upper = std::max(upper, value);
+  }
+};
+
+// One range for all panels, so that heights compare; 8 % of air below, and above it room for the
+// sun.
+Range luminance_range(const Suns& suns) {
+  Range range;
+  for (const auto& sun : suns.shown)
+    for (const auto& curve : sun.plane)
+      for (const auto& sample : curve) {
+        range.include(sample.reference);
+        range.include(sample.model);
+        if (suns.shown.front().plane.size() == 1) range.include(sample.start_model);
+      }
+  if (range.upper == 0) return {0.1, 10};
+  const double air = std::pow(std::max(range.upper / range.lower, 1.5), 0.08);
+  return {range.lower / air, range.upper * air * air};
+}
+
+// Rows `signed_zenith value` of the chosen column, as a named block. A blank row breaks the line at
+// the cone around the sun, where neither the reference nor a chord between its sides means
+// anything.
+void write_line(Script& script, const std::string& name, const std::vector<ComparedSample>& samples,
+                double ComparedSample::*column, double sun_zenith_deg, double cone_deg) {
+  script.line("${} << EOD", name);
+  bool before_sun = true;
+  for (const auto& sample : samples) {
+    const double zenith = signed_view_zenith_deg(sample);
+    if (std::abs(zenith - sun_zenith_deg) < cone_deg) continue;
+    if (before_sun && zenith >= sun_zenith_deg && cone_deg > 0) script.line("");
+    before_sun = zenith < sun_zenith_deg;
+    script.line("{:.9g} {:.9g}", zenith, sample.*column);
+  }
+  script.line("NaN NaN\nEOD");
+}
+
+void write_points(Script& script, const std::string& name,
+                  const std::vector<ComparedSample>& samples, bool counted) {
+  script.line("${} << EOD", name);
+  for (const auto& sample : samples)
+    if ((sample.weight > 0) == counted)
+      script.line("{:.9g} {:.9g}", signed_view_zenith_deg(sample), sample.reference);
+  script.line("NaN NaN\nEOD");
+}
+
+bool one_reference(const Suns& suns) {
+  const auto same = [](const ComparedSample& a, const ComparedSample& b) {
+    return a.view_zenith_deg == b.view_zenith_deg && a.reference == b.reference;
+  };
+  for (const auto& sun : suns.shown)
+    for (const auto& curve : sun.plane)
+      if (!std::ranges::equal(sun.plane[0], curve, same)) return false;
+  return true;
+}
+
+// Whether any sample in the panels of the first `curves` curves fulfils the condition.
+template <class Condition>
+bool any_sample(const Suns& suns, std::size_t curves, Condition condition) {
+  for (const auto& sun : suns.shown)
+    for (std::size_t i = 0; i < curves; ++i)
+      if (std::ranges::any_of(sun.plane[i], condition)) return true;
+  return false;
+}
+
+class Panels {
+ public:
+  Panels(Script& script, const Comparison& comparison, const Suns& suns, const Grid& grid)
+      : script_(script),
+        comparison_(comparison),
+        suns_(suns),
+        grid_(grid),
+        range_(luminance_range(suns)) {}
+
+  void draw(std::size_t index) {
+    const Box cell = grid_.cell(index);
+    const Box box{cell.left, cell.bottom, cell.width - kGap, cell.height - kTitleStrip};
+    script_.begin_axes(box);
+    draw_axes(index);
+    draw_sun(suns_.shown[index]);
+    draw_titles(suns_.shown[index], box);
+    draw_curves(suns_.shown[index], "s" + std::to_string(index));
+  }
+
+ private:
+  void draw_axes(std::size_t index) {
+    const bool leftmost = index % grid_.columns == 0;
+    const bool lowest = index + grid_.columns >= suns_.shown.size();
+    script_.line("set border 15 lc rgb '{}' lw 0.8", kFrameColor);
+    script_.line("set xrange [-90:90]; set logscale y; set yrange [{:.9g}:{:.9g}]", range_.lower,
+                 range_.upper);
+    script_.line("set grid xtics ytics lt 1 lw 0.6 lc rgb '{}' back", kGridColor);
+    script_.line(
+        "set xtics -60,30,60 scale 0.5 nomirror format '{}' textcolor rgb '#202020' offset 0,0.3",
+        lowest ? "%g°" : "");
+    std::string ticks;
+    for (const auto& tick : log_ticks(range_.lower, range_.upper))
+      ticks += fmt::format("{}'{}' {:.9g} {}", ticks.empty() ? "" : ", ",
+                           leftmost ? tick.label : "", tick.position, tick.label.empty() ? 1 : 0);
+    script_.line("set ytics scale 0.5,0.3 nomirror textcolor rgb '#202020' ({})", ticks);
+  }
+
+  void draw_sun(const SunSamples& sun) {
+    const double zenith = sun.sun_zenith_deg, cone = comparison_.exclude_sun_deg;
+    if (cone > 0)
+      script_.line(
+          "set object rectangle from {:.9g}, graph 0 to {:.9g}, graph 1 behind fs solid noborder "
+          "fc rgb '{}'",
+          std::max(zenith - cone, -90.0), std::min(zenith + cone, 90.0), kSunShade);
+    script_.line(
+        "set arrow from {:.9g}, graph 0 to {:.9g}, graph 0.9 nohead back lw 1 dt 3 lc rgb '{}'",
+        zenith, zenith, kSunColor);
+    script_.line("set label '☉' at {:.9g}, graph 0.945 center front font ',14' textcolor rgb '{}'",
+                 zenith, kSunColor);
+  }
+
+  void draw_titles(const SunSamples& sun, const Box& box) {
+    const double y = box.top() + kTitleStrip / 2 - 1;
+    const bool several = sun.plane.size() > 1;
+    script_.text_label(box.left, y,
+                       fmt::format("{} {:.4g}°", several ? "☉" : "sun zenith", sun.sun_zenith_deg),
+                       "left font ',12'");
+    script_.text_label(box.right(), y, "%", "right font ',12'");
+    double right = box.right() - 20;
+    for (std::size_t i = sun.plane.size(); i-- > 0;) {
+      const double rms = rms_log_percent(sun.plane[i]);
+      script_.text_label(right, y, std::isnan(rms) ? "–" : fmt::format("{:.1f}", rms),
+                         fmt::format("right font ',12' textcolor rgb '{}'",
+                                     several ? kCurveColors[i] : "#000000"));
+      right -= 38;
+    }
+    script_.text_label(right + 4, y, "RMS", "right font ',12'");
+  }
+
+  void draw_curves(const SunSamples& sun, const std::string& name) {
+    const double zenith = sun.sun_zenith_deg, cone = comparison_.exclude_sun_deg;
+    std::string plots;
+    const auto add = [&](const std::string& block, std::string_view with, Mark mark,
+                         std::string_view color) {
+      plots +=
+          fmt::format("{}${} using 1:2 with {} {} notitle", plots.empty() ? "plot " : ", \\\n  ",
+                      block, with, mark_style(mark, color));
+    };
+    if (sun.plane.size() == 1) {
+      write_line(script_, name + "start", sun.plane[0], &ComparedSample::start_model, zenith, cone);
+      add(name + "start", "lines", Mark::kDashedLine, kStartColor);
+    }
+    for (std::size_t i = 0; i < sun.plane.size(); ++i) {
+      const std::string curve = fmt::format("{}c{}", name, i);
+      write_line(script_, curve, sun.plane[i], &ComparedSample::model, zenith, cone);
+      add(curve, "linespoints", Mark::kSolidLine, kCurveColors[i]);
+    }
+    const bool one = one_reference(suns_);
+    for (std::size_t i = 0; i < (one ? 1 : sun.plane.size()); ++i) {
+      const std::string points = fmt::format("{}r{}", name, i);
+      write_points(script_, points, sun.plane[i], true);
+      write_points(script_, points + "x", sun.plane[i], false);
+      add(points, "points", Mark::kPoint, one ? kReferenceColor : kCurveColors[i]);
+      add(points + "x", "points", Mark::kHollowPoint, kLeftOutColor);
+    }
+    script_.line("{}", plots);
+  }
+
+  Script& script_;
+  const Comparison& comparison_;
+  const Suns& suns_;
+  const Grid& grid_;
+  Range range_;
+};
+
+}  // namespace
+
+std::vector<LegendEntry> plane_legend(const Comparison& comparison, const Suns& suns) {
+  const std::size_t count = comparison.curves.size();
+  std::vector<LegendEntry> legend;
+  const bool one = one_reference(suns);
+  if (one) legend.push_back({Mark::kPoint, kReferenceColor, comparison.reference_label});
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string& label = comparison.curves[i].label;
+    if (!one) legend.push_back({Mark::kPoint, kCurveColors[i], "reference of " + label});
+    legend.push_back({Mark::kSolidLine, kCurveColors[i], label});
+  }
+  const auto has_start = [](const ComparedSample& s) { return !std::isnan(s.start_model); };
+  if (count == 1 && any_sample(suns, 1, has_start))
+    legend.push_back({Mark::kDashedLine, kStartColor, "start values"});
+  if (any_sample(suns, one ? 1 : count, [](const ComparedSample& s) { return s.weight == 0; }))
+    legend.push_back({Mark::kHollowPoint, kLeftOutColor, "left out of the fit"});
+  return legend;
+}
+
+void draw_plane_panels(Script& script, const Comparison& comparison, const Suns& suns,
+                       const Grid& grid) {
+  Panels panels(script, comparison, suns, grid);
+  for (std::size_t i = 0; i < suns.shown.size(); ++i) panels.draw(i);
+}
+
+}  // namespace skyfit::plot
