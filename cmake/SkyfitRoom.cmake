@@ -16,6 +16,7 @@ function(skyfit_room name)
   set_target_properties(skyfit_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(skyfit_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/skyfit>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(skyfit_${name} PUBLIC cxx_std_20)

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the options of the command line mean. Every function throws UsageError with one line that
+// names the option, the text and what was expected, such as `--size "0x10": expected WIDTHxHEIGHT,
+// each from 1 to 16384`.
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/parameters.h"
+
+namespace skyfit::cli {
+
+class UsageError : public std::invalid_argument {
+ public:
+  UsageError(std::string_view option, std::string_view text, std::string_view expected);
+};
+
+inline constexpr std::size_t kMaxListValues = 1'000'000;
+
+// A finite decimal number and nothing else.
+double parse_number(std::string_view option, std::string_view text);
+
+// `a,b,c` or `start:stop:step`; stop is part of the list when it lies on the grid (within a
+// millionth of a step), and is then exact. Order and repetition are kept.
+std::vector<double> parse_list(std::string_view option, std::string_view text);
+
+// A list whose values lie in lower..upper, both included.
+std::vector<double> parse_list_within(std::string_view option, std::string_view text, double lower,
+                                      double upper, std::string_view meaning);
+
+struct ImageSize {
+  int width = 0, height = 0;
+};
+inline constexpr int kMaxImageSide = 16384;       // what a texture of the renderer can hold
+inline constexpr long kMaxImagePixels = 1 << 26;  // 64 Mpixel, 4 GB of render targets
+ImageSize parse_image_size(std::string_view option, std::string_view text);
+
+// `name,name`
+std::vector<Parameter> parse_parameters(std::string_view option, std::string_view text);
+// `name=value`, each text one or several separated by commas.
+std::map<Parameter, double> parse_fixed(std::string_view option,
+                                        const std::vector<std::string>& texts);
+// `name=mean:sigma`, each text one or several separated by commas.
+std::map<Parameter, Prior> parse_priors(std::string_view option,
+                                        const std::vector<std::string>& texts);
+
+double radians(double degrees);
+double degrees(double radians);
+
+}  // namespace skyfit::cli

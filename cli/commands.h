@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands. Each function adds one subcommand whose callback does the work and throws
+// std::exception on failure.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace skyfit::cli {
+
+void add_fit_command(CLI::App& app);
+void add_sky_command(CLI::App& app);
+void add_plot_command(CLI::App& app);
+void add_render_command(CLI::App& app);
+void add_presets_command(CLI::App& app);
+void add_references_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+
+}  // namespace skyfit::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/inputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "cli/arguments.h"
+
+namespace skyfit::cli {
+
+Preset preset_named(const std::string& name_or_file) {
+  const std::vector<std::string> shipped = refs::shipped_preset_names();
+  if (std::ranges::count(shipped, name_or_file) > 0) {
+    return parse_preset(refs::shipped_preset_json(name_or_file), name_or_file);
+  }
+  if (!std::filesystem::exists(name_or_file)) {
+    throw std::invalid_argument(
+        fmt::format("preset \"{}\": no such file, and none of the shipped presets {}", name_or_file,
+                    fmt::join(shipped, ", ")));
+  }
+  return load_preset(name_or_file);
+}
+
+void add_sampling_options(CLI::App& command, std::string& sampling, std::string& sun_zenith) {
+  command
+      .add_option("--sampling", sampling,
+                  "Where an analytic reference is read: principal or tregenza")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      .add_option("--sun-zenith-deg", sun_zenith,
+                  "The sun zenith angles of an analytic reference, below 90")
+      ->type_name("LIST")
+      ->capture_default_str();
+}
+
+std::vector<double> parse_sun_zeniths(const std::string& text) {
+  std::vector<double> angles = parse_list("--sun-zenith-deg", text);
+  for (double& angle : angles) {
+    if (!(angle >= 0 && angle < 90)) {
+      throw UsageError(
+          "--sun-zenith-deg", text,
+          fmt::format("{:.9g}: expected the sun above the horizon, 0 <= angle < 90", angle));
+    }
+    angle = radians(angle);
+  }
+  return angles;
+}
+
+refs::Sampling parse_sampling(const std::string& text) {
+  if (text == "principal") return refs::Sampling::kPrincipalPlane;
+  if (text == "tregenza") return refs::Sampling::kTregenza;
+  throw UsageError("--sampling", text, "expected principal or tregenza");
+}
+
+bool is_shipped_reference(const std::string& name) {
+  return std::ranges::count(refs::shipped_references(), name, &refs::ReferenceEntry::name) > 0;
+}
+
+int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+}  // namespace skyfit::cli

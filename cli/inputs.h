@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What several commands read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "data_refs/references.h"
+#include "model/preset.h"
+
+namespace skyfit::cli {
+
+// A shipped preset's name or the path of a preset file; a shipped name wins over a file of that
+// name (write ./name for the file). Throws std::invalid_argument or std::runtime_error with one
+// line, which lists the names for neither.
+Preset preset_named(const std::string& name_or_file);
+
+// The options of the commands that read an analytic reference; their values are parsed by the two
+// functions below.
+void add_sampling_options(CLI::App& command, std::string& sampling, std::string& sun_zenith);
+
+// Radians; the sun of a daytime reference stands above the horizon: 0 <= angle < 90 degrees. Throws
+// UsageError.
+std::vector<double> parse_sun_zeniths(const std::string& text);
+
+// "principal" or "tregenza"; throws UsageError.
+refs::Sampling parse_sampling(const std::string& text);
+
+bool is_shipped_reference(const std::string& name);
+
+// Threads to use when the user names no number: those of the machine.
+int default_threads();
+
+}  // namespace skyfit::cli

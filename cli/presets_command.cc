@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit presets`: lists the shipped presets or prints one.
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+#include "data_refs/references.h"
+
+namespace skyfit::cli {
+
+void add_presets_command(CLI::App& app) {
+  struct Options {
+    std::string name;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command =
+      app.add_subcommand("presets", "Lists the shipped presets, or prints one as JSON.");
+  command->add_option("name", options->name, "The preset to print")->type_name("NAME");
+  command->add_flag("--json", options->json, "Print the list as JSON");
+  command->footer("Example: skyfit presets earth-clear > my-sky.json");
+  command->callback([options] {
+    const std::vector<std::string> names = refs::shipped_preset_names();
+    if (!options->name.empty()) {
+      print(refs::shipped_preset_json(options->name));
+    } else if (options->json) {
+      print(nlohmann::json(names).dump(2) + "\n");
+    } else {
+      for (const std::string& name : names) print(name + "\n");
+    }
+  });
+}
+
+}  // namespace skyfit::cli
