@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Ceres problem: one parameter block with all free parameters (scaled to 0..1, bounded), one
+// residual block for the samples and one for the priors.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fit/free_parameters.h"
+#include "fit/observations.h"
+
+namespace skyfit::fit {
+
+struct Problem {
+  const SkyModel* model;
+  const LuminanceRule* rule;
+  const Observations* observations;
+  const std::vector<FreeParameter>* parameters;
+  double sigma_log = 1;  // the residuals are divided by it; 1 when the observations have sigma
+};
+
+struct SolverLimits {
+  int max_iterations = 100;
+  double function_tolerance = 1e-8;
+};
+
+struct Solution {
+  Atmosphere<double> atmosphere;
+  double cost = 0;  // half the sum of squares, priors included
+  int iterations = 0, evaluations = 0, derivative_evaluations = 0;
+  bool converged = false;
+  std::string termination;
+};
+
+// Minimises from `start`, which must be within the bounds. Exceptions of the model pass through;
+// throws std::runtime_error when Ceres fails.
+Solution minimise(const Problem& problem, const Atmosphere<double>& start,
+                  const SolverLimits& limits);
+
+}  // namespace skyfit::fit
