@@ -47,6 +47,8 @@ std::vector<SunPanel> sun_panels(const Comparison& comparison);
 // zenith there: positive toward the sun, negative away from it.
 bool in_principal_plane(const ComparedSample& sample);
 double signed_view_zenith_deg(const ComparedSample& sample);
+std::vector<ComparedSample> plane_samples(
+    const Curve& curve);  // those of `plane` that lie in the plane
 
 // Throws std::invalid_argument with one line for a figure that cannot be drawn: no curves or too
 // many, no samples, a value that is not positive.

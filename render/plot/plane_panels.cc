@@ -99,7 +99,7 @@ class Panels {
     draw_axes(index);
     draw_sun(suns_.shown[index]);
     draw_titles(suns_.shown[index], box);
-    draw_curves(suns_.shown[index], "s" + std::to_string(index));
+    draw_curves(suns_.shown[index], fmt::format("s{}", index));
   }
 
  private:

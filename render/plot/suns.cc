@@ -73,6 +73,12 @@ double signed_view_zenith_deg(const ComparedSample& sample) {
   return azimuth_from_sun_deg(sample) > 90 ? -sample.view_zenith_deg : sample.view_zenith_deg;
 }
 
+std::vector<ComparedSample> plane_samples(const Curve& curve) {
+  std::vector<ComparedSample> chosen;
+  std::ranges::copy_if(curve.plane, std::back_inserter(chosen), in_principal_plane);
+  return chosen;
+}
+
 void validate(const Comparison& comparison) {
   if (comparison.curves.empty() || comparison.curves.size() > kMaxCurves)
     throw std::invalid_argument(

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/plot/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+namespace skyfit::plot {
+namespace {
+
+// Sheds the noise of the way through radians: 5 degrees read 5 again, not 5.000000000000001.
+double degrees(double radians) {
+  constexpr double kDigits = 1e10;
+  return std::round(radians * 180 / std::numbers::pi * kDigits) / kDigits;
+}
+
+double counted_weight(const refs::Sample& sample, double exclude_sun) {
+  constexpr double kRounding = 1e-9;  // radians: a sample on the rim of the cone counts
+  return refs::scattering_angle(sample) < exclude_sun - kRounding ? 0.0 : sample.weight;
+}
+
+void expect_one_per_sample(const ScaledModel& model, std::size_t samples, const char* name) {
+  if (model.luminance.size() != samples || model.scale.size() != samples)
+    throw std::invalid_argument(
+        fmt::format("{}: {} luminances and {} scales: expected {}, one per sample", name,
+                    model.luminance.size(), model.scale.size(), samples));
+}
+
+std::vector<double> luminances(const refs::Reference& reference,
+                               const Atmosphere<double>& atmosphere, const SpectralData& spectra,
+                               const SkyModel& model) {
+  const LuminanceRule rule = luminance_rule(spectra);
+  std::vector<SkyPoint> points;
+  for (const auto& sample : reference.samples)
+    points.push_back({0, sample.sun_zenith, sample.view_zenith, sample.relative_azimuth});
+  const SkyValues values = model.radiance(atmosphere, rule.nodes, points, {});
+  std::vector<double> luminance(points.size(), 0);
+  for (int point = 0; point < values.points; ++point)
+    for (int node = 0; node < values.wavelengths; ++node)
+      luminance[point] += rule.weight[node] * values.at(point, node);
+  return luminance;
+}
+
+// exp of the weighted mean of ln(reference / model) over the sample's scan.
+std::vector<double> scales(const refs::Reference& reference, const std::vector<double>& luminance,
+                           double exclude_sun) {
+  struct Mean {
+    double sum = 0, weight = 0;
+  };
+  std::map<int, Mean> scans;
+  for (std::size_t i = 0; i < luminance.size(); ++i) {
+    const auto& sample = reference.samples[i];
+    const double weight = counted_weight(sample, exclude_sun);
+    scans[sample.scan].sum += weight == 0 ? 0 : weight * std::log(sample.value / luminance[i]);
+    scans[sample.scan].weight += weight;
+  }
+  std::vector<double> scale;
+  for (const auto& sample : reference.samples)
+    scale.push_back(std::exp(scans[sample.scan].sum / scans[sample.scan].weight));
+  return scale;
+}
+
+}  // namespace
+
+std::vector<ComparedSample> compared_samples(const refs::Reference& reference,
+                                             const ScaledModel& fitted, const ScaledModel& start,
+                                             double exclude_sun) {
+  const std::size_t count = reference.samples.size();
+  const bool with_start = !start.luminance.empty();
+  expect_one_per_sample(fitted, count, "fitted model");
+  if (with_start) expect_one_per_sample(start, count, "start model");
+  std::vector<ComparedSample> compared;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& sample = reference.samples[i];
+    if (std::isnan(fitted.scale[i]) || !(sample.value > 0)) continue;
+    ComparedSample row{degrees(sample.sun_zenith), degrees(sample.view_zenith),
+                       degrees(sample.relative_azimuth), sample.value,
+                       fitted.scale[i] * fitted.luminance[i]};
+    row.residual = std::log(row.model / row.reference);
+    row.weight = counted_weight(sample, exclude_sun);
+    if (with_start) row.start_model = start.scale[i] * start.luminance[i];
+    compared.push_back(row);
+  }
+  return compared;
+}
+
+std::vector<ComparedSample> evaluated_samples(const refs::Reference& reference,
+                                              const Atmosphere<double>& atmosphere,
+                                              const SpectralData& spectra, const SkyModel& model,
+                                              double exclude_sun) {
+  const auto luminance = luminances(reference, atmosphere, spectra, model);
+  const auto scale = scales(reference, luminance, exclude_sun);
+  return compared_samples(reference, {luminance, scale}, {}, exclude_sun);
+}
+
+}  // namespace skyfit::plot

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/plot/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+
+#include "data_refs/references.h"
+#include "render/plot/evaluate.h"
+
+namespace skyfit::plot {
+namespace {
+
+using nlohmann::json;
+
+// What the preset's `fit` member says about the fit.
+struct FitRecord {
+  std::string reference, description, model;
+  refs::Quantity quantity;
+  double exclude_sun_deg;
+};
+
+template <class T>
+T field(const FitOutcome& fit, const char* pointer, const char* expected) {
+  const json::json_pointer place(pointer);
+  const json& record = fit.preset.fit;
+  try {
+    if (record.contains(place)) return record.at(place).get<T>();
+  } catch (const json::exception&) {
+    throw std::invalid_argument(fmt::format("{}: fit{} = {}: expected {}", fit.folder, pointer,
+                                            record.at(place).dump(), expected));
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: fit{}: missing, expected {}", fit.folder, pointer, expected));
+}
+
+FitRecord record_of(const FitOutcome& fit) {
+  const auto quantity =
+      field<std::string>(fit, "/reference/quantity", "luminance_cd_m2 or relative_luminance");
+  if (quantity != "luminance_cd_m2" && quantity != "relative_luminance")
+    throw std::invalid_argument(fmt::format(
+        "{}: fit/reference/quantity = \"{}\": expected luminance_cd_m2 or relative_luminance",
+        fit.folder, quantity));
+  return {field<std::string>(fit, "/reference/name", "the reference's name"),
+          field<std::string>(fit, "/reference/description", "one line of text"),
+          field<std::string>(fit, "/model", "the name of a sky model"),
+          quantity == "luminance_cd_m2" ? refs::Quantity::kLuminance
+                                        : refs::Quantity::kRelativeLuminance,
+          field<double>(fit, "/reference/exclude_sun_deg", "a number")};
+}
+
+bool is_analytic(const std::string& reference) {
+  return std::ranges::any_of(refs::shipped_references(), [&](const refs::ReferenceEntry& entry) {
+    return entry.name == reference;
+  });
+}
+
+std::vector<ComparedSample> hemisphere_samples(const FitOutcome& fit, const FitRecord& record,
+                                               const SpectralData& spectra, const SkyModel& model) {
+  if (!is_analytic(record.reference)) return fit.samples;
+  constexpr double kRadian = std::numbers::pi / 180;
+  std::set<double> suns;
+  for (const auto& sample : fit.samples) suns.insert(sample.sun_zenith_deg * kRadian);
+  const auto reference =
+      refs::load_reference(record.reference, {suns.begin(), suns.end()}, refs::Sampling::kTregenza);
+  return evaluated_samples(reference, fit.preset.atmosphere, spectra, model,
+                           record.exclude_sun_deg * kRadian);
+}
+
+std::string label_of(std::span<const FitOutcome> fits, std::size_t index) {
+  const Preset& preset = fits[index].preset;
+  if (fits.size() == 1)
+    return preset.atmosphere.mie.phase.type == PhaseType::kTwoLobe ? "fitted, two lobes"
+                                                                   : "fitted, one lobe";
+  const auto same_name = [&](const FitOutcome& other) { return other.preset.name == preset.name; };
+  if (std::ranges::count_if(fits, same_name) == 1) return preset.name;
+  return fmt::format("{} ({})", preset.name, fits[index].folder);
+}
+
+std::string subtitle_of(const Comparison& comparison, const FitRecord& record) {
+  if (comparison.curves.size() > 1) return "luminance scale free per sun position";
+  const Curve& curve = comparison.curves.front();
+  return fmt::format(
+      "fitted with the model \"{}\": RMS log error {:.2f} % in the panels, {:.2f} % over the whole "
+      "sky; luminance scale "
+      "free per sun position",
+      record.model, rms_log_percent(plane_samples(curve)), rms_log_percent(curve.hemisphere));
+}
+
+}  // namespace
+
+FitOutcome read_fit_outcome(const std::filesystem::path& directory) {
+  return {directory.string(), load_preset(directory / "preset.json"),
+          read_samples_csv(directory / "samples.csv")};
+}
+
+Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,
+                         const SkyModel& model) {
+  if (fits.empty() || fits.size() > kMaxCurves)
+    throw std::invalid_argument(
+        fmt::format("figure: {} fits: expected 1 to {}", fits.size(), kMaxCurves));
+  const FitRecord first = record_of(fits[0]);
+  Comparison comparison;
+  comparison.reference_label = "reference " + first.reference;
+  comparison.quantity = first.quantity;
+  comparison.exclude_sun_deg = first.exclude_sun_deg;
+  bool one_reference = true;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const FitRecord record = record_of(fits[i]);
+    if (record.quantity != first.quantity)
+      throw std::invalid_argument(fmt::format("{}: its reference has another unit than that of {}",
+                                              fits[i].folder, fits[0].folder));
+    one_reference &= record.reference == first.reference;
+    comparison.exclude_sun_deg = std::max(comparison.exclude_sun_deg, record.exclude_sun_deg);
+    comparison.curves.push_back(
+        {label_of(fits, i), fits[i].samples, hemisphere_samples(fits[i], record, spectra, model)});
+  }
+  comparison.title = one_reference ? first.description : "Fits compared";
+  comparison.subtitle = subtitle_of(comparison, first);
+  return comparison;
+}
+
+}  // namespace skyfit::plot

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The comparison figure of one or several fits, from what a fit leaves: preset.json and
+// samples.csv.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/photometry.h"
+#include "model/preset.h"
+#include "model/sky_model.h"
+#include "render/plot/comparison.h"
+
+namespace skyfit::plot {
+
+struct FitOutcome {
+  std::string folder;  // name that messages and, among presets of one name, the legend show
+  Preset preset;       // with the `fit` member that the fit wrote
+  std::vector<ComparedSample> samples;
+};
+
+// Reads preset.json and samples.csv of a result directory. Throws std::runtime_error or
+// std::invalid_argument with one line that names the file, and the line or the field.
+FitOutcome read_fit_outcome(const std::filesystem::path& directory);
+
+// One curve per fit. The panels show the fits' own samples. The maps show the 145 Tregenza patches,
+// on which an analytic reference and the preset are evaluated with `model`; for a measured
+// reference they show the samples. Throws std::invalid_argument with one line when the fits cannot
+// share a figure: different units, none, more than kMaxCurves.
+Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,
+                         const SkyModel& model);
+
+}  // namespace skyfit::plot
