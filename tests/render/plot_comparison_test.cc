@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// The comparison figure is written whole in every format or not at all, and its panels state the
+// RMS of their samples.
+#include <gmock/gmock.h>
+
+#include "plot_samples.h"
+#include "render/plot/comparison.h"
+#include "render/plot/figure_style.h"
+#include "render/plot/gnuplot.h"
+#include "render/plot/hemisphere_maps.h"
+
+namespace skyfit::plot {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+using ::testing::StrEq;
+using ::testing::ThrowsMessage;
+using ::testing::UnorderedElementsAre;
+
+const std::vector<double> kNineSuns = {0, 10, 20, 30, 40, 50, 60, 70, 80};
+
+// Runs the figure with a gnuplot of the test's choice.
+class OtherGnuplot {
+ public:
+  explicit OtherGnuplot(const std::string& program) {
+    setenv("SKYFIT_GNUPLOT", program.c_str(), 1);
+  }
+  ~OtherGnuplot() { unsetenv("SKYFIT_GNUPLOT"); }
+};
+
+unsigned big_endian(const std::string& bytes, std::size_t at) {
+  unsigned value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+TEST_F(PlotTest, EveryFormatIsWritten) {
+  write_comparison(comparison_at(kNineSuns),
+                   {folder_ / "c.svg", folder_ / "c.png", folder_ / "c.pdf"});
+  EXPECT_THAT(names(), UnorderedElementsAre("c.svg", "c.png", "c.pdf"));
+  const std::string png = bytes_of(folder_ / "c.png"), svg = bytes_of(folder_ / "c.svg");
+  ASSERT_THAT(png, StartsWith("\x89PNG\r\n\x1a\n"));
+  EXPECT_EQ(png.substr(12, 4), "IHDR");
+  EXPECT_EQ(big_endian(png, 16), 1600u);
+  EXPECT_GT(big_endian(png, 20), 900u);
+  EXPECT_GT(png.size(), 100000u);
+  EXPECT_THAT(svg, StartsWith("<?xml"));
+  EXPECT_THAT(svg, ::testing::EndsWith("</svg>\n\n"));
+  EXPECT_THAT(bytes_of(folder_ / "c.pdf"), StartsWith("%PDF-"));
+}
+
+TEST_F(PlotTest, TextOfTheFigureIsComplete) {
+  write_comparison(comparison_at(kNineSuns), {folder_ / "c.svg"});
+  const std::string svg = bytes_of(folder_ / "c.svg");
+  EXPECT_THAT(svg, HasSubstr("with 'quotes', {braces}, $dollars and a \\ backslash"));
+  for (const char* text : {"sun zenith 0°", "sun zenith 80°", "view zenith", "relative luminance",
+                           "fitted", "reference", "residual", "4.0"})
+    EXPECT_THAT(svg, HasSubstr(text));
+  EXPECT_THAT(svg, ::testing::Not(HasSubstr("start values"))) << "there are none";
+}
+
+TEST_F(PlotTest, AnyNumberOfSunsAndCurvesIsDrawn) {
+  for (const std::vector<double>& suns : {std::vector<double>{40}, {20, 60}, {0, 15, 30, 45, 60}}) {
+    Comparison comparison = comparison_at(suns);
+    comparison.curves.push_back(curve_at(suns, 0.1));
+    write_comparison(comparison, {folder_ / "c.png"});
+    EXPECT_GT(std::filesystem::file_size(folder_ / "c.png"), 20000u);
+  }
+}
+
+TEST_F(PlotTest, ManySunsAreThinnedAndItIsSaid) {
+  std::vector<double> suns;
+  for (int i = 0; i < 40; ++i) suns.push_back(2.0 * i);
+  const Comparison comparison = comparison_at(suns);
+  EXPECT_EQ(sun_panels(comparison).size(), kMaxPanels);
+  EXPECT_EQ(sun_panels(comparison).back().sun_zenith_deg, 78);
+  write_comparison(comparison, {folder_ / "c.svg"});
+  EXPECT_THAT(bytes_of(folder_ / "c.svg"), HasSubstr("16 of 40 sun positions shown"));
+}
+
+// By hand: plane sqrt((2^2 + 4^2) / 2) % = sqrt(10) %, sky sqrt((2^2 + 4^2 + 6^2) / 3) %; a sample
+// off the plane is not in the panel, one without weight in neither.
+TEST(SunPanels, StateTheRmsOfTheirSamples) {
+  Comparison comparison;
+  Curve curve{"c", {}, {}};
+  curve.plane = {sample_at(30, 10, 0, 0.02), sample_at(30, 10, 180, -0.04),
+                 sample_at(30, 10, 90, 0.06), sample_at(30, 30, 0, 5),
+                 sample_at(50, 20, 360, 0.01)};
+  curve.plane[3].weight = 0;
+  curve.hemisphere = curve.plane;
+  comparison.curves = {curve};
+  const auto panels = sun_panels(comparison);
+  ASSERT_EQ(panels.size(), 2u);
+  EXPECT_NEAR(panels[0].rms_plane_percent[0], std::sqrt(10.0), 1e-12);
+  EXPECT_NEAR(panels[0].rms_hemisphere_percent[0], std::sqrt(56.0 / 3), 1e-12);
+  EXPECT_NEAR(panels[1].rms_plane_percent[0], 1.0, 1e-12);
+}
+
+// The patches of Tregenza's rows cover the hemisphere once: areas on the map add up to the disc's.
+TEST(HemispherePatches, CoverTheHemisphereOnce) {
+  const auto sky = curve_at({40}, 0.1).hemisphere;
+  const auto patches = patches_of(sky);
+  ASSERT_EQ(patches.size(), 145u);
+  double area = 0;
+  for (const Patch& patch : patches) {
+    area += patch.width_deg / 360 *
+            (std::pow(patch.outer_zenith_deg, 2) - std::pow(patch.inner_zenith_deg, 2));
+    EXPECT_LE(patch.inner_zenith_deg, patch.sample->view_zenith_deg);
+    EXPECT_GE(patch.outer_zenith_deg, patch.sample->view_zenith_deg);
+  }
+  EXPECT_NEAR(area, 90.0 * 90.0, 1e-9);
+}
+
+TEST(HemispherePatches, ScatteredSamplesHaveNone) {
+  EXPECT_THAT(
+      patches_of({sample_at(0, 10, 3, 0), sample_at(0, 50, 77, 0), sample_at(0, 61, 200, 0)}),
+      IsEmpty());
+}
+
+TEST(Style, DivergingColorIsNeutralAtZeroAndClamped) {
+  EXPECT_EQ(diverging_color(0, 5), "#f7f7f7");
+  EXPECT_EQ(diverging_color(5, 5), "#b2182b");
+  EXPECT_EQ(diverging_color(-99, 5), "#2166ac");
+}
+
+TEST(Style, LogTicksLieInsideAndEndsAreBare) {
+  for (const Tick& tick : log_ticks(0.1, 100)) {
+    EXPECT_GE(tick.position, 0.1 * (1 - 1e-12));
+    EXPECT_LE(tick.position, 100 * (1 + 1e-12));
+    if (tick.position < 0.11 || tick.position > 90) {
+      EXPECT_EQ(tick.label, "");
+    }
+  }
+}
+
+TEST_F(PlotTest, BadFiguresAreRefusedAndLeaveNothing) {
+  Comparison negative = comparison_at({30});
+  negative.curves[0].plane[0].model = -1;
+  EXPECT_THAT([&] { write_comparison(negative, {folder_ / "c.svg"}); },
+              ThrowsMessage<std::invalid_argument>(
+                  StrEq("figure: model = -1 in \"fitted\" at sun zenith 30, view zenith "
+                        "85, azimuth 180 deg: expected a number > 0")));
+  EXPECT_THAT([&] { write_comparison(Comparison(), {folder_ / "c.svg"}); },
+              ThrowsMessage<std::invalid_argument>(StrEq("figure: 0 curves: expected 1 to 4")));
+  EXPECT_THAT(
+      [&] {
+        write_comparison(comparison_at({30}), {folder_ / "c.svg", folder_ / "c.gif"});
+      },
+      ThrowsMessage<std::invalid_argument>(
+          HasSubstr("extension \".gif\": expected .svg, .png or .pdf")));
+  EXPECT_THAT(names(), IsEmpty());
+}
+
+TEST_F(PlotTest, AllFilesAppearOrNone) {
+  EXPECT_THAT(
+      [&] {
+        write_comparison(comparison_at({30}), {folder_ / "c.svg", folder_ / "none/c.png"});
+      },
+      ThrowsMessage<std::runtime_error>(
+          HasSubstr("none/c.png: cannot write: No such file or directory")));
+  EXPECT_THAT(names(), IsEmpty());
+}
+
+TEST_F(PlotTest, MissingGnuplotIsOneClearLine) {
+  const OtherGnuplot other((folder_ / "no-gnuplot").string());
+  EXPECT_THAT([&] { write_comparison(comparison_at({30}), {folder_ / "c.svg"}); },
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("no-gnuplot: cannot run: No such file or directory; figures "
+                            "need gnuplot 5.4 (package gnuplot-nox)")));
+  EXPECT_THAT(names(), IsEmpty());
+}
+
+TEST_F(PlotTest, AFailingOrIdleGnuplotLeavesTheOldFigure) {
+  std::ofstream(folder_ / "c.svg") << "the old one";
+  for (const char* program : {"false", "true"}) {
+    const OtherGnuplot other(program);
+    EXPECT_THROW(write_comparison(comparison_at({30}), {folder_ / "c.svg"}), std::runtime_error);
+    EXPECT_EQ(bytes_of(folder_ / "c.svg"), "the old one");
+    EXPECT_THAT(names(), UnorderedElementsAre("c.svg"));
+  }
+}
+
+TEST(Gnuplot, ItsOwnWordsReachTheUser) {
+  EXPECT_THAT([] { run_gnuplot("set terminal nonsense\n"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("exit status 1: ")));
+}
+
+TEST(Gnuplot, QuotesAreDoubledAndLinesJoined) { EXPECT_EQ(gnuplot_quoted("it's\na"), "'it''s a'"); }
+
+}  // namespace
+}  // namespace skyfit::plot

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Skies for the tests of the figures.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "render/plot/comparison.h"
+
+namespace skyfit::plot {
+
+// A directory that goes away with the test.
+class PlotTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "skyfit-plot-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      names.push_back(entry.path().filename());
+    return names;
+  }
+
+  std::filesystem::path folder_;
+};
+
+inline std::string bytes_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+inline ComparedSample sample_at(double sun_deg, double view_deg, double azimuth_deg,
+                                double residual) {
+  ComparedSample sample;
+  sample.sun_zenith_deg = sun_deg;
+  sample.view_zenith_deg = view_deg;
+  sample.relative_azimuth_deg = azimuth_deg;
+  sample.reference = 1 + view_deg / 90;
+  sample.model = sample.reference * std::exp(residual);
+  sample.residual = residual;
+  return sample;
+}
+
+// Principal plane by 5 degrees and Tregenza's rows, with a residual that is +-`residual` in turn.
+inline Curve curve_at(const std::vector<double>& suns_deg, double residual) {
+  constexpr int kRows[] = {30, 30, 24, 24, 18, 12, 6, 1};
+  Curve curve{"fitted", {}, {}};
+  for (const double sun : suns_deg) {
+    for (int view = -85; view <= 85; view += 5)
+      curve.plane.push_back(
+          sample_at(sun, std::abs(view), view < 0 ? 180 : 0, view % 2 == 0 ? residual : -residual));
+    for (int row = 0; row < 8; ++row)
+      for (int patch = 0; patch < kRows[row]; ++patch)
+        curve.hemisphere.push_back(sample_at(sun, 84 - 12 * row, 360.0 * patch / kRows[row],
+                                             patch % 2 == 0 ? residual : -residual));
+  }
+  return curve;
+}
+
+inline Comparison comparison_at(const std::vector<double>& suns_deg, double residual = 0.04) {
+  Comparison comparison;
+  comparison.title = "A sky's \"title\" with 'quotes', {braces}, $dollars and a \\ backslash";
+  comparison.reference_label = "reference";
+  comparison.curves = {curve_at(suns_deg, residual)};
+  return comparison;
+}
+
+}  // namespace skyfit::plot
