@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
@@ -48,22 +50,72 @@ std::vector<WavelengthNode> smooth_nodes(const SpectralData& data, const Discret
   return nodes;
 }
 
-// Weights at the nodes of the measure's sum over the polynomial through the nodes.
-std::array<double, 4> interpolatory_weights(const DiscreteMeasure& measure,
-                                            const std::array<WavelengthNode, 4>& nodes) {
-  std::array<double, 4> weights{};
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    for (std::size_t i = 0; i < measure.point.size(); ++i) {
-      double lagrange = 1.0;
-      for (std::size_t j = 0; j < nodes.size(); ++j) {
-        if (j == k) continue;
-        lagrange *= (measure.point[i] - nodes[j].wavelength_nm) /
-                    (nodes[k].wavelength_nm - nodes[j].wavelength_nm);
-      }
-      weights[k] += measure.weight[i] * lagrange;
-    }
+// A radiance or transmittance per unit solar irradiance that a planet's sky may have:
+// tau exp(-m tau - ozone), (1 - exp(-m tau)) exp(-m tau / 2 - ozone) or exp(-m tau - ozone), tau
+// the vertical optical depth of air and aerosol, m an airmass.
+struct ProbeSpectrum {
+  double aerosol_depth_550, angstrom_exponent, airmass, ozone_per_m2;
+  int form;
+
+  double at(const WavelengthNode& node) const {
+    constexpr double kAirDepth550 = 1.216e-5 * 8000.0;
+    const double x = node.wavelength_nm / 550.0;
+    const double tau =
+        kAirDepth550 * std::pow(x, -4.08) + aerosol_depth_550 * std::pow(x, -angstrom_exponent);
+    const double ozone = ozone_per_m2 * node.ozone_cross_section_m2;
+    const double m = airmass;
+    if (form == 0) return tau * std::exp(-m * tau - ozone);
+    if (form == 1) return (1.0 - std::exp(-m * tau)) * std::exp(-0.5 * m * tau - ozone);
+    return std::exp(-m * tau - ozone);
   }
-  return weights;
+};
+
+// Spectra spread evenly (the R5 sequence, Roberts 2018) over no aerosol to a depth of 0.5,
+// exponents -0.5 to 2, airmass 1 to 38 (the horizon), ozone to 600 DU under up to the same airmass.
+// More than 300 of them change no weight that matters.
+std::vector<ProbeSpectrum> probe_spectra() {
+  constexpr std::size_t kCount = 300;
+  constexpr double kRoot = 1.1347241384015194;  // of x^6 = x + 1
+  constexpr double kMoleculesPerDobson = 2.687e20;
+  const auto fraction = [](int i, int dimension) {
+    return std::fmod(0.5 + i * std::pow(kRoot, -dimension), 1.0);
+  };
+  std::vector<ProbeSpectrum> probes;
+  for (int i = 1; probes.size() < kCount; ++i) {
+    const double aerosol = (fraction(i, 1) - 0.2) / 0.8;  // a fifth has none
+    const double airmass = std::pow(38.0, fraction(i, 3));
+    const ProbeSpectrum probe{
+        aerosol < 0.0 ? 0.0 : 0.01 * std::pow(50.0, aerosol), -0.5 + 2.5 * fraction(i, 2), airmass,
+        600.0 * kMoleculesPerDobson * fraction(i, 5) * airmass * fraction(i, 4), i % 3};
+    constexpr double kDarkest = 4.0;  // aerosol depth along the path beyond which nothing is seen
+    if (probe.airmass * probe.aerosol_depth_550 <= kDarkest) probes.push_back(probe);
+  }
+  return probes;
+}
+
+// The 3 x 4 matrix that is nearest to the 5 nm sums of the probe spectra, errors relative to X + Y
+// + Z.
+Eigen::Matrix<double, 3, 4> xyz_from_nodes(const SpectralData& data,
+                                           const std::array<DiscreteMeasure, 3>& channels,
+                                           const std::array<WavelengthNode, 4>& nodes) {
+  const std::vector<WavelengthNode> fine = spectral_nodes(data, channels[0].point);
+  const std::vector<ProbeSpectrum> probes = probe_spectra();
+  const auto rows = static_cast<Eigen::Index>(probes.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 4> at_nodes(rows, 4);
+  Eigen::Matrix<double, Eigen::Dynamic, 3> xyz =
+      Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(rows, 3);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const ProbeSpectrum& probe = probes[static_cast<std::size_t>(row)];
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+      const double value = probe.at(fine[i]);
+      for (int c = 0; c < 3; ++c) xyz(row, c) += channels[c].weight[i] * value;
+    }
+    for (int k = 0; k < 4; ++k) at_nodes(row, k) = probe.at(nodes[k]);
+    const double sum = xyz.row(row).sum();
+    xyz.row(row) /= sum;
+    at_nodes.row(row) /= sum;
+  }
+  return at_nodes.colPivHouseholderQr().solve(xyz).transpose();
 }
 
 }  // namespace
@@ -113,11 +165,15 @@ ColorRule color_rule(const SpectralData& data) {
   DiscreteMeasure all = channels[0];
   for (std::size_t i = 0; i < all.weight.size(); ++i)
     all.weight[i] += channels[1].weight[i] + channels[2].weight[i];
-  const std::vector<WavelengthNode> nodes = smooth_nodes(data, all, gauss_rule(all, 4).node);
+  // The wavelengths that reproduce the probe spectra best, found once by a simplex search with the
+  // standard data.
+  const std::vector<WavelengthNode> nodes = smooth_nodes(data, all, {444.3, 519.0, 585.6, 653.0});
   ColorRule rule;
   std::copy(nodes.begin(), nodes.end(), rule.nodes.begin());
-  for (std::size_t c = 0; c < 3; ++c)
-    rule.xyz_from_nodes[c] = interpolatory_weights(channels[c], rule.nodes);
+  const Eigen::Matrix<double, 3, 4> matrix = xyz_from_nodes(data, channels, rule.nodes);
+  for (int c = 0; c < 3; ++c) {
+    for (int k = 0; k < 4; ++k) rule.xyz_from_nodes[c][k] = matrix(c, k);
+  }
   return rule;
 }
 

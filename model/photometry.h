@@ -44,14 +44,19 @@ struct LuminanceRule {
 // Gauss rule of `count` nodes (1 to 16, otherwise std::invalid_argument) for the weight 683.002
 // V(lambda) E_sun(lambda), 380..780 nm. The ozone cross section at the nodes is that of its
 // weighted least-squares polynomial of degree count - 1 in wavelength, because the true one is not
-// smooth.
+// smooth. Measured on the spectra named at ColorRule: 4 nodes stay within 0.2 % of the 5 nm sum to
+// airmass 12 (median 0.001 %) and within 0.6 % to 30.
 LuminanceRule luminance_rule(const SpectralData& data, int count = 4);
 
 // The plain sum over 380..780 nm by 5 nm, the yardstick of the rules.
 LuminanceRule luminance_sum_5nm(const SpectralData& data);
 
 // Four shared wavelengths, one per channel of an RGBA texel, and the matrix that turns them into
-// CIE XYZ (cd/m^2, Y is luminance).
+// CIE XYZ (cd/m^2, Y is luminance). Wavelengths and matrix are those nearest to the 5 nm sums of
+// skylight and sunlight under airmass 1..38, aerosol of exponent -0.5..2 and ozone to 600 DU.
+// Measured on such spectra: Y within 0.2 % and xy within 0.002 to airmass 15; to airmass 30 within
+// 0.12 % and 0.001 for 95 % of them, at worst 1.2 % and 0.005 (the sun's own light at the horizon).
+// Interpolatory weights at Gauss nodes reach 8 % and 0.03 there.
 struct ColorRule {
   std::array<WavelengthNode, 4> nodes;
   std::array<std::array<double, 4>, 3> xyz_from_nodes;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The CSV reader takes what spreadsheets write and names the place of everything else.
+#include "data_refs/csv.h"
+
+#include <gmock/gmock.h>
+
+#include <stdexcept>
+
+namespace skyfit::refs {
+namespace {
+
+using testing::ElementsAre;
+
+std::string complaint(std::string_view text) {
+  try {
+    const CsvTable table(text, "t.csv");
+    for (const CsvRecord& record : table.records()) table.number(record, table.columns().front());
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Csv, AcceptsMarksCommentsBlanksQuotesAndSpaces) {
+  const CsvTable table(
+      "\xef\xbb\xbf# a comment, with a comma\r\n\r\n a , \"b\" \r\n1, \"x, \"\"y\"\"\"\r\n# "
+      "more\n+2.5e3,",
+      "t.csv");
+  EXPECT_THAT(table.columns(), ElementsAre("a", "b"));
+  EXPECT_EQ(table.header_line(), 3);
+  ASSERT_EQ(table.records().size(), 2u);
+  EXPECT_EQ(table.records()[1].line, 6);
+  EXPECT_EQ(table.text(table.records()[0], "b"), "x, \"y\"");
+  EXPECT_EQ(table.number(table.records()[1], "a"), 2500);
+  EXPECT_EQ(table.text(table.records()[1], "b"), "");
+}
+
+TEST(Csv, FaultsNameTheirLine) {
+  EXPECT_EQ(complaint(""), "t.csv: is empty, expected a line of column names");
+  EXPECT_EQ(complaint("# only this\n"), "t.csv: is empty, expected a line of column names");
+  EXPECT_EQ(complaint("a,b\n1,2\n3\n"), "t.csv:3: expected 2 fields, got 1");
+  EXPECT_EQ(complaint("a,b\n1,2,3\n"), "t.csv:2: expected 2 fields, got 3");
+  EXPECT_EQ(complaint("a,a\n"), "t.csv:1: column a: expected once, found twice");
+  EXPECT_EQ(complaint("a,\n"), "t.csv:1: column 2 has no name");
+  EXPECT_EQ(complaint("a\n\"1\n"), "t.csv:2: expected a closing quote before the end of the line");
+  EXPECT_EQ(complaint("a\n\"1\"2\n"), "t.csv:2: expected a comma after a closing quote");
+}
+
+TEST(Csv, OnlyFiniteNumbersAreNumbers) {
+  for (const std::string value :
+       {"abc", "1x", "nan", "inf", "-inf", "1e999", "+-1", "0x10", "1 2", "--1"}) {
+    EXPECT_EQ(complaint("a\n" + value + "\n"),
+              "t.csv:2: a = \"" + value + "\": expected a finite number");
+  }
+  EXPECT_EQ(complaint("a,b\n,1\n"), "t.csv:2: a = \"\": expected a finite number");
+  EXPECT_EQ(complaint("a\n-1.5E-3\n"), "accepted");
+}
+
+}  // namespace
+}  // namespace skyfit::refs

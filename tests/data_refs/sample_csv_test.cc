@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// A CSV of samples becomes the samples it holds; every fault is one line with file, line, column,
+// value, expectation.
+#include "data_refs/sample_csv.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "data_refs/references.h"
+
+namespace skyfit::refs {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRounding = 1e-15;
+const std::string kHeader = "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,luminance_cd_m2";
+
+std::string complaint(const std::string& text) {
+  try {
+    parse_sample_csv(text, "sky.csv");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SampleCsv, ReadsEveryColumn) {
+  const Reference reference = parse_sample_csv(
+      "# measured\n" + kHeader +
+          ",sigma,weight,scan\n30,60,90,4000,40,0.5,a\n40,10,-45,3000,30,0,b\n31,5,0,2000,20,1,a\n",
+      "sky.csv");
+  EXPECT_EQ(reference.name, "sky.csv");
+  EXPECT_EQ(reference.quantity, Quantity::kLuminance);
+  ASSERT_EQ(reference.samples.size(), 3u);
+  const Sample& first = reference.samples[0];
+  EXPECT_NEAR(first.sun_zenith, 30 * kDegree, kRounding);
+  EXPECT_NEAR(first.view_zenith, 60 * kDegree, kRounding);
+  EXPECT_NEAR(first.relative_azimuth, 90 * kDegree, kRounding);
+  EXPECT_EQ(first.value, 4000);
+  EXPECT_EQ(first.sigma, 40);
+  EXPECT_EQ(first.weight, 0.5);
+  EXPECT_TRUE(first.zero_weight_reason.empty());
+  EXPECT_EQ(reference.samples[1].zero_weight_reason, "weight 0 in the file");
+  EXPECT_EQ(first.scan, 0);
+  EXPECT_EQ(reference.samples[1].scan, 1);
+  EXPECT_EQ(reference.samples[2].scan, 0);
+}
+
+TEST(SampleCsv, AzimuthsOfSunAndViewBecomeTheirDifference) {
+  const Reference reference = parse_sample_csv(
+      "view_azimuth_deg,sun_azimuth_deg,view_zenith_deg,sun_zenith_deg,relative_luminance\n10,350,"
+      "60,30,1\n200,10,60,30,2\n",
+      "sky.csv");
+  EXPECT_EQ(reference.quantity, Quantity::kRelativeLuminance);
+  EXPECT_NEAR(reference.samples[0].relative_azimuth, 20 * kDegree, kRounding);
+  EXPECT_NEAR(reference.samples[1].relative_azimuth, -170 * kDegree, kRounding);
+}
+
+TEST(SampleCsv, EverySunPositionIsAScanWhenThereIsNoColumn) {
+  const Reference by_zenith =
+      parse_sample_csv(kHeader + "\n30,60,0,1\n40,60,0,1\n30,10,0,1\n", "sky.csv");
+  EXPECT_EQ(by_zenith.samples[0].scan, 0);
+  EXPECT_EQ(by_zenith.samples[1].scan, 1);
+  EXPECT_EQ(by_zenith.samples[2].scan, 0);
+  const Reference by_azimuth = parse_sample_csv(
+      "sun_zenith_deg,sun_azimuth_deg,view_zenith_deg,view_azimuth_deg,relative_luminance\n30,90,0,"
+      "0,1\n30,270,0,0,1\n",
+      "sky.csv");
+  EXPECT_EQ(by_azimuth.samples[1].scan, 1);
+}
+
+TEST(SampleCsv, ColumnsMustBeTheKnownOnes) {
+  const std::string columns = "sun_zenith_deg,view_zenith_deg,";
+  EXPECT_THAT(complaint(kHeader + ",sigmas\n"),
+              StartsWith("sky.csv:1: sigmas: unknown column, expected one of "));
+  EXPECT_THAT(
+      complaint("view_zenith_deg,relative_azimuth_deg,luminance_cd_m2\n"),
+      StartsWith("sky.csv:1: expected a column sun_zenith_deg, got the columns view_zenith_deg,"));
+  EXPECT_THAT(complaint("sun_zenith_deg,relative_azimuth_deg,luminance_cd_m2\n"),
+              HasSubstr("expected a column view_zenith_deg"));
+  const std::string azimuths =
+      "expected either relative_azimuth_deg or both of sun_azimuth_deg and view_azimuth_deg";
+  EXPECT_THAT(complaint(columns + "luminance_cd_m2\n"), HasSubstr(azimuths));
+  EXPECT_THAT(complaint(columns + "sun_azimuth_deg,luminance_cd_m2\n"), HasSubstr(azimuths));
+  EXPECT_THAT(complaint(columns + "relative_azimuth_deg,sun_azimuth_deg,luminance_cd_m2\n"),
+              HasSubstr(azimuths));
+  const std::string luminances = "expected exactly one of luminance_cd_m2 and relative_luminance";
+  EXPECT_THAT(complaint(columns + "relative_azimuth_deg\n"), HasSubstr(luminances));
+  EXPECT_THAT(complaint(kHeader + ",relative_luminance\n"), HasSubstr(luminances));
+}
+
+TEST(SampleCsv, ValuesMustBeInRange) {
+  const auto with = [](const std::string& record) {
+    return complaint(kHeader + ",sigma,weight\n30,60,0,5,1,1\n" + record + "\n");
+  };
+  EXPECT_EQ(with("90,60,0,5,1,1"),
+            "sky.csv:3: sun_zenith_deg = \"90\": expected 0 <= sun_zenith_deg < 90, a sun above "
+            "the horizon");
+  EXPECT_THAT(with("-1,60,0,5,1,1"), StartsWith("sky.csv:3: sun_zenith_deg = \"-1\""));
+  EXPECT_THAT(with("30,90,0,5,1,1"), StartsWith("sky.csv:3: view_zenith_deg = \"90\""));
+  EXPECT_EQ(with("30,60,361,5,1,1"),
+            "sky.csv:3: relative_azimuth_deg = \"361\": expected -360 to 360");
+  EXPECT_EQ(with("30,60,0,0,1,1"), "sky.csv:3: luminance_cd_m2 = \"0\": expected a number > 0");
+  EXPECT_EQ(with("30,60,0,nan,1,1"),
+            "sky.csv:3: luminance_cd_m2 = \"nan\": expected a finite number");
+  EXPECT_EQ(with("30,60,0,abc,1,1"),
+            "sky.csv:3: luminance_cd_m2 = \"abc\": expected a finite number");
+  EXPECT_EQ(with("30,60,0,5,-1,1"), "sky.csv:3: sigma = \"-1\": expected a number > 0");
+  EXPECT_EQ(with("30,60,0,5,1,-0.1"), "sky.csv:3: weight = \"-0.1\": expected a number >= 0");
+  EXPECT_EQ(with("30,60,0,5,1"), "sky.csv:3: expected 6 fields, got 5");
+}
+
+TEST(SampleCsv, AnEmptyReferenceIsAnError) {
+  EXPECT_EQ(complaint(kHeader + "\n"), "sky.csv: 0 samples with a weight > 0, expected at least 1");
+  EXPECT_EQ(complaint(kHeader + ",weight\n30,60,0,5,0\n"),
+            "sky.csv: 0 samples with a weight > 0, expected at least 1");
+  EXPECT_EQ(complaint(""), "sky.csv: is empty, expected a line of column names");
+}
+
+TEST(SampleCsv, FileThatCannotBeReadIsNamed) {
+  EXPECT_THAT(
+      [] { load_sample_csv("no/such.csv"); },
+      testing::ThrowsMessage<std::runtime_error>(
+          "no/such.csv: cannot be read (No such file or directory), expected a CSV of samples"));
+  EXPECT_THAT([] { load_sample_csv(testing::TempDir()); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  EndsWith("(Is a directory), expected a CSV of samples")));
+}
+
+TEST(ShippedExample, IsTheCieSkyItSays) {
+  constexpr double kNineDigits = 1e-8;
+  const Reference example = load_reference(SKYFIT_EXAMPLE_CSV, {}, Sampling::kPrincipalPlane);
+  const Reference formula =
+      load_reference("cie:12", {30 * kDegree, 60 * kDegree}, Sampling::kPrincipalPlane);
+  ASSERT_EQ(example.samples.size(), formula.samples.size());
+  for (std::size_t i = 0; i < example.samples.size(); ++i) {
+    EXPECT_NEAR(example.samples[i].value / formula.samples[i].value, 1, kNineDigits);
+    EXPECT_NEAR(scattering_angle(example.samples[i]), scattering_angle(formula.samples[i]), 1e-7);
+    EXPECT_EQ(example.samples[i].scan, formula.samples[i].scan);
+  }
+}
+
+}  // namespace
+}  // namespace skyfit::refs

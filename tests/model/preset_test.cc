@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// A preset survives writing and reading bit by bit, and every fault of a file is one line that
+// names its place.
+#include "model/preset.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "model/parameters.h"
+
+namespace skyfit {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr std::string_view kText = R"({
+  "skyfit_preset": 1,
+  "name": "test",
+  "planet": {"bottom_radius_m": 6360000, "top_radius_m": 6460000},
+  "rayleigh": {
+    "scattering_per_m": {"wavelength_nm": 550, "value": 1.216e-5, "exponent": 4.08},
+    "scale_height_m": 8000
+  },
+  "mie": {
+    "scattering_per_m": {"wavelength_nm": 550, "value": 4e-6, "exponent": 0},
+    "single_scattering_albedo": 0.9,
+    "scale_height_m": 1200,
+    "phase": {"type": "cornette-shanks", "g": 0.76}
+  },
+  "ozone": {"column_du": 0, "profile": "tent"},
+  "ground": {"albedo": 0.1}
+}
+)";
+
+std::string with(std::string_view from, std::string_view to) {
+  std::string text(kText);
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    parse_preset(text, "my.json");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Preset, ReadsEveryField) {
+  const Preset preset = parse_preset(kText, "my.json");
+  EXPECT_EQ(preset.name, "test");
+  EXPECT_EQ(preset.atmosphere.top_radius_m, 6460000);
+  EXPECT_EQ(preset.atmosphere.rayleigh.scattering_per_m.exponent, 4.08);
+  EXPECT_EQ(preset.atmosphere.mie.scattering_per_m.value, 4e-6);
+  EXPECT_EQ(preset.atmosphere.mie.phase.g, 0.76);
+  EXPECT_EQ(preset.atmosphere.ozone.profile, OzoneProfile::kTent);
+  EXPECT_EQ(preset.atmosphere.ground_albedo, 0.1);
+  EXPECT_TRUE(preset.fit.is_null());
+}
+
+TEST(Preset, RoundTripIsExactForEveryPhaseAndProfile) {
+  for (const PhaseType type :
+       {PhaseType::kCornetteShanks, PhaseType::kHenyeyGreenstein, PhaseType::kTwoLobe}) {
+    for (const OzoneProfile profile : {OzoneProfile::kTent, OzoneProfile::kExponential}) {
+      Preset preset;
+      preset.name = "a \"quoted\" name, caf\xc3\xa9";
+      preset.atmosphere.mie.phase.type = type;
+      preset.atmosphere.ozone.profile = profile;
+      for (const ParameterInfo& info : parameter_table()) {
+        // Neighbours of thirds need all 17 digits.
+        set_parameter(preset.atmosphere, info.id, std::nextafter(info.default_value / 3, 1e9));
+      }
+      preset.fit = {{"rms", 1.0 / 3}, {"covariance", {{1e-300, 2}, {0.1, -4.9e-324}}}};
+      const Preset again = parse_preset(preset_to_json(preset), "again.json");
+      EXPECT_EQ(again.name, preset.name);
+      EXPECT_EQ(again.fit, preset.fit);
+      EXPECT_EQ(again.atmosphere.mie.phase.type, type);
+      EXPECT_EQ(again.atmosphere.ozone.profile, profile);
+      for (const ParameterInfo& info : parameter_table()) {
+        if (!has_parameter(preset.atmosphere, info.id)) continue;
+        EXPECT_EQ(get_parameter(again.atmosphere, info.id),
+                  get_parameter(preset.atmosphere, info.id))
+            << info.name;
+      }
+      EXPECT_EQ(preset_to_json(again), preset_to_json(preset));
+    }
+  }
+}
+
+TEST(Preset, UnphysicalAtmosphereIsNotWritten) {
+  Preset preset;
+  preset.atmosphere.ground_albedo = std::nan("");
+  EXPECT_THROW(preset_to_json(preset), std::invalid_argument);
+}
+
+TEST(Preset, UnknownNameIsNamedWithItsFullPath) {
+  EXPECT_EQ(complaint(with("\"g\": 0.76", "\"g\": 0.76, \"gg\": 1")),
+            "my.json:13: mie.phase.gg: unknown name, expected one of type, g");
+  EXPECT_THAT(complaint(with("\"ground\"", "\"grounds\"")),
+              StartsWith("my.json:16: grounds: unknown name"));
+}
+
+TEST(Preset, PhaseHasExactlyTheFieldsOfItsType) {
+  EXPECT_EQ(complaint(with("cornette-shanks", "two-lobe")),
+            "my.json:13: mie.phase.g: unknown name, expected one of type, g1, g2, weight");
+  EXPECT_EQ(complaint(with("cornette-shanks", "mie")),
+            "my.json:13: mie.phase.type = \"mie\": expected one of cornette-shanks, "
+            "henyey-greenstein, two-lobe");
+}
+
+TEST(Preset, MissingNameIsNamed) {
+  EXPECT_EQ(complaint(with("\"scale_height_m\": 1200,", "")),
+            "my.json:9: mie.scale_height_m: missing, expected a number");
+  EXPECT_EQ(complaint("{}"), "my.json: skyfit_preset: missing, expected a number");
+}
+
+TEST(Preset, DuplicateNameIsAnError) {
+  EXPECT_EQ(complaint(with("\"scale_height_m\": 1200,",
+                           "\"scale_height_m\": 1200,\n\"scale_height_m\": 1,")),
+            "my.json:13: mie.scale_height_m: expected once, found twice");
+}
+
+TEST(Preset, WrongTypesAreNamed) {
+  EXPECT_EQ(complaint(with("0.76", "\"0.76\"")),
+            "my.json:13: mie.phase.g = \"0.76\": expected a number");
+  EXPECT_EQ(complaint(with("0.76", "null")), "my.json:13: mie.phase.g = null: expected a number");
+  EXPECT_EQ(complaint(with("0.76", "true")), "my.json:13: mie.phase.g = true: expected a number");
+  EXPECT_EQ(complaint(with("{\"albedo\": 0.1}", "0.1")),
+            "my.json:16: ground = 0.1: expected an object");
+  EXPECT_EQ(complaint(with("\"test\"", "7")), "my.json:3: name = 7: expected a text");
+  EXPECT_EQ(complaint(with("\"ground\"", "\"fit\": 3, \"ground\"")),
+            "my.json:16: fit = 3: expected an object");
+  EXPECT_EQ(complaint("[1]"), "my.json: expected a JSON object, got [1]");
+}
+
+TEST(Preset, UnphysicalValuesAreNamed) {
+  EXPECT_EQ(complaint(with("4e-6", "-4e-6")),
+            "my.json:10: mie.scattering_per_m.value = -4e-06: expected a coefficient >= 0 1/m");
+  EXPECT_EQ(complaint(with("0.76", "1.0")),
+            "my.json:13: mie.phase.g = 1: expected an asymmetry between -1 and 1, both excluded");
+}
+
+TEST(Preset, OtherVersionIsRefused) {
+  EXPECT_EQ(complaint(with("\"skyfit_preset\": 1", "\"skyfit_preset\": 2")),
+            "my.json:2: skyfit_preset = 2: expected 1, the version this program reads");
+}
+
+TEST(Preset, BrokenJsonNamesTheLine) {
+  for (const std::string_view not_a_number : {"NaN", "-Infinity", "1e999", "0.7.6", "nul"}) {
+    EXPECT_THAT(complaint(with("0.76", not_a_number)),
+                AllOf(StartsWith("my.json:13: expected JSON, got "), Not(HasSubstr("\n"))))
+        << not_a_number;
+  }
+  EXPECT_THAT(complaint(with("\"scale_height_m\": 1200,", "\"scale_height_m\": 1200")),
+              StartsWith("my.json:13: expected JSON, got "));
+  EXPECT_THAT(complaint(""), StartsWith("my.json:1: expected JSON"));
+  EXPECT_THAT(complaint(std::string(kText.substr(0, 200))), StartsWith("my.json:6: expected JSON"));
+  EXPECT_THAT(complaint(std::string(kText) + "x"), StartsWith("my.json:18: expected JSON"));
+}
+
+TEST(LoadPreset, FileThatCannotBeReadIsNamed) {
+  const std::filesystem::path folder = testing::TempDir();
+  const auto complaint_of = [](const std::filesystem::path& file) -> std::string {
+    try {
+      load_preset(file);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(complaint_of("no/such.json"),
+            "no/such.json: cannot be read (No such file or directory), expected a preset");
+  EXPECT_EQ(complaint_of(folder),
+            folder.string() + ": cannot be read (Is a directory), expected a preset");
+}
+
+TEST(LoadPreset, ReadsAFile) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "skyfit_preset_test.json";
+  std::ofstream(file) << kText;
+  EXPECT_EQ(load_preset(file).name, "test");
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace skyfit
