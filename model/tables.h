@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Look-up tables of an atmosphere for real-time rendering: four wavelengths in RGBA (the nodes of a ColorRule), values
-// per unit solar irradiance. Mappings: Bruneton 2017, in model/shared/mapping.glsl, shared with the shaders.
+// Look-up tables of an atmosphere for real-time rendering: four wavelengths in RGBA (the nodes of a
+// ColorRule), values per unit solar irradiance. Mappings: Bruneton 2017, in
+// model/shared/mapping.glsl, shared with the shaders.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,7 @@
 namespace skyfit {
 
 struct TableSizes {
-  int transmittance_mu = 256, transmittance_r = 64;
+  int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
   int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 32, scattering_nu = 8;
 };
@@ -23,20 +24,30 @@ struct Table {
   std::vector<float> rgba;
 };
 
+// Cosine of the lowest sun that the tables hold (102 degrees from the zenith): below it no light
+// reaches the air that can be seen from a table's point.
+inline constexpr double kTableLowestSun = -0.2079;
+
 struct AtmosphereTables {
   Atmosphere<double> atmosphere;
   ColorRule color;
   TableSizes sizes;
-  Table transmittance;  // x: mu, y: r; from a point to the top of the atmosphere (pure number)
-  Table irradiance;     // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit solar irradiance
-  // 3D textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to the ground:
-  Table rayleigh_like;  // single Rayleigh amplitude + multiple scattering / Rayleigh phase function (sr^0); light that
-                        // comes straight from the ground to the eye is not in it: the renderer draws the ground
-  Table single_mie;     // single aerosol scattering / aerosol phase function (pure number)
+  Table optical_depth;  // x: mu, y: r; from a point to the top of the atmosphere (pure number). Not
+                        // the transmittance: that of a finite path is exp(a difference), which does
+                        // not lose its digits in thick air
+  Table irradiance;  // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit
+                     // solar irradiance
+  // 3D textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to the
+  // ground:
+  Table rayleigh_like;  // single Rayleigh amplitude + multiple scattering / Rayleigh phase function
+                        // (sr^0); light that comes straight from the ground to the eye is not in
+                        // it: the renderer draws the ground
+  Table single_mie;  // single aerosol scattering / aerosol phase function (pure number)
 };
 
 // Progress in 0..1; may be empty.
-AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color, const TableSizes& sizes,
-                                int threads, const std::function<void(double)>& progress);
+AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
+                                const TableSizes& sizes, int threads,
+                                const std::function<void(double)>& progress);
 
 }  // namespace skyfit

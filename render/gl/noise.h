@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gradient noise in three dimensions (Perlin 2002: quintic fade), on a hashed lattice that does not
+// repeat.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace skyfit {
+
+// In about -1..1, 0 at lattice points, mean 0, two continuous derivatives. |x| < 2^52.
+double gradient_noise(const glm::dvec3& x);
+
+// Sum of octaves, each of half the wavelength and half the amplitude of the one before: wavelength
+// `longest` down to `shortest`, the last one faded in so that a changing `shortest` makes no step.
+// The first octave has amplitude 1.
+double fractal_noise(const glm::dvec3& x, double longest, double shortest);
+
+// Ridges (Musgrave 1993, ridged multifractal): sharp crests, smooth valleys; about 0..1.
+double ridged_noise(const glm::dvec3& x, double longest, double shortest);
+
+}  // namespace skyfit

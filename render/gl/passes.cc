@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/passes.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "render/gl/context.h"
+
+namespace skyfit {
+namespace {
+
+GlTexture make_texture(GLenum target) {
+  GLuint id = 0;
+  glCreateTextures(target, 1, &id);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
+  }
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return GlTexture(id);
+}
+
+}  // namespace
+
+void FrameGraph::add_target(const std::string& name, GLenum format, int width, int height) {
+  Texture texture{make_texture(GL_TEXTURE_2D), format, width, height};
+  glTextureStorage2D(texture.object.id(), 1, format, width, height);
+  check_gl("texture " + name);
+  textures_.insert_or_assign(name, std::move(texture));
+}
+
+void FrameGraph::add_table(const std::string& name, int width, int height, int depth,
+                           std::span<const float> rgba) {
+  const bool flat = depth <= 1;
+  Texture texture{make_texture(flat ? GL_TEXTURE_2D : GL_TEXTURE_3D), GL_RGBA32F, width, height};
+  const GLuint id = texture.object.id();
+  if (flat) {
+    glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
+    glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
+  } else {
+    glTextureStorage3D(id, 1, GL_RGBA32F, width, height, depth);
+    glTextureSubImage3D(id, 0, 0, 0, 0, width, height, depth, GL_RGBA, GL_FLOAT, rgba.data());
+  }
+  check_gl("table " + name);
+  textures_.insert_or_assign(name, std::move(texture));
+}
+
+const FrameGraph::Texture& FrameGraph::texture(const std::string& name) const {
+  const auto found = textures_.find(name);
+  if (found == textures_.end())
+    throw std::runtime_error(fmt::format("render: no texture \"{}\"", name));
+  return found->second;
+}
+
+GlFramebuffer FrameGraph::framebuffer(const Pass& pass) const {
+  GLuint id = 0;
+  glCreateFramebuffers(1, &id);
+  GlFramebuffer made(id);
+  std::vector<GLenum> colors;
+  for (const std::string& name : pass.writes) {
+    const Texture& target = texture(name);
+    const bool depth = target.format == GL_DEPTH_COMPONENT32F;
+    const GLenum slot =
+        depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colors.size());
+    glNamedFramebufferTexture(id, slot, target.object.id(), 0);
+    if (!depth) colors.push_back(slot);
+    glViewport(0, 0, target.width, target.height);
+  }
+  glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(colors.size()), colors.data());
+  if (glCheckNamedFramebufferStatus(id, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    throw std::runtime_error(
+        fmt::format("render: pass \"{}\" has no complete framebuffer", pass.name));
+  }
+  return made;
+}
+
+void FrameGraph::run(std::span<const Pass> passes) const {
+  for (const Pass& pass : passes) {
+    const GlFramebuffer target = framebuffer(pass);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+    for (std::size_t unit = 0; unit < pass.reads.size(); ++unit) {
+      glBindTextureUnit(static_cast<GLuint>(unit), texture(pass.reads[unit]).object.id());
+    }
+    pass.draw();
+    check_gl("pass " + pass.name);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  }
+}
+
+std::vector<float> FrameGraph::read_back(const std::string& name, GLenum format,
+                                         int channels) const {
+  const Texture& source = texture(name);
+  std::vector<float> pixels(static_cast<std::size_t>(source.width) * source.height * channels);
+  const std::size_t bytes = pixels.size() * sizeof(float);
+  if (bytes > static_cast<std::size_t>(std::numeric_limits<GLsizei>::max())) {
+    throw std::runtime_error(fmt::format("render: texture \"{}\" is too large to read back", name));
+  }
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glGetTextureImage(source.object.id(), 0, format, GL_FLOAT, static_cast<GLsizei>(bytes),
+                    pixels.data());
+  check_gl("reading back " + name);
+  return pixels;
+}
+
+}  // namespace skyfit

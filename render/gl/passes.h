@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A frame is a list of passes over named textures. The list is the renderer's documentation: what a
+// pass reads is bound to texture units 0, 1, ... in the order of `reads`; what it writes are the
+// colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/gl/objects.h"
+
+namespace skyfit {
+
+struct Pass {
+  std::string name;
+  std::vector<std::string> reads, writes;
+  std::function<void()> draw;
+};
+
+class FrameGraph {
+ public:
+  // Textures by name; float formats filter linearly and clamp to their edges.
+  void add_target(const std::string& name, GLenum format, int width, int height);
+  void add_table(const std::string& name, int width, int height, int depth,
+                 std::span<const float> rgba);
+
+  // Runs the passes in order. Throws std::runtime_error that names the pass: an unknown texture, an
+  // incomplete framebuffer, an OpenGL error.
+  void run(std::span<const Pass> passes) const;
+
+  // `channels` floats per pixel, rows from the bottom to the top.
+  std::vector<float> read_back(const std::string& name, GLenum format, int channels) const;
+
+ private:
+  struct Texture {
+    GlTexture object;
+    GLenum format;
+    int width, height;
+  };
+  const Texture& texture(const std::string& name) const;
+  GlFramebuffer framebuffer(const Pass& pass) const;
+
+  std::map<std::string, Texture> textures_;
+};
+
+}  // namespace skyfit

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// From cd/m^2 to 8 bit sRGB.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/render.h"
+
+namespace skyfit {
+
+// Multiplier of linear values, from the mean logarithm of the luminance between limits.
+double automatic_exposure(const Frame& frame);
+
+// [pixel][3]. Filmic curve, sRGB transfer function (IEC 61966-2-1), dithered with triangular noise
+// of one step.
+std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone);
+
+}  // namespace skyfit

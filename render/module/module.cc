@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/module/module.h"
+
+#include "render/gl/image_files.h"
+#include "render/gl/renderer.h"
+
+extern "C" __attribute__((visibility("default"))) const skyfit::RenderModule*
+skyfit_render_module() {
+  static constexpr skyfit::RenderModule kModule = {skyfit::kRenderModuleRevision,
+                                                   skyfit::draw_frame, skyfit::write_exr_file,
+                                                   skyfit::write_png_file};
+  return &kModule;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the thin library calls in skyfit_render_module. Both are built together; `revision` refuses
+// a stale module.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "render/render.h"
+
+namespace skyfit {
+
+inline constexpr int kRenderModuleRevision = 1;
+
+struct RenderModule {
+  int revision;
+  Frame (*render_frame)(const AtmosphereTables&, const FrameOptions&,
+                        const std::function<void(double)>&);
+  void (*write_exr)(const Frame&, const std::filesystem::path&);
+  void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);
+};
+
+}  // namespace skyfit
+
+// The module's only symbol.
+extern "C" const skyfit::RenderModule* skyfit_render_module();

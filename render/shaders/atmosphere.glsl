@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The atmosphere's tables as functions. Lengths in kilometres, values at the four wavelengths of the colour rule, per
+// unit solar irradiance. A point is its height above the bottom radius; see model/tables.h for what each table holds.
+#include "model/shared/geometry.glsl"
+#include "model/shared/phase.glsl"
+#include "model/shared/mapping.glsl"
+
+layout(binding = 0) uniform sampler2D optical_depth_table;
+layout(binding = 1) uniform sampler2D irradiance_table;
+layout(binding = 2) uniform sampler3D rayleigh_like_table;
+layout(binding = 3) uniform sampler3D single_mie_table;
+
+uniform float bottom_km;
+uniform float thickness_km;
+uniform float mu_s_min;
+uniform vec4 scattering_size;   // mu_s, nu, mu, r
+uniform int phase_type;         // PhaseType of model/atmosphere.h
+uniform vec4 phase_parameters;  // g, g1, g2, weight
+
+const float kSunRadius = 0.004654793;       // rad, at 1 au
+const float kSunSolidAngle = 6.8069e-5;     // sr
+
+float aerosol_phase(float nu) {
+  if (phase_type == 0) return cornette_shanks_phase(phase_parameters.x, nu);
+  if (phase_type == 1) return henyey_greenstein_phase(phase_parameters.x, nu);
+  return two_lobe_phase(phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
+}
+
+float height_coordinate(float h, float size) {
+  return texture_from_unit(unit_from_height(h, bottom_km, thickness_km), size);
+}
+
+// From the point to the top, for rays that miss the ground.
+vec4 optical_depth_to_top(float h, float mu) {
+  vec2 size = vec2(textureSize(optical_depth_table, 0));
+  float x = texture_from_unit(unit_from_upward_ray(h, mu, bottom_km, thickness_km), size.x);
+  return texture(optical_depth_table, vec2(x, height_coordinate(h, size.y)));
+}
+
+// Of the sun's beam; the disc sinks behind the horizon over its diameter.
+vec4 sun_transmittance(float h, float mu_s) {
+  float sin_horizon = bottom_km / (bottom_km + h);
+  float mu_horizon = -sqrt(max(1.0 - sin_horizon * sin_horizon, 0.0));
+  float half_disc = sin_horizon * kSunRadius;
+  float visible = smoothstep(-half_disc, half_disc, mu_s - mu_horizon);
+  if (visible <= 0.0) return vec4(0.0);
+  return visible * exp(-optical_depth_to_top(h, max(mu_s, mu_horizon)));
+}
+
+// Diffuse, on a horizontal surface that faces up.
+vec4 sky_irradiance(float h, float mu_s) {
+  vec2 size = vec2(textureSize(irradiance_table, 0));
+  float x = texture_from_unit(unit_from_sun(mu_s, mu_s_min, bottom_km, thickness_km), size.x);
+  return texture(irradiance_table, vec2(x, height_coordinate(h, size.y)));
+}
+
+struct Scattering {
+  vec4 rayleigh_like, single_mie;
+};
+
+// Along the whole ray, to the top or to the ground.
+Scattering scattering(float h, float mu, float mu_s, float nu, bool hits_ground) {
+  float u_sun = texture_from_unit(unit_from_sun(mu_s, mu_s_min, bottom_km, thickness_km), scattering_size.x);
+  float slot = unit_from_cosine(nu) * (scattering_size.y - 1.0);
+  float lower = min(floor(slot), scattering_size.y - 2.0);
+  vec3 at = vec3((lower + u_sun) / scattering_size.y,
+                 texture_from_view(h, mu, hits_ground, scattering_size.z, bottom_km, thickness_km),
+                 height_coordinate(h, scattering_size.w));
+  vec3 next = at + vec3(1.0 / scattering_size.y, 0.0, 0.0);
+  float part = slot - lower;
+  return Scattering(mix(texture(rayleigh_like_table, at), texture(rayleigh_like_table, next), part),
+                    mix(texture(single_mie_table, at), texture(single_mie_table, next), part));
+}
+
+vec4 radiance(Scattering s, float nu) {
+  return s.rayleigh_like * rayleigh_phase(nu) + s.single_mie * aerosol_phase(nu);
+}
