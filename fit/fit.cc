@@ -93,7 +93,8 @@ Task make_task(const refs::Reference& reference, const SpectralData& spectra, co
 }
 
 // What `solution` leaves, per sample, without weights.
-Noise noise_at(const Task& task, const Solution& solution) {
+Noise noise_at(const Task& task, const Solution& solution, FitResult& result) {
+  ++result.model_evaluations;
   const Luminance luminance =
       model_luminance(task.model, task.rule, solution.atmosphere, task.observations.points, {});
   const Eigen::VectorXd residual =
@@ -127,7 +128,7 @@ Solution search(const Task& task, FitResult& result) {
 Solution refine(const Task& task, Solution solution, FitResult& result) {
   const bool lobes_may_swap = lobes_interchangeable(task.parameters);
   Noise noise{1, static_cast<double>(task.observations.count())};
-  if (!task.observations.has_sigma) noise = noise_at(task, solution);
+  if (!task.observations.has_sigma) noise = noise_at(task, solution, result);
   for (int round = 0; round < kNoiseRounds; ++round) {
     task.report(0.7 + 0.07 * round, "refining the best start");
     if (lobes_may_swap) order_lobes(solution.atmosphere);
@@ -136,8 +137,7 @@ Solution refine(const Task& task, Solution solution, FitResult& result) {
     count_work(result, solution.iterations, solution.evaluations, solution.derivative_evaluations);
     if (task.observations.has_sigma) break;
     const double before = noise.sigma_log;
-    noise = noise_at(task, solution);
-    ++result.model_evaluations;
+    noise = noise_at(task, solution, result);
     if (std::abs(noise.sigma_log / before - 1) < kNoiseAgrees) break;
   }
   if (lobes_may_swap) order_lobes(solution.atmosphere);

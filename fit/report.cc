@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.5g}", value) : std::string("-");
+std::string number(double value, int digits = 5) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("-");
 }
 
 std::string remark(const FittedParameter& row) {
@@ -29,7 +29,7 @@ std::string remark(const FittedParameter& row) {
 std::string prior_text(const FittedParameter& row) {
   if (!row.free) return "";
   if (!row.prior) return "none";
-  return fmt::format("{:.4g} +- {:.2g}", row.prior->mean, row.prior->sigma);
+  return fmt::format("{:.4g}+-{:.3g}", row.prior->mean, row.prior->sigma);
 }
 
 std::string header(const FitResult& result) {
@@ -50,14 +50,17 @@ std::string header(const FitResult& result) {
       result.starts.size(), result.model_evaluations, result.derivative_evaluations);
 }
 
+// At most 100 columns.
 std::string parameter_table_text(const FitResult& result) {
-  std::string text = fmt::format("{:<29}{:<4}{:>12}{:>12}{:>11}  {:<19}{}\n", "parameter", "unit",
-                                 "start", "fitted", "one sigma", "prior", "at bound?");
+  constexpr std::string_view kRow = "{:<29}{:<4}{:>10}{:>11}{:>10} {:<19}{}";
+  std::string text =
+      fmt::format(kRow, "parameter", "unit", "start", "fitted", "one sigma", "prior", "at bound?") +
+      "\n";
   for (const FittedParameter& row : result.parameters) {
     const ParameterInfo& info = parameter_info(row.id);
-    std::string line = fmt::format(
-        "{:<29}{:<4}{:>12}{:>12}{:>11}  {:<19}{}", info.name, info.unit, number(row.start),
-        number(row.fitted), row.free ? number(row.sigma) : "-", prior_text(row), remark(row));
+    std::string line =
+        fmt::format(kRow, info.name, info.unit, number(row.start, 4), number(row.fitted),
+                    row.free ? number(row.sigma, 3) : "-", prior_text(row), remark(row));
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
@@ -82,7 +85,8 @@ std::string sigma_text(const FitResult& result) {
   text +=
       "\"not identifiable\": the data say less about the parameter than its prior (without a "
       "prior: "
-      "than its\nbounds). Parameters at a bound have no sigma and are left out of the matrix.\n";
+      "than its\nbounds). Parameters at a bound have no sigma; those of the others hold with it "
+      "there.\n";
   return text + "\n";
 }
 

@@ -146,6 +146,7 @@ ceres::Solver::Options solver_options(const SolverLimits& limits) {
   options.function_tolerance = limits.function_tolerance;
   options.gradient_tolerance = 1e-10;
   options.parameter_tolerance = 1e-8;
+  options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;  // the time is in the model, which has its own
   return options;

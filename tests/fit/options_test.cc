@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every wrong option or reference is one line that names option, value and constraint.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "fit/fit.h"
+#include "tests/fit/synthetic.h"
+
+namespace skyfit::fit {
+namespace {
+
+using enum Parameter;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string message(const std::function<void(FitOptions&, refs::Reference&)>& spoil) {
+  FitOptions options;
+  options.lobes = 1;
+  options.starts = 1;
+  refs::Reference reference = synthetic_reference(true_atmosphere(1), 0.02);
+  spoil(options, reference);
+  try {
+    fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(OptionsTest, ValidOptionsAreAccepted) {
+  EXPECT_EQ(message([](FitOptions&, refs::Reference&) {}), "no error");
+}
+
+TEST(OptionsTest, CountsAreChecked) {
+  EXPECT_EQ(message([](FitOptions& o, refs::Reference&) { o.starts = 0; }),
+            "fit.starts = 0: must be >= 1");
+  EXPECT_EQ(message([](FitOptions& o, refs::Reference&) { o.max_iterations = -1; }),
+            "fit.max_iterations = -1: must be >= 1");
+  EXPECT_EQ(message([](FitOptions& o, refs::Reference&) { o.lobes = 3; }),
+            "fit.lobes = 3: must be 1 or 2");
+  EXPECT_EQ(message([](FitOptions& o, refs::Reference&) { o.threads = 0; }),
+            "fit.threads = 0: must be >= 1");
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) { o.exclude_sun = -0.1; }),
+              AllOf(HasSubstr("fit.exclude_sun_deg = -5.7"), HasSubstr("must be >= 0")));
+}
+
+TEST(OptionsTest, ParametersThatTheAtmosphereLacksAreRefused) {
+  EXPECT_EQ(message([](FitOptions& o, refs::Reference&) {
+              o.free = std::vector<Parameter>{kMiePhaseG1};
+            }),
+            "fit.free: mie.phase.g1: the atmosphere with one lobe has no such parameter");
+  EXPECT_EQ(message([](FitOptions& o, refs::Reference&) {
+              o.lobes = 2;
+              o.fix[kMiePhaseG] = 0.5;
+            }),
+            "fit.fix: mie.phase.g: the atmosphere with two lobes has no such parameter");
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                o.priors[kMiePhaseG2] = {0.2, 0.1};
+              }),
+              HasSubstr("fit.prior: mie.phase.g2"));
+}
+
+TEST(OptionsTest, ContradictionsAreRefused) {
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                o.free = std::vector<Parameter>{kMiePhaseG};
+                o.fix[kMiePhaseG] = 0.5;
+              }),
+              HasSubstr("fit.free: mie.phase.g: also fixed"));
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                o.priors[kOzoneColumn] = {300, 30};
+              }),
+              HasSubstr("fit.prior: ozone.column: must be free"));
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) { o.free = std::vector<Parameter>{}; }),
+              HasSubstr("fit.free: nothing is free"));
+}
+
+TEST(OptionsTest, ValuesAreChecked) {
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) { o.fix[kMieScattering] = -1; }),
+              AllOf(HasSubstr("fit.fix: "), HasSubstr("-1"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                o.priors[kMiePhaseG] = {0.5, 0};
+              }),
+              HasSubstr("fit.prior: mie.phase.g = 0.5:0: must be a finite mean and a sigma > 0"));
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                o.start = Preset{"thick", true_atmosphere(1), {}};
+                o.start->atmosphere.mie.scattering_per_m.value = 0.1;
+              }),
+              AllOf(HasSubstr("fit.start: mie.scattering = 0.1 1/m"), HasSubstr("1e-07 .. 0.002")));
+}
+
+TEST(OptionsTest, ReferencesThatCannotBeFittedAreRefused) {
+  EXPECT_THAT(message([](FitOptions&, refs::Reference& r) { r.samples.clear(); }),
+              HasSubstr("synthetic: no sample"));
+  EXPECT_THAT(message([](FitOptions&, refs::Reference& r) { r.samples.resize(7); }),
+              AllOf(HasSubstr("synthetic: 7 samples for"), HasSubstr("luminance scale")));
+  EXPECT_THAT(message([](FitOptions&, refs::Reference& r) { r.samples[4].value = 0; }),
+              HasSubstr("synthetic: sample 5: value = 0: must be"));
+  EXPECT_THAT(message([](FitOptions&, refs::Reference& r) {
+                r.samples[7].weight = std::numeric_limits<double>::quiet_NaN();
+              }),
+              HasSubstr("sample 8: weight"));
+  EXPECT_THAT(message([](FitOptions&, refs::Reference& r) { r.samples[3].sigma = 0.1; }),
+              HasSubstr("must be all or none"));
+}
+
+// A coefficient stated at another wavelength is moved to 550 nm before its bounds are asked.
+TEST(OptionsTest, StartAtAnotherWavelengthIsTheSameAtmosphere) {
+  FitOptions options;
+  options.lobes = 1;
+  options.starts = 1;
+  const refs::Reference reference = synthetic_reference(true_atmosphere(1), 0.02);
+  options.start = Preset{"at 550", true_atmosphere(1), {}};
+  const FitResult at_550 =
+      fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
+  PowerLaw<double>& law = options.start->atmosphere.rayleigh.scattering_per_m;
+  law = {440, law.value * std::pow(440.0 / 550, -law.exponent), law.exponent};
+  const FitResult at_440 =
+      fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
+  EXPECT_NEAR(at_440.preset.atmosphere.rayleigh.scattering_per_m.value /
+                  at_550.preset.atmosphere.rayleigh.scattering_per_m.value,
+              1, 1e-9);
+}
+
+}  // namespace
+}  // namespace skyfit::fit

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fit of a sky that the model itself made returns the parameters that made it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fit/fit.h"
+#include "tests/fit/synthetic.h"
+
+namespace skyfit::fit {
+namespace {
+
+using enum Parameter;
+
+const FittedParameter& row_of(const FitResult& result, Parameter id) {
+  for (const FittedParameter& row : result.parameters) {
+    if (row.id == id) return row;
+  }
+  throw std::logic_error("no such row");
+}
+
+FitResult fit_toy(const refs::Reference& reference, const FitOptions& options) {
+  return fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
+}
+
+// The toy cannot tell scale heights from coefficients: they are fixed at the truth.
+FitOptions determined(int lobes) {
+  FitOptions options;
+  options.lobes = lobes;
+  options.use_priors = false;
+  options.fix = {{kRayleighScaleHeight, 8000}, {kMieScaleHeight, 1200}};
+  return options;
+}
+
+class SyntheticFitTest : public testing::TestWithParam<int> {};
+
+// Without noise and priors the residuals vanish and the parameters are the true ones.
+TEST_P(SyntheticFitTest, NoiseFreeSkyReturnsItsParameters) {
+  const Atmosphere<double> truth = true_atmosphere(GetParam());
+  const FitResult result = fit_toy(synthetic_reference(truth, 0), determined(GetParam()));
+  constexpr double kSolverTolerance = 1e-3;  // percent; function_tolerance 1e-7 of a cost near 0
+  EXPECT_LT(result.rms_log_percent, kSolverTolerance);
+  EXPECT_TRUE(result.converged);
+  for (const FittedParameter& row : result.parameters) {
+    if (!row.free) continue;
+    const double expected = get_parameter(truth, row.id);
+    EXPECT_NEAR(row.fitted / expected, 1, 1e-2) << parameter_info(row.id).name;
+  }
+}
+
+// With 2 % noise: the residuals are the noise, and every parameter lies within three sigma.
+TEST_P(SyntheticFitTest, NoisySkyReturnsItsParametersWithinThreeSigma) {
+  const Atmosphere<double> truth = true_atmosphere(GetParam());
+  FitOptions options = determined(GetParam());
+  options.fix[kMieSingleScatteringAlbedo] = 0.93;  // else at its bound, and the sigmas conditional
+  const FitResult result = fit_toy(synthetic_reference(truth, 0.02), options);
+  // 128 samples less 11 unknowns: 2 sqrt(117 / 128) = 1.91, known to 6 %.
+  EXPECT_NEAR(result.rms_log_percent, 1.91, 3 * 0.12);
+  EXPECT_NEAR(result.sigma_log_percent, 2, 0.6);
+  for (const FittedParameter& row : result.parameters) {
+    if (!row.free || row.at_bound) continue;
+    EXPECT_GT(row.sigma, 0) << parameter_info(row.id).name;
+    EXPECT_NEAR(row.fitted, get_parameter(truth, row.id), 3 * row.sigma)
+        << parameter_info(row.id).name;
+  }
+}
+
+// All defaults: priors hold what the toy cannot say, and what it can is still found.
+TEST_P(SyntheticFitTest, DefaultPriorsHoldWhatTheSkyCannotSay) {
+  const Atmosphere<double> truth = true_atmosphere(GetParam());
+  FitOptions options;
+  options.lobes = GetParam();
+  const FitResult result = fit_toy(synthetic_reference(truth, 0.01), options);
+  EXPECT_LT(result.rms_log_percent, 1.1);
+  EXPECT_FALSE(row_of(result, kMieScaleHeight).identifiable);
+  EXPECT_NEAR(row_of(result, kMieScaleHeight).sigma, 500, 50);
+  EXPECT_TRUE(row_of(result, GetParam() == 2 ? kMiePhaseG1 : kMiePhaseG).identifiable);
+  for (const FittedParameter& row : result.parameters) {
+    if (!row.free || row.at_bound) continue;
+    EXPECT_NEAR(row.fitted, get_parameter(truth, row.id), 3 * row.sigma)
+        << parameter_info(row.id).name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lobes, SyntheticFitTest, testing::Values(1, 2));
+
+// A start with the labels exchanged ends with g1 > g2 and the weight of g1.
+TEST(LabelTest, ForwardLobeIsTheFirst) {
+  const Atmosphere<double> truth = true_atmosphere(2);
+  FitOptions options = determined(2);
+  options.starts = 1;
+  options.start = Preset{"exchanged", truth, {}};
+  AerosolPhase<double>& phase = options.start->atmosphere.mie.phase;
+  std::swap(phase.g1, phase.g2);
+  phase.weight = 1 - phase.weight;
+  const FitResult result = fit_toy(synthetic_reference(truth, 0), options);
+  EXPECT_NEAR(row_of(result, kMiePhaseG1).fitted, 0.75, 1e-3);
+  EXPECT_NEAR(row_of(result, kMiePhaseG2).fitted, 0.3, 1e-3);
+  EXPECT_NEAR(row_of(result, kMiePhaseWeight).fitted, 0.4, 1e-3);
+  EXPECT_EQ(row_of(result, kMiePhaseG1).start, 0.3);
+}
+
+// An albedo below 0 would fit best: the fit stops at the bound, says so, and gives it no sigma.
+TEST(BoundTest, FitStopsAtTheBound) {
+  const Atmosphere<double> truth = true_atmosphere(1);
+  refs::Reference reference = synthetic_reference(truth, 0);
+  Atmosphere<double> without_ground = truth;
+  without_ground.ground_albedo = 0;
+  const refs::Reference dark = synthetic_reference(without_ground, 0);
+  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
+    reference.samples[i].value = 1.5 * dark.samples[i].value - 0.5 * reference.samples[i].value;
+  }
+  FitOptions options = determined(1);
+  options.free = std::vector<Parameter>{kGroundAlbedo, kMiePhaseG};
+  options.fix[kMieScattering] = 1.2e-4;
+  options.fix[kRayleighScattering] = 1.25e-5;
+  const FitResult result = fit_toy(reference, options);
+  const FittedParameter& albedo = row_of(result, kGroundAlbedo);
+  EXPECT_EQ(albedo.fitted, 0);
+  EXPECT_TRUE(albedo.at_bound);
+  EXPECT_TRUE(std::isnan(albedo.sigma));
+  EXPECT_THAT(result.covariance_parameters, testing::ElementsAre(kMiePhaseG));
+  EXPECT_GT(row_of(result, kMiePhaseG).sigma, 0);
+}
+
+// Derivatives are evaluated at most once per iteration and nothing is evaluated twice at one point.
+TEST(EconomyTest, ModelIsPreparedOncePerStep) {
+  const ToySky model;
+  FitOptions options = determined(2);
+  const FitResult result = fit_atmosphere(synthetic_reference(true_atmosphere(2), 0.02),
+                                          refs::standard_spectral_data(), model, options);
+  EXPECT_EQ(model.value_calls, result.model_evaluations);
+  EXPECT_EQ(model.derivative_calls, result.derivative_evaluations);
+  const int solves = static_cast<int>(result.starts.size()) + 4;
+  EXPECT_LE(model.derivative_calls, result.iterations + 2 * solves);
+}
+
+// The result does not depend on how many starts are solved at once.
+TEST(ThreadTest, ResultDoesNotDependOnThreads) {
+  const refs::Reference reference = synthetic_reference(true_atmosphere(2), 0.02);
+  FitOptions options = determined(2);
+  options.threads = 1;
+  const FitResult one = fit_toy(reference, options);
+  options.threads = 3;
+  const FitResult three = fit_toy(reference, options);
+  for (std::size_t i = 0; i < one.parameters.size(); ++i) {
+    EXPECT_EQ(one.parameters[i].fitted, three.parameters[i].fitted);
+  }
+}
+
+}  // namespace
+}  // namespace skyfit::fit
