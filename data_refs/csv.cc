@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -21,7 +22,10 @@ std::string_view trimmed(std::string_view text) {
 }
 
 [[noreturn]] void fail(std::string_view source, int line, std::string_view message) {
-  throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, message));
+  std::string printable(message);
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  std::replace_if(printable.begin(), printable.end(), is_control, '?');
+  throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, printable));
 }
 
 // Reads the quoted field at the front of `rest` and removes it, up to the comma or the end.

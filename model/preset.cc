@@ -160,7 +160,8 @@ std::string preset_to_json(const Preset& preset) {
        {{"column_du", a.ozone.column_du}, {"profile", name_of(a.ozone.profile, kOzoneProfiles)}}},
       {"ground", {{"albedo", a.ground_albedo}}}};
   if (!preset.fit.is_null()) root["fit"] = preset.fit;
-  return root.dump(2) + "\n";
+  // A name that is not UTF-8 is written with replacement characters.
+  return root.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 Preset load_preset(const std::filesystem::path& file) {

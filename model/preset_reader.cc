@@ -16,6 +16,12 @@ namespace {
 
 using nlohmann::json;
 
+// A name as it stands in a message: control characters escaped as JSON does.
+std::string printable(std::string_view name) {
+  const std::string quoted = json(name).dump(-1, ' ', false, json::error_handler_t::replace);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 // Hands characters to the parser and counts the lines that it has read, which the library does not
 // tell.
 class CountingIterator {
@@ -54,14 +60,14 @@ class FieldTracker {
     switch (event) {
       case json::parse_event_t::object_start:
       case json::parse_event_t::array_start:
-        open_.push_back({});
+        open();
         break;
       case json::parse_event_t::object_end:
       case json::parse_event_t::array_end:
         open_.pop_back();
         break;
       case json::parse_event_t::key:
-        enter(parsed.get<std::string>());
+        enter(printable(parsed.get<std::string>()));
         break;
       case json::parse_event_t::value:
         break;
@@ -76,6 +82,15 @@ class FieldTracker {
     std::string key;  // the field being read; empty in an array
     std::set<std::string> seen;
   };
+
+  void open() {
+    constexpr std::size_t kDeepest = 64;  // guards the stack: the library writes values recursively
+    if (open_.size() == kDeepest) {
+      throw std::invalid_argument(
+          fmt::format("{}:{}: expected at most {} nested values", source_, *line_, kDeepest));
+    }
+    open_.push_back({});
+  }
 
   void enter(const std::string& key) {
     open_.back().key = key;
@@ -183,7 +198,7 @@ void PresetReader::fail_value(std::string_view field, std::string_view expectati
 }
 
 std::string PresetReader::path_of(std::string_view field) const {
-  return path_.empty() ? std::string(field) : fmt::format("{}.{}", path_, field);
+  return path_.empty() ? printable(field) : fmt::format("{}.{}", path_, printable(field));
 }
 
 const json& PresetReader::member(std::string_view field, std::string_view expectation) const {

@@ -41,6 +41,7 @@ TEST(Csv, FaultsNameTheirLine) {
   EXPECT_EQ(complaint("a,b\n1,2\n3\n"), "t.csv:3: expected 2 fields, got 1");
   EXPECT_EQ(complaint("a,b\n1,2,3\n"), "t.csv:2: expected 2 fields, got 3");
   EXPECT_EQ(complaint("a,a\n"), "t.csv:1: column a: expected once, found twice");
+  EXPECT_EQ(complaint("a\n\x1b[2J\n"), "t.csv:2: a = \"?[2J\": expected a finite number");
   EXPECT_EQ(complaint("a,\n"), "t.csv:1: column 2 has no name");
   EXPECT_EQ(complaint("a\n\"1\n"), "t.csv:2: expected a closing quote before the end of the line");
   EXPECT_EQ(complaint("a\n\"1\"2\n"), "t.csv:2: expected a comma after a closing quote");

@@ -109,6 +109,11 @@ TEST(Preset, UnknownNameIsNamedWithItsFullPath) {
               StartsWith("my.json:16: grounds: unknown name"));
 }
 
+TEST(Preset, UnknownNameIsOneLineWhateverItHolds) {
+  EXPECT_EQ(complaint(with("\"g\": 0.76", "\"g\": 0.76, \"\\n\": 1")),
+            "my.json:13: mie.phase.\\n: unknown name, expected one of type, g");
+}
+
 TEST(Preset, PhaseHasExactlyTheFieldsOfItsType) {
   EXPECT_EQ(complaint(with("cornette-shanks", "two-lobe")),
             "my.json:13: mie.phase.g: unknown name, expected one of type, g1, g2, weight");
@@ -165,6 +170,18 @@ TEST(Preset, BrokenJsonNamesTheLine) {
   EXPECT_THAT(complaint(""), StartsWith("my.json:1: expected JSON"));
   EXPECT_THAT(complaint(std::string(kText.substr(0, 200))), StartsWith("my.json:6: expected JSON"));
   EXPECT_THAT(complaint(std::string(kText) + "x"), StartsWith("my.json:18: expected JSON"));
+}
+
+TEST(Preset, EndlessNestingIsRefused) {
+  EXPECT_EQ(complaint(std::string(100000, '[')), "my.json:1: expected at most 64 nested values");
+  EXPECT_THAT(complaint(with("\"test\"", std::string(70, '[') + std::string(70, ']'))),
+              StartsWith("my.json:3: expected at most 64 nested values"));
+}
+
+TEST(Preset, NameThatIsNotUtf8IsWrittenAsReadableText) {
+  Preset preset;
+  preset.name = "a\xff";
+  EXPECT_EQ(parse_preset(preset_to_json(preset), "my.json").name, "a\xef\xbf\xbd");
 }
 
 TEST(LoadPreset, FileThatCannotBeReadIsNamed) {
