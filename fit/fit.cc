@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -22,6 +23,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNodes = 4;                  // of the luminance rule; 0.001 % (physics: photometry.h)
 constexpr int kCoarseNodes = 2;            // while searching among the starts
+constexpr int kCoarseIterations = 15;      // what does not settle by then is compared as it is
 constexpr double kCoarseTolerance = 1e-3;  // relative change of the cost
 constexpr double kTolerance = 1e-7;
 constexpr double kNoiseAgrees = 0.05;  // relative change of sigma_log that is not worth a refit
@@ -113,7 +115,8 @@ Solution search(const Task& task, FitResult& result) {
   const double sigma_log = task.observations.has_sigma ? 1 : kFirstSigmaLog;
   MultiStart searched = solve_from(
       task.starts, task.problem(task.coarse_rule, sigma_log),
-      {task.options.max_iterations, kCoarseTolerance}, task.options.threads, [&](double share) {
+      {std::min(task.options.max_iterations, kCoarseIterations), kCoarseTolerance},
+      task.options.threads, [&](double share) {
         task.report(0.7 * share, fmt::format("{:.0f} of {} starts",
                                              share * static_cast<double>(task.starts.size()),
                                              task.starts.size()));

@@ -52,7 +52,7 @@ std::string header(const FitResult& result) {
 
 // At most 100 columns.
 std::string parameter_table_text(const FitResult& result) {
-  constexpr std::string_view kRow = "{:<29}{:<4}{:>10}{:>11}{:>10} {:<19}{}";
+  constexpr std::string_view kRow = "{:<29}{:<4}{:>9}{:>11}{:>10} {:<20}{}";
   std::string text =
       fmt::format(kRow, "parameter", "unit", "start", "fitted", "one sigma", "prior", "at bound?") +
       "\n";
@@ -88,6 +88,20 @@ std::string sigma_text(const FitResult& result) {
       "than its\nbounds). Parameters at a bound have no sigma; those of the others hold with it "
       "there.\n";
   return text + "\n";
+}
+
+// A prior that the misfit overrides: the parameter is neither known nor at its prior.
+std::string pulled_text(const FitResult& result) {
+  constexpr double kPulled = 2;  // prior sigmas
+  std::string text;
+  for (const FittedParameter& row : result.parameters) {
+    if (!row.free || !row.prior || row.identifiable) continue;
+    const double pull = (row.fitted - row.prior->mean) / row.prior->sigma;
+    if (std::abs(pull) < kPulled) continue;
+    text += fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there.\n",
+                        parameter_info(row.id).name, pull);
+  }
+  return text.empty() ? text : text + "\n";
 }
 
 std::string correlation_text(const FitResult& result) {
@@ -168,7 +182,7 @@ std::string brief_report(const FitResult& result) {
 }
 
 std::string full_report(const FitResult& result) {
-  return header(result) + parameter_table_text(result) + sigma_text(result) +
+  return header(result) + parameter_table_text(result) + sigma_text(result) + pulled_text(result) +
          correlation_text(result) + rms_text(result) + starts_text(result) + derived_text(result) +
          fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }

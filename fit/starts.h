@@ -15,7 +15,7 @@ struct Start {
   Atmosphere<double> atmosphere;
 };
 
-// At most `count` different starts; one when no phase parameter is free. With `own_first` the first
+// `count` starts; one when no phase parameter is free. With `own_first` the first
 // one is the atmosphere as it is. Beyond the list a low-discrepancy sequence continues it.
 std::vector<Start> choose_starts(const Atmosphere<double>& atmosphere,
                                  const std::vector<FreeParameter>& parameters, int count,
