@@ -28,7 +28,7 @@ int fail(int status, std::string message) {
 
 void add_commands(CLI::App& app) {
   app.set_version_flag("--version", std::string("skyfit ") + kVersion);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // none at all is refused by run(), with a better message
   app.get_formatter()->column_width(34);
   add_presets_command(app);
   add_references_command(app);
@@ -45,6 +45,8 @@ int run(int argc, char** argv) {
   add_commands(app);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty())
+      return fail(kUsage, "expected a command (see skyfit --help)");
     finish_stdout();
     return kSuccess;
   } catch (const CLI::Success& help_or_version) {

@@ -31,5 +31,6 @@ bool is_shipped_reference(const std::string& name);
 
 // Threads to use when the user names no number: those of the machine.
 int default_threads();
+void add_threads_option(CLI::App& command, int& threads);
 
 }  // namespace skyfit::cli

@@ -57,6 +57,7 @@ class StagingDirectory {
 
 // The path without trailing slash, dot or link.
 fs::path resolved(const fs::path& path) {
+  if (path.empty()) throw std::runtime_error("--out \"\": expected a name");
   const fs::path absolute = fs::weakly_canonical(fs::absolute(path));
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
@@ -95,7 +96,6 @@ void require_writable_file(const fs::path& file) {
 
 ResultDirectory::ResultDirectory(fs::path directory, std::vector<std::string> names, bool force)
     : shown_(std::move(directory)), directory_(resolved(shown_)), names_(std::move(names)) {
-  if (shown_.empty()) throw std::runtime_error("--out \"\": expected the name of a directory");
   if (fs::exists(directory_)) {
     if (!fs::is_directory(directory_)) fail(shown_, "expected a directory, this is a file");
     const std::string foreign = foreign_file(directory_, names_);

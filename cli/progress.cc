@@ -32,8 +32,10 @@ Progress::~Progress() {
 }
 
 void Progress::show(double fraction, std::string_view status) {
+  if (!terminal_) return;
+  const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || now < next_) return;
+  if (now < next_) return;
   next_ = now + kInterval;
   const int done = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * kBarWidth);
   std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {}", task_, "", done, "",

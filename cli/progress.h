@@ -3,7 +3,7 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -16,12 +16,13 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // fraction 0..1; drawn at most ten times a second.
+  // fraction 0..1; drawn at most ten times a second. May be called from several threads.
   void show(double fraction, std::string_view status = {});
 
  private:
   std::string task_;
   bool terminal_;
+  std::mutex mutex_;
   std::chrono::steady_clock::time_point next_;
 };
 

@@ -220,9 +220,7 @@ void add_sky_command(CLI::App& app) {
                  "directions): illuminance in lx,\n"
                  "or W m^-2 nm^-1 with --wavelength-nm")
       ->excludes(luminance);
-  command->add_option("--threads", options->threads, "Threads")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_threads_option(*command, options->threads);
   command->footer(
       "Examples:\n"
       "  skyfit sky --preset earth-clear --sun-zenith-deg 30 --view-zenith-deg 0:85:5 "

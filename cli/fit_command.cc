@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit fit`: fits an atmosphere to a reference and leaves preset, reports, samples and figure in
+// a directory.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "data_refs/spectra.h"
+#include "fit/fit.h"
+#include "render/plot/evaluate.h"
+#include "render/plot/results.h"
+
+namespace skyfit::cli {
+namespace {
+
+// The files of a result, and nothing else.
+constexpr const char *kPresetFile = "preset.json", *kReportFile = "report.json",
+                     *kReportTextFile = "report.txt", *kSamplesFile = "samples.csv";
+constexpr const char* kFigureFiles[] = {"comparison.svg", "comparison.png"};
+
+struct FitCommandOptions {
+  std::string reference, sampling = "principal", sun_zenith = "0:80:10", model = "reference";
+  std::string free, preset, out, exclude_sun = "3";
+  std::vector<std::string> fix, prior;
+  int lobes = 2, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
+      threads = default_threads();
+  bool no_priors = false, force = false, json = false;
+};
+
+fit::FitOptions fit_options(const FitCommandOptions& options) {
+  fit::FitOptions result;
+  result.lobes = options.lobes;
+  result.starts = options.starts;
+  result.max_iterations = options.max_iterations;
+  result.exclude_sun = radians(parse_number("--exclude-sun-deg", options.exclude_sun));
+  result.threads = options.threads;
+  if (!options.preset.empty()) result.start = preset_named(options.preset);
+  if (!options.free.empty()) result.free = parse_parameters("--free", options.free);
+  result.fix = parse_fixed("--fix", options.fix);
+  result.priors = parse_priors("--prior", options.prior);
+  result.use_priors = !options.no_priors;
+  fit::validate(result);
+  return result;
+}
+
+void write_result(const std::filesystem::path& directory, const refs::Reference& reference,
+                  const SkyModel& model, const fit::FitOptions& options,
+                  const fit::FitResult& result) {
+  write_text(directory / kPresetFile, preset_to_json(result.preset));
+  write_text(directory / kReportFile, fit::report_json(result).dump(2) + "\n");
+  write_text(directory / kReportTextFile, fit::full_report(result));
+  const auto samples =
+      plot::compared_samples(reference, {result.fitted_model, result.scale},
+                             {result.start_model, result.start_scale}, options.exclude_sun);
+  plot::write_samples_csv(directory / kSamplesFile, samples);
+  const plot::FitOutcome outcome{directory.string(), result.preset, samples};
+  plot::write_comparison(plot::comparison_of({&outcome, 1}, refs::standard_spectral_data(), model),
+                         {directory / kFigureFiles[0], directory / kFigureFiles[1]});
+}
+
+fit::FitResult fit_with_progress(const refs::Reference& reference, const SkyModel& model,
+                                 fit::FitOptions options) {
+  Progress progress("fitting " + reference.name);
+  options.progress = [&](double fraction, const std::string& status) {
+    progress.show(fraction, status);
+  };
+  return fit::fit_atmosphere(reference, refs::standard_spectral_data(), model, options);
+}
+
+void run_fit(const FitCommandOptions& options) {
+  const ResultDirectory out(
+      options.out,
+      {kPresetFile, kReportFile, kReportTextFile, kSamplesFile, kFigureFiles[0], kFigureFiles[1]},
+      options.force);
+  const fit::FitOptions how = fit_options(options);
+  const refs::Reference reference = refs::load_reference(
+      options.reference, parse_sun_zeniths(options.sun_zenith), parse_sampling(options.sampling));
+  const auto model = make_sky_model(options.model, options.threads);
+  const fit::FitResult result = fit_with_progress(reference, *model, how);
+  out.publish([&](const std::filesystem::path& staging) {
+    write_result(staging, reference, *model, how, result);
+  });
+  if (!result.converged) {
+    fmt::print(stderr, "skyfit: warning: the fit stopped before it converged: {}\n",
+               result.termination);
+  }
+  print(options.json ? fit::report_json(result).dump(2) + "\n" : fit::brief_report(result) + "\n");
+}
+
+void add_problem_options(CLI::App& command, FitCommandOptions& options) {
+  command.add_option("--lobes", options.lobes, "Lobes of the aerosol's phase function: 1 or 2")
+      ->capture_default_str();
+  command.add_option("--starts", options.starts, "Starts of the phase parameters")
+      ->capture_default_str();
+  command.add_option("--max-iterations", options.max_iterations, "Iterations of one start")
+      ->capture_default_str();
+  command.add_option("--free", options.free, "The free parameters, exactly these")
+      ->type_name("NAME,NAME");
+  command.add_option("--fix", options.fix, "Hold parameters at a value")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--prior", options.prior, "Gaussian prior, in the place of the default one")
+      ->type_name("NAME=MEAN:SIGMA")
+      ->allow_extra_args(false);
+  command.add_flag("--no-priors", options.no_priors, "Drop the default priors");
+  command.add_option("--preset", options.preset, "Start from this preset")->type_name("FILE|NAME");
+  command
+      .add_option("--exclude-sun-deg", options.exclude_sun, "Leave out samples closer to the sun")
+      ->type_name("ANGLE")
+      ->capture_default_str();
+}
+
+std::string parameter_list() {
+  std::string text = "Parameters of --free, --fix and --prior:\n";
+  for (const ParameterInfo& info : parameter_table()) {
+    text += fmt::format("  {:<32}{} ({}){}\n", info.name, info.meaning, info.unit,
+                        info.free_by_default ? ", free" : "");
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app) {
+  const auto options = std::make_shared<FitCommandOptions>();
+  CLI::App* const command = app.add_subcommand(
+      "fit",
+      "Fits an atmosphere to a reference. Leaves preset.json, report.txt, report.json, "
+      "samples.csv, comparison.svg and\n"
+      "comparison.png in the directory. A LIST is a,b,c or start:stop:step, stop included.");
+  command
+      ->add_option("--reference", options->reference,
+                   "Shipped reference (skyfit references) or a CSV of samples")
+      ->required()
+      ->type_name("NAME|FILE");
+  add_sampling_options(*command, options->sampling, options->sun_zenith);
+  add_problem_options(*command, *options);
+  command->add_option("--model", options->model, "Sky model")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "Directory of the result")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--force", options->force,
+                    "Write into a directory that holds other files; they stay");
+  command->add_flag("--json", options->json, "Print report.json to stdout");
+  add_threads_option(*command, options->threads);
+  command->footer(
+      parameter_list() +
+      "\nExamples:\n"
+      "  skyfit fit --reference cie:12 --out fitted\n"
+      "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted");
+  command->callback([options] { run_fit(*options); });
+}
+
+}  // namespace skyfit::cli

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit render`: a frame of the planet under a preset's atmosphere.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "data_refs/spectra.h"
+#include "model/tables.h"
+#include "render/plot/whole_files.h"
+#include "render/render.h"
+
+namespace skyfit::cli {
+namespace {
+
+constexpr double kTablesShare = 0.8;  // of the time that a frame takes
+
+struct RenderOptions {
+  std::string preset, view = "ground", size = "1280x720", sun_zenith;
+  std::string altitude, view_zenith, azimuth, field_of_view, exposure = "0";
+  std::vector<std::string> out;
+  int samples_per_side = FrameOptions{}.samples_per_side, threads = default_threads();
+};
+
+double parse_angle(std::string_view option, const std::string& text, double lower, double upper) {
+  const auto values = parse_list_within(option, text, lower, upper, "an angle in degrees");
+  if (values.size() != 1) throw UsageError(option, text, "expected one angle in degrees");
+  return radians(values.front());
+}
+
+FrameOptions frame_options(const RenderOptions& options) {
+  const NamedView& view = find_view(options.view);
+  const ImageSize size = parse_image_size("--size", options.size);
+  FrameOptions frame;
+  frame.width = size.width;
+  frame.height = size.height;
+  frame.camera = view.camera;
+  frame.sun_zenith = view.sun_zenith;
+  frame.samples_per_side = options.samples_per_side;
+  if (!options.sun_zenith.empty())
+    frame.sun_zenith = parse_angle("--sun-zenith-deg", options.sun_zenith, 0, 180);
+  if (!options.altitude.empty())
+    frame.camera.altitude_m = parse_number("--altitude-m", options.altitude);
+  if (!options.view_zenith.empty()) {
+    frame.camera.view_zenith = parse_angle("--view-zenith-deg", options.view_zenith, 0, 180);
+  }
+  if (!options.azimuth.empty())
+    frame.camera.azimuth = parse_angle("--azimuth-deg", options.azimuth, -360, 360);
+  if (!options.field_of_view.empty()) {
+    frame.camera.vertical_fov = parse_angle("--field-of-view-deg", options.field_of_view, 0.1, 170);
+  }
+  validate(frame);
+  return frame;
+}
+
+void check_outputs(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension != ".png" && extension != ".exr") {
+      throw UsageError("--out", file, "expected a name that ends in .png or .exr");
+    }
+    require_writable_file(file);
+  }
+}
+
+Frame draw(const Preset& preset, const FrameOptions& frame, int threads) {
+  Progress progress("rendering");
+  const AtmosphereTables tables = compute_tables(
+      preset.atmosphere, color_rule(refs::standard_spectral_data()), TableSizes{}, threads,
+      [&](double done) { progress.show(kTablesShare * done, "tables of the atmosphere"); });
+  return render_frame(preset, tables, frame, [&](double done) {
+    progress.show(kTablesShare + (1 - kTablesShare) * done, "frame");
+  });
+}
+
+void run_render(const RenderOptions& options) {
+  const FrameOptions frame_size = frame_options(options);
+  const ToneOptions tone{parse_number("--exposure-stops", options.exposure)};
+  check_outputs(options.out);
+  const Frame frame = draw(preset_named(options.preset), frame_size, options.threads);
+  plot::WholeFiles files(
+      std::vector<std::filesystem::path>(options.out.begin(), options.out.end()));
+  for (std::size_t i = 0; i < options.out.size(); ++i) {
+    if (files.temporary(i).extension() == ".exr") {
+      write_exr(frame, files.temporary(i));
+    } else {
+      write_png(frame, files.temporary(i), tone);
+    }
+  }
+  files.commit();
+}
+
+void add_camera_options(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option("--sun-zenith-deg", options.sun_zenith,
+                  "Sun zenith angle, 0 to 180; by default one that suits the view")
+      ->type_name("ANGLE");
+  command
+      .add_option("--altitude-m", options.altitude, "Height of the camera, instead of the view's")
+      ->type_name("LENGTH");
+  command
+      .add_option("--view-zenith-deg", options.view_zenith,
+                  "Zenith angle of the picture's centre, instead of the view's")
+      ->type_name("ANGLE");
+  command
+      .add_option("--azimuth-deg", options.azimuth,
+                  "Azimuth of the picture's centre, 0 = toward the sun")
+      ->type_name("ANGLE");
+  command.add_option("--field-of-view-deg", options.field_of_view, "Vertical field of view")
+      ->type_name("ANGLE");
+}
+
+std::string view_list() {
+  std::string text = "Views:\n";
+  for (const NamedView& view : named_views()) {
+    text += fmt::format("  {:<10}{} (sun zenith {:.4g} deg)\n", view.name, view.meaning,
+                        degrees(view.sun_zenith));
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* const command =
+      app.add_subcommand("render",
+                         "Renders a planet under the preset's atmosphere. OpenEXR holds linear "
+                         "cd/m^2, directions and depth; PNG is\n"
+                         "tone-mapped. Needs neither a display nor a GPU.");
+  command->add_option("--preset", options->preset, "Shipped preset or preset file")
+      ->required()
+      ->type_name("FILE|NAME");
+  command->add_option("--view", options->view, "Where the camera stands")
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_camera_options(*command, *options);
+  command->add_option("--size", options->size, "Size in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command
+      ->add_option("--samples-per-side", options->samples_per_side,
+                   "A pixel is the mean of the square of this, 1 to 4")
+      ->capture_default_str();
+  command->add_option("--exposure-stops", options->exposure, "Brightens the PNG by powers of two")
+      ->type_name("STOPS")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "frame.png or frame.exr; may be repeated")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  add_threads_option(*command, options->threads);
+  command->footer(view_list() +
+                  "\nExample: skyfit render --preset earth-clear --view ground --sun-zenith-deg 60 "
+                  "--size 1280x720\n"
+                  "           --out frame.png --out frame.exr");
+  command->callback([options] { run_render(*options); });
+}
+
+}  // namespace skyfit::cli
