@@ -61,7 +61,7 @@ void draw_titles(Script& script, const Comparison& comparison, const Suns& suns,
                  const Layout& layout) {
   const Box& panels = layout.panels.area;
   script.begin_axes({0, 0, layout.width, layout.height});
-  script.text_label(16, layout.height - 24, comparison.title, "left font ':Bold,17'");
+  script.text_label(16, layout.height - 24, comparison.title, "left font ',18'");
   std::string subtitle = comparison.subtitle;
   if (suns.total > suns.shown.size())
     subtitle += fmt::format("{}{} of {} sun positions shown", subtitle.empty() ? "" : "; ",
@@ -89,13 +89,15 @@ void draw_titles(Script& script, const Comparison& comparison, const Suns& suns,
 std::string terminal(const std::string& extension, const Layout& layout) {
   if (extension == ".svg")
     return fmt::format(
-        "svg size {:.0f},{:.0f} dynamic font 'DejaVu Sans,12' background '#ffffff' name 'skyfit'",
+        "svg size {:.0f},{:.0f} dynamic font 'DejaVu Sans,9' fontscale 1.333 background '#ffffff' "
+        "name 'skyfit'",
         layout.width, layout.height);
   if (extension == ".png")
     return fmt::format("pngcairo size {:.0f},{:.0f} font 'DejaVu Sans,9' background '#ffffff'",
                        layout.width, layout.height);
   return fmt::format(
-      "pdfcairo size {:.9g}in,{:.9g}in font 'DejaVu Sans,12' fontscale 0.72 background '#ffffff'",
+      "pdfcairo size {:.9g}in,{:.9g}in font 'DejaVu Sans,9' fontscale 0.72 linewidth 1.7 "
+      "background '#ffffff'",
       layout.width / kPixelsPerInch, layout.height / kPixelsPerInch);
 }
 

@@ -124,10 +124,10 @@ void draw_scale(Script& script, const Box& box, double limit_percent) {
   script.line(
       "set xtics {:.9g} scale 0.5 nomirror format '%g' textcolor rgb '#202020' offset 0,0.3",
       limit_percent / 2);
-  script.text_label(box.left + box.width / 2, box.bottom - 40,
-                    "residual 100 ln(model / reference), %     blue: model too dark    red: too "
-                    "bright    grey: left out",
-                    "center font ',12'");
+  script.text_label(
+      box.left + box.width / 2, box.bottom - 40,
+      "100 ln(model / reference), %   blue: too dark, red: too bright, grey: left out",
+      "center font ',12'");
   script.line("plot NaN notitle");
 }
 

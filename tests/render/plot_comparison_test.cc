@@ -57,7 +57,7 @@ TEST_F(PlotTest, TextOfTheFigureIsComplete) {
   const std::string svg = bytes_of(folder_ / "c.svg");
   EXPECT_THAT(svg, HasSubstr("with 'quotes', {braces}, $dollars and a \\ backslash"));
   for (const char* text : {"sun zenith 0°", "sun zenith 80°", "view zenith", "zenith luminance",
-                           "fitted", "reference", "residual", "4.0"})
+                           "fitted", "reference", "ln(model / reference)", "4.0"})
     EXPECT_THAT(svg, HasSubstr(text));
   EXPECT_THAT(svg, ::testing::Not(HasSubstr("start values"))) << "there are none";
 }
