@@ -1,23 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install`: the program, one library per room, their headers, and a package for find_package(skyfit), whose
-# targets are skyfit::model, skyfit::refs, skyfit::fit, skyfit::render and skyfit::plot.
+# `cmake --install`: the program, the module that it renders with, one library per room, their headers, and a package for
+# find_package(skyfit), whose targets are skyfit::model, skyfit::refs, skyfit::fit, skyfit::render and skyfit::plot.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/skyfit)
 
-foreach(room model refs fit render plot)
-  if(TARGET skyfit_${room})
-    install(TARGETS skyfit_${room} EXPORT skyfit_targets)
-  endif()
-endforeach()
-if(TARGET skyfit)
-  install(TARGETS skyfit)
-endif()
+install(TARGETS skyfit_model skyfit_refs skyfit_fit skyfit_render skyfit_plot EXPORT skyfit_targets)
+install(TARGETS skyfit)
+install(TARGETS skyfit_render_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/skyfit)
 install(EXPORT skyfit_targets NAMESPACE skyfit:: FILE skyfit_targets.cmake DESTINATION ${package_dir})
 
 install(DIRECTORY model data_refs fit render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/skyfit
   FILES_MATCHING PATTERN "*.h" PATTERN "model/shared/*.glsl")
 install(FILES ${PROJECT_BINARY_DIR}/generated/model/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/skyfit/model)
+install(DIRECTORY data_refs/presets DESTINATION ${CMAKE_INSTALL_DATADIR}/skyfit FILES_MATCHING PATTERN "*.json")
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/skyfit_config.cmake.in

@@ -19,6 +19,12 @@ if(NOT run_output STREQUAL "skyfit ${VERSION}\n")
   message(FATAL_ERROR "the installed skyfit --version prints \"${run_output}\", expected \"skyfit ${VERSION}\"")
 endif()
 
+# The installed program finds the module that it renders with.
+run(${prefix}/bin/skyfit render --preset earth-clear --size 32x18 --samples-per-side 1 --out ${WORK_DIR}/frame.exr)
+if(NOT EXISTS ${WORK_DIR}/frame.exr)
+  message(FATAL_ERROR "the installed skyfit render left no frame")
+endif()
+
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK_DIR}/build -G Ninja -D CMAKE_PREFIX_PATH=${prefix}
   -D CMAKE_CXX_FLAGS=${CXX_FLAGS} -D CMAKE_CXX_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
