@@ -86,7 +86,7 @@ double fractal_noise(const glm::dvec3& x, double longest, double shortest) {
 }
 
 double ridged_noise(const glm::dvec3& x, double longest, double shortest) {
-  double sum = 0, gain = 1;
+  double sum = 0, gain = 1, present = 0;
   for_octaves(longest, shortest, [&](double wavelength, double amplitude) {
     if (amplitude <= 0) return;
     const double crest =
@@ -94,8 +94,11 @@ double ridged_noise(const glm::dvec3& x, double longest, double shortest) {
     const double ridge = crest * crest * gain;
     gain = std::clamp(1.8 * ridge, 0.0, 1.0);
     sum += amplitude * ridge;
+    present += amplitude;
   });
-  return 0.6 * sum;
+  // Seen from afar the ranges keep their mean height.
+  constexpr double kMean = 0.45;
+  return 0.6 * (sum + kMean * std::max(1 - present, 0.0));
 }
 
 }  // namespace skyfit

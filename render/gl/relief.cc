@@ -15,8 +15,9 @@ constexpr double kEarthRadius = 6360e3;
 constexpr double kMountainHeight = 4200;
 constexpr double kHillHeight = 260;
 constexpr double kPlainHeight = 25;
-constexpr double kRoughness = 0.3;  // of the plain at the site
-constexpr double kFinest = 0.1;     // no detail below, m
+constexpr double kRoughness = 0.15;  // of the plain at the site
+constexpr double kShore = 0.0015;    // of land_value(): a coast some 8 km wide
+constexpr double kFinest = 0.1;      // no detail below, m
 
 double smoothstep(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -31,13 +32,21 @@ NodeValues mix(const NodeValues& a, const NodeValues& b, double t) {
 
 // Relative reflectances at about 460, 530, 590 and 660 nm; only their ratios matter.
 constexpr NodeValues kSea = {0.62, 0.50, 0.36, 0.30};
-constexpr NodeValues kGrass = {0.42, 0.95, 0.82, 0.66};
-constexpr NodeValues kSteppe = {0.85, 1.35, 1.60, 1.70};
-constexpr NodeValues kRock = {1.15, 1.30, 1.42, 1.50};
-constexpr NodeValues kSnow = {5.2, 5.2, 5.1, 5.0};
+constexpr NodeValues kGrass = {0.38, 0.86, 0.72, 0.56};
+constexpr NodeValues kSteppe = {0.70, 1.08, 1.28, 1.38};
+constexpr NodeValues kRock = {0.95, 1.08, 1.18, 1.25};
+constexpr NodeValues kSnow = {3.6, 3.6, 3.55, 3.5};
+
+// The ranges do not follow the lattice of the noise.
+glm::dvec3 bend(const glm::dvec3& p) {
+  constexpr double kLength = 55e3, kStrength = 14e3;
+  const glm::dvec3 q = p / kLength;
+  return kStrength * glm::dvec3(gradient_noise(q), gradient_noise(q + glm::dvec3(17.3, 5.1, 9.7)),
+                                gradient_noise(q + glm::dvec3(3.9, 31.7, 12.2)));
+}
 
 double land_value(const glm::dvec3& p, double resolution) {
-  return fractal_noise(p + glm::dvec3(1.7e6), 5.2e6, std::max(resolution, 2e3)) + 0.02;
+  return fractal_noise(p + glm::dvec3(1.7e6), 5.2e6, std::max(resolution, 500.0)) - 0.02;
 }
 
 glm::dvec3 fibonacci_direction(int index, int count) {
@@ -51,29 +60,78 @@ glm::dvec3 fibonacci_direction(int index, int count) {
 
 Relief::Relief(double bottom_radius_m, double ground_albedo)
     : radius_m_(bottom_radius_m), albedo_(ground_albedo), scale_(bottom_radius_m / kEarthRadius) {
-  // A coast with mountains on the horizon.
-  z_ = glm::normalize(glm::dvec3(0.48, -0.31, 0.82));
-  x_ = glm::normalize(glm::cross(z_, glm::dvec3(0.2, 0.9, 0.1)));
-  y_ = glm::cross(z_, x_);
+  settle_on_a_coast();
   balance_materials();
+}
+
+// The site stands where the land behind it and the sea before it differ most; the sun's azimuth is
+// that of the water.
+void Relief::settle_on_a_coast() {
+  constexpr int kCandidates = 3000;
+  constexpr double kCoarse = 60e3, kFine = 500;
+  const auto value = [](const glm::dvec3& direction, double resolution) {
+    return land_value(glm::normalize(direction) * kEarthRadius, resolution);
+  };
+  const auto ahead = [](const glm::dvec3& from, const glm::dvec3& toward, double distance) {
+    return glm::normalize(from + distance / kEarthRadius * toward);
+  };
+  double best = -1;
+  for (int i = 0; i < kCandidates; ++i) {
+    const glm::dvec3 here = fibonacci_direction(i, kCandidates);
+    if (std::abs(value(here, kCoarse)) > 0.03) continue;
+    const glm::dvec3 east = glm::normalize(glm::cross(glm::dvec3(0.31, 0.17, 0.93), here));
+    const glm::dvec3 north = glm::cross(here, east);
+    const auto slope = [&](const glm::dvec3& way) {
+      return value(ahead(here, way, 100e3), kCoarse) - value(ahead(here, way, -100e3), kCoarse);
+    };
+    const glm::dvec3 downhill = -glm::normalize(east * slope(east) + north * slope(north));
+    const double sea = std::max(value(ahead(here, downhill, 200e3), kCoarse),
+                                value(ahead(here, downhill, 500e3), kCoarse));
+    const double score = value(ahead(here, downhill, -200e3), kCoarse) - sea;
+    if (score <= best) continue;
+    best = score;
+    z_ = here;
+    x_ = downhill;
+  }
+  // Along that line to the shore itself.
+  double inland = -250e3, offshore = 250e3;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (inland + offshore);
+    (value(ahead(z_, x_, middle), kFine) > 0.5 * kShore ? inland : offshore) = middle;
+  }
+  z_ = ahead(z_, x_, inland);
+  x_ = glm::normalize(x_ - glm::dot(x_, z_) * z_);
+  y_ = glm::cross(z_, x_);
+  // Not straight over the water: the coast runs into the picture.
+  constexpr double kTurn = 0.8;
+  const glm::dvec3 seaward = x_;
+  x_ = std::cos(kTurn) * seaward + std::sin(kTurn) * y_;
+  y_ = glm::cross(z_, x_);
 }
 
 double Relief::height_m(const glm::dvec3& direction, double resolution_m) const {
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const glm::dvec3 p = direction * kEarthRadius;
   const double distance = glm::length(direction - z_) * kEarthRadius;
-  const double fading = smoothstep(200, 14e3, distance);
-  const double roughness = kRoughness * (1 + fractal_noise(p, 9, resolution)) * 0.5;
-  const double land = smoothstep(-0.01, 0.10, land_value(p, resolution));
-  const double inland = std::max(land, 1 - smoothstep(20e3, 120e3, distance));
-  if (inland <= 0) return 0;
-  const double range = fractal_noise(p + glm::dvec3(0, 9e6, 0), 9e5, std::max(resolution, 2e4));
-  const double near_site = 1 - smoothstep(60e3, 300e3, distance);
-  const double mountains = std::max(smoothstep(-0.05, 0.55, range), 0.55 * near_site);
+  const double near_site = 1 - smoothstep(80e3, 400e3, distance);
+  const double beach = 1 - smoothstep(300, 600, distance);
+  const double continent = land_value(p, resolution);
+  if (continent < 0 && beach <= 0) return 0;
+  const double land = smoothstep(0, 2 * kShore, continent);
+  const double fading = smoothstep(300, 7e3, distance);
+  const double roughness = kRoughness * (1 + fractal_noise(p, 9, resolution)) +
+                           0.3 * kRoughness * (1 + fractal_noise(p, 0.9, resolution));
+  const double range = fractal_noise(p + glm::dvec3(0, 9e6, 0), 1.3e6, std::max(resolution, 1e4));
+  const double mountains = std::max(smoothstep(-0.02, 0.6, range), 0.5 * near_site);
+  const glm::dvec3 bent = p + bend(p);
+  const double massif =
+      smoothstep(-0.6, 0.7, fractal_noise(bent + glm::dvec3(6e5), 70e3, std::max(resolution, 2e3)));
   double height = kPlainHeight * (1 + fractal_noise(p, 30e3, resolution));
-  height += kHillHeight * (0.6 + fractal_noise(p + glm::dvec3(4e5), 7e3, resolution));
-  height += kMountainHeight * mountains * ridged_noise(p, 36e3, resolution);
-  return std::max(fading * inland * height, 0.0) + roughness * inland;
+  height += kHillHeight * (0.6 + fractal_noise(bent + glm::dvec3(4e5), 7e3, resolution));
+  height += kMountainHeight * mountains * massif *
+            ridged_noise(bent, 26e3, std::max(resolution, 2 * resolution - 8e3));
+  return std::max(fading * land * height, 0.0) +
+         roughness * std::max(smoothstep(0, 0.1 * kShore, continent), beach);
 }
 
 NodeValues Relief::material(const glm::dvec3& direction, double height_m, double steepness,
@@ -81,16 +139,18 @@ NodeValues Relief::material(const glm::dvec3& direction, double height_m, double
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const glm::dvec3 p = direction * kEarthRadius;
   const double patches =
-      fractal_noise(p + glm::dvec3(2e5, 0, 7e5), 2.4e6, std::max(resolution, 30e3));
+      fractal_noise(p + glm::dvec3(2e5, 0, 7e5), 2.4e6, std::max(resolution, 8e3));
   const double spots = fractal_noise(p, 1500, resolution);
   const double grain = fractal_noise(p + glm::dvec3(50), 3, resolution);
-  NodeValues soil = mix(kGrass, kSteppe, smoothstep(-0.5, 0.5, patches + 0.35 * spots));
-  soil = mix(soil, kRock, smoothstep(1100, 2300, height_m + 500 * spots));
-  soil = mix(soil, kRock, smoothstep(0.06, 0.22, steepness));
-  const double snow =
-      smoothstep(2500, 3100, height_m + 400 * spots) * (1 - smoothstep(0.15, 0.4, steepness));
-  soil = mix(soil, kSnow, snow);
-  for (double& value : soil) value *= 1 + 0.18 * grain + 0.12 * spots;
+  // Where a vertex stands for a whole mountain, the lines between the materials are as wide as its
+  // height.
+  const double blur = kMountainHeight * 0.3 * std::min(resolution / 15e3, 1.0);
+  NodeValues soil = mix(kGrass, kSteppe, smoothstep(-0.45, 0.55, patches + 0.4 * spots));
+  soil = mix(soil, kRock, smoothstep(900 - blur, 1900 + blur, height_m + 500 * spots));
+  soil = mix(soil, kRock, smoothstep(0.05, 0.16, steepness));
+  const double snow = smoothstep(2100 - blur, 2700 + blur, height_m + 500 * spots);
+  soil = mix(soil, kSnow, snow * (1 - smoothstep(0.12, 0.35, steepness)));
+  for (double& value : soil) value *= std::max(1 + 0.4 * grain + 0.15 * spots, 0.2);
   return mix(kSea, soil, smoothstep(0.0, 0.05, height_m));
 }
 
@@ -119,7 +179,7 @@ void Relief::balance_materials() {
   for (std::size_t k = 0; k < 4; ++k) {
     mean_[k] = sum[k] / kDirections;
     // No material above 1: a bright planet has less contrast.
-    const double excess = 1.5 * highest[k] / mean_[k] - 1;
+    const double excess = 1.2 * highest[k] / mean_[k] - 1;
     contrast_ = std::min(contrast_, (1 - albedo_) / std::max(albedo_ * excess, 1e-9));
   }
 }

@@ -5,12 +5,11 @@
 // radius is above the ground on every planet.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 
-namespace skyfit {
+#include "model/tables.h"
 
-using NodeValues = std::array<double, 4>;  // at the nodes of the colour rule, blue to red
+namespace skyfit {
 
 class Relief {
  public:
@@ -32,6 +31,7 @@ class Relief {
                          double resolution_m) const;
 
  private:
+  void settle_on_a_coast();
   NodeValues material(const glm::dvec3& direction, double height_m, double steepness,
                       double resolution_m) const;
   void balance_materials();

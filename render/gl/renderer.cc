@@ -121,7 +121,9 @@ Frame draw_frame(const AtmosphereTables& tables, const FrameOptions& options,
   const int samples = sampled.samples_per_side;
 
   const Relief relief(bottom, tables.atmosphere.ground_albedo);
-  const TerrainMesh mesh = make_terrain(relief, bottom, options.camera, aspect);
+  TerrainSettings settings;
+  settings.pixel_angle = options.camera.vertical_fov / (options.height * samples);
+  const TerrainMesh mesh = make_terrain(relief, bottom, options.camera, aspect, settings);
   report(0.5);
   FrameGraph graph;
   add_targets(options.width * samples, options.height * samples, graph);

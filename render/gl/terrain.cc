@@ -58,9 +58,10 @@ class MeshBuilder {
       : relief_(relief),
         radius_(radius),
         altitude_(camera.altitude_m),
-        fan_(visible_fan(camera, aspect)) {
-    mesh_.rings = settings.rings;
-    mesh_.sectors = settings.sectors;
+        fan_(visible_fan(camera, aspect)),
+        pixel_angle_(settings.pixel_angle) {
+    mesh_.rings = fan_.closed ? settings.rings_all_round : settings.rings;
+    mesh_.sectors = fan_.closed ? settings.sectors_all_round : settings.sectors;
     // As far as a peak can be seen over the horizon.
     const double peak = kHighestPeak * radius / 6360e3;
     const double farthest = radius * (horizon_angle(altitude_) + horizon_angle(peak));
@@ -93,11 +94,13 @@ class MeshBuilder {
     return altitude_ * std::sinh(stretch_ * ring / (mesh_.rings - 1.0));
   }
 
-  double spacing(int ring) const {
+  // The finest detail that vertices and pixels can show at a ring.
+  double resolution(int ring) const {
     const double along = arc(ring + 1) - arc(ring);
     const double across =
         radius_ * std::sin(std::min(arc(ring) / radius_, kPi / 2)) * fan_.width / mesh_.sectors;
-    return std::max(0.4 * along, across);
+    const double pixel = pixel_angle_ * std::hypot(arc(ring), altitude_);
+    return 2 * std::max({0.4 * along, across, pixel});
   }
 
   std::size_t index(int ring, int sector) const {
@@ -107,14 +110,14 @@ class MeshBuilder {
   void place(int ring) {
     const double angle = arc(ring) / radius_;
     const double sine = std::sin(angle), half_sine = std::sin(0.5 * angle);
-    const double resolution = 2 * spacing(ring);
+    const double finest = resolution(ring);
     for (int sector = 0; sector < mesh_.sectors; ++sector) {
       const double azimuth = fan_.begin + fan_.width * sector / (mesh_.sectors - 1.0);
       const double x = sine * std::cos(azimuth), y = -sine * std::sin(azimuth);
       const double drop = -2 * half_sine * half_sine;  // cos(angle) - 1
       const glm::dvec3 direction =
           x * relief_.site_x() + y * relief_.site_y() + (1 + drop) * relief_.site_z();
-      const double height = relief_.height_m(direction, resolution);
+      const double height = relief_.height_m(direction, finest);
       const double r = radius_ + height;
       const std::size_t i = index(ring, sector);
       directions_[i] = direction;
@@ -137,15 +140,14 @@ class MeshBuilder {
   }
 
   void dress(int ring) {
-    const double resolution = 2 * spacing(ring);
+    const double finest = resolution(ring);
     for (int sector = 0; sector < mesh_.sectors; ++sector) {
       const std::size_t i = index(ring, sector);
       const glm::dvec3 n = ring > 0 ? normal(ring, sector) : glm::dvec3(0, 0, 1);
       const glm::dvec3 world =
           n.x * relief_.site_x() + n.y * relief_.site_y() + n.z * relief_.site_z();
       const double steepness = 1 - std::max(glm::dot(world, directions_[i]), 0.0);
-      const NodeValues color =
-          relief_.reflectance(directions_[i], heights_[i], steepness, resolution);
+      const NodeValues color = relief_.reflectance(directions_[i], heights_[i], steepness, finest);
       TerrainVertex& vertex = mesh_.vertices[i];
       for (int k = 0; k < 3; ++k) {
         vertex.position_km[static_cast<std::size_t>(k)] =
@@ -170,6 +172,7 @@ class MeshBuilder {
   const Relief& relief_;
   double radius_, altitude_;
   Fan fan_;
+  double pixel_angle_;
   double farthest_ = 0, stretch_ = 0;
   std::vector<double> heights_;
   std::vector<glm::dvec3> directions_, positions_;

@@ -27,8 +27,10 @@ struct TerrainMesh {
 };
 
 struct TerrainSettings {
-  int rings = 1000;
-  int sectors = 900;
+  int rings = 1000, sectors = 900;
+  int rings_all_round = 450,
+      sectors_all_round = 2000;  // when the picture holds the nadir or the zenith
+  double pixel_angle = 1e-3;     // rad; what is smaller than a pixel is left out
 };
 
 // Throws std::invalid_argument when the camera is below the ground.

@@ -10,6 +10,8 @@ namespace {
 
 // A mean of this becomes middle grey.
 constexpr double kMiddleGrey = 0.18;
+// At most one pixel in twenty becomes brighter than this.
+constexpr double kHighlights = 0.95, kHighlightLevel = 0.8;
 // Below this luminance pictures stay dark, as for the eye; above, a camera stops down no further.
 // cd/m^2.
 constexpr double kDarkest = 0.02;
@@ -50,15 +52,21 @@ std::array<double, 3> into_gamut(std::array<double, 3> rgb, double luminance) {
 }  // namespace
 
 double automatic_exposure(const Frame& frame) {
+  std::vector<float> seen;
   double sum = 0;
-  std::size_t count = 0;
   for (const float luminance : frame.luminance) {
-    if (!(luminance > 1e-6f)) continue;                 // space
-    sum += std::log(std::min<double>(luminance, 1e6));  // the sun's disc counts as a bright sky
-    ++count;
+    if (!(luminance > kDarkest * 1e-3)) continue;  // space
+    seen.push_back(luminance);
+    sum +=
+        std::log(std::min<double>(luminance, kBrightest));  // the sun's disc counts as a bright sky
   }
-  const double mean = count > 0 ? std::exp(sum / static_cast<double>(count)) : kDarkest;
-  return kMiddleGrey / std::clamp(mean, kDarkest, kBrightest);
+  if (seen.empty()) return kMiddleGrey / kDarkest;
+  const double mean = std::exp(sum / static_cast<double>(seen.size()));
+  const auto high = seen.begin() +
+                    static_cast<std::ptrdiff_t>(kHighlights * static_cast<double>(seen.size() - 1));
+  std::nth_element(seen.begin(), high, seen.end());
+  const double level = std::max(mean / kMiddleGrey, *high / kHighlightLevel);
+  return 1 / std::clamp(level, kDarkest / kMiddleGrey, kBrightest / kMiddleGrey);
 }
 
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone) {
