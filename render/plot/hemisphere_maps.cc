@@ -131,19 +131,46 @@ void draw_scale(Script& script, const Box& box, double limit_percent) {
   script.line("plot NaN notitle");
 }
 
-std::size_t best_columns(std::size_t count, const Box& area) {
-  std::size_t best = 1;
-  double best_side = 0;
-  for (std::size_t columns = 1; columns <= count; ++columns) {
-    const std::size_t rows = (count + columns - 1) / columns;
-    const double side = std::min(area.width / static_cast<double>(columns),
-                                 area.height / static_cast<double>(rows) - kTitleStrip);
-    if (side > best_side) {
-      best = columns;
-      best_side = side;
-    }
+Grid grid_of(std::size_t columns, std::size_t count, const Box& area) {
+  return {columns, (count + columns - 1) / columns, area};
+}
+
+double map_side(const Box& cell) { return std::min(cell.width, cell.height - kTitleStrip); }
+
+Box below_label(Box block) {
+  block.height -= kTitleStrip;
+  return block;
+}
+
+// The grid of `count` cells that leaves the largest maps in the area.
+Grid best_grid(std::size_t count, const Box& area) {
+  Grid best = grid_of(1, count, area);
+  for (std::size_t columns = 2; columns <= count; ++columns) {
+    const Grid grid = grid_of(columns, count, area);
+    if (map_side(grid.cell(0)) > map_side(best.cell(0))) best = grid;
   }
   return best;
+}
+
+// The grid of one block per curve that leaves the largest maps of `suns` suns in each.
+Grid best_blocks(std::size_t curves, std::size_t suns, const Box& area) {
+  const auto side = [suns](const Grid& blocks) {
+    return map_side(best_grid(suns, below_label(blocks.cell(0))).cell(0));
+  };
+  Grid best = grid_of(1, curves, area);
+  for (std::size_t columns = 2; columns <= curves; ++columns) {
+    const Grid blocks = grid_of(columns, curves, area);
+    if (side(blocks) > side(best)) best = blocks;
+  }
+  return best;
+}
+
+void draw_block_label(Script& script, const Box& block, const std::string& label,
+                      std::size_t curve) {
+  script.begin_axes(block);
+  script.text_label(block.left, block.top() - kTitleStrip / 2, label,
+                    fmt::format("left font ',12' textcolor rgb '{}'", kCurveColors[curve]));
+  script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
 }
 
 }  // namespace
@@ -184,18 +211,12 @@ void draw_hemisphere_maps(Script& script, const Comparison& comparison, const Su
                           const Box& area, double scale_strip_px) {
   const std::size_t curves = comparison.curves.size(), count = suns.shown.size();
   const double limit = residual_limit_percent(suns);
-  const Grid blocks{1, curves, area};
+  const Grid blocks = best_blocks(curves, count, area);
   for (std::size_t curve = 0; curve < curves; ++curve) {
-    Box block = blocks.cell(curve);
-    if (curves > 1) {
-      block.height -= kTitleStrip;
-      script.begin_axes(block);
-      script.text_label(block.left, block.top() + kTitleStrip / 2, comparison.curves[curve].label,
-                        fmt::format("left font ',12' textcolor rgb '{}'", kCurveColors[curve]));
-      script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
-    }
-    const std::size_t columns = curves == 1 ? panel_columns(count) : best_columns(count, block);
-    const Grid grid{columns, (count + columns - 1) / columns, block};
+    const Box block = blocks.cell(curve);
+    if (curves > 1) draw_block_label(script, block, comparison.curves[curve].label, curve);
+    const Grid grid = curves > 1 ? best_grid(count, below_label(block))
+                                 : grid_of(panel_columns(count), count, area);
     for (std::size_t i = 0; i < count; ++i)
       draw_map(script, suns.shown[i], curve, grid.cell(i), limit, curve == 0 && i == 0);
   }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kTitleStrip = 26;  // above a panel: sun zenith and RMS
 constexpr double kGap = 14;         // right of a panel
+constexpr double kNarrow = 230;     // of a panel: less room for words
 
 struct Range {
   double lower = std::numeric_limits<double>::infinity(), upper = 0;
@@ -111,8 +112,8 @@ class Panels {
                  range_.upper);
     script_.line("set grid xtics ytics lt 1 lw 0.6 lc rgb '{}' back", kGridColor);
     script_.line(
-        "set xtics -60,30,60 scale 0.5 nomirror format '{}' textcolor rgb '#202020' offset 0,0.3",
-        lowest ? "%g°" : "");
+        "set xtics -60,{},60 scale 0.5 nomirror format '{}' textcolor rgb '#202020' offset 0,0.3",
+        grid_.cell(index).width < kNarrow ? 60 : 30, lowest ? "%g°" : "");
     std::string ticks;
     for (const auto& tick : log_ticks(range_.lower, range_.upper))
       ticks += fmt::format("{}'{}' {:.9g} {}", ticks.empty() ? "" : ", ",
@@ -137,9 +138,11 @@ class Panels {
   void draw_titles(const SunSamples& sun, const Box& box) {
     const double y = box.top() + kTitleStrip / 2 - 1;
     const bool several = sun.plane.size() > 1;
-    script_.text_label(box.left, y,
-                       fmt::format("{} {:.4g}°", several ? "☉" : "sun zenith", sun.sun_zenith_deg),
-                       "left font ',12'");
+    script_.text_label(
+        box.left, y,
+        fmt::format("{} {:.4g}°", several || box.width < kNarrow ? "☉" : "sun zenith",
+                    sun.sun_zenith_deg),
+        "left font ',12'");
     script_.text_label(box.right(), y, "%", "right font ',12'");
     double right = box.right() - 20;
     for (std::size_t i = sun.plane.size(); i-- > 0;) {
