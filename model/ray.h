@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A straight ray through spherical shells: where it runs, nodes of a quadrature along it, and columns along it.
+// Lengths in metres.
+#pragma once
+
+#include <vector>
+
+#include "model/optics.h"
+
+namespace skyfit {
+
+// The geometry and the profiles: what columns need, without coefficients.
+struct Shells {
+  double bottom_radius, top;  // top is a height
+  double air_scale_height, aerosol_scale_height;
+  bool ozone, ozone_follows_air;  // ozone == false: there is none
+
+  // From a point at height h upward to the top; mu < 0 passes the tangent point.
+  PathColumns columns_to_top(double height, double mu) const;
+};
+
+// One look: the part of a ray that lies inside the atmosphere. s is the distance from the ray's entry.
+struct ViewRay {
+  double entry_height = 0, entry_mu = 0;  // where the ray begins inside the atmosphere
+  double entry_distance = 0;              // from the observer to there; 0 inside
+  double length = 0;                      // 0: the ray misses the atmosphere
+  bool hits_ground = false;
+  double tangent_s = 0;       // where the height is least, in 0 .. length
+  double tangent_height = 0;  // that height
+
+  double radius_mu_at(double s, double bottom_radius) const {  // r mu at s
+    return (bottom_radius + entry_height) * entry_mu + s;
+  }
+};
+ViewRay view_ray(double bottom_radius, double top, double altitude, double mu);
+
+struct RayPoint {
+  double s, height, mu;
+};
+RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s);
+
+// Columns from the ray's entry to the point.
+PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point);
+
+// Where the ray crosses the shells of the given ascending heights, with its ends and its lowest point, ascending in s.
+std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius, const std::vector<double>& heights);
+
+struct QuadratureNode {
+  double s, weight;
+};
+// Gauss's rule of `order` nodes between each two neighbours of `breaks` (ascending).
+std::vector<QuadratureNode> composite_gauss(const std::vector<double>& breaks, int order);
+
+}  // namespace skyfit

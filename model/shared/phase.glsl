@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Phase functions, 1/sr: they integrate to 1 over the sphere; nu is the cosine of the scattering angle, g > 0 scatters
+// forward. Compiled as double, as dual numbers and as GLSL, see model/shared/shared.h.
+
+Number rayleigh_phase(Number nu) { return 0.0596831036594607509 * (1.0 + nu * nu); }  // 3 / (16 pi)
+
+// Henyey & Greenstein 1941; its mean cosine is g.
+Number henyey_greenstein_phase(Number g, Number nu) {
+  Number d = 1.0 + g * g - 2.0 * g * nu;
+  return 0.0795774715459476679 * (1.0 - g * g) / (d * sqrt(d));  // 1 / (4 pi)
+}
+
+// Cornette & Shanks 1992, eq. 8; g is a parameter, the mean cosine is 3 g (4 + g^2) / (5 (2 + g^2)).
+Number cornette_shanks_phase(Number g, Number nu) {
+  Number d = 1.0 + g * g - 2.0 * g * nu;
+  return 0.119366207318921502 * (1.0 - g * g) * (1.0 + nu * nu) / ((2.0 + g * g) * d * sqrt(d));  // 3 / (8 pi)
+}
+
+// Two Cornette-Shanks lobes; weight is that of the first.
+Number two_lobe_phase(Number g1, Number g2, Number weight, Number nu) {
+  return weight * cornette_shanks_phase(g1, nu) + (1.0 - weight) * cornette_shanks_phase(g2, nu);
+}
