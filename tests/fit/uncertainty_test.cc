@@ -84,7 +84,7 @@ TEST(UncertaintyTest, ParameterWithoutEffectIsReported) {
 TEST(UncertaintyTest, FitOfEverythingWithoutPriorsReportsTheSingularCovariance) {
   FitOptions options;
   options.use_priors = false;
-  options.free = std::vector<Parameter>{};
+  options.free.emplace();
   for (const ParameterInfo& info : parameter_table()) {
     if (has_parameter(true_atmosphere(2), info.id)) options.free->push_back(info.id);
   }
@@ -100,7 +100,7 @@ TEST(UncertaintyTest, FitOfEverythingWithoutPriorsReportsTheSingularCovariance) 
 // A prior alone: the answer is the prior's, and the report says so.
 TEST(UncertaintyTest, PriorAloneIsNotIdentifiable) {
   FitOptions options;
-  options.free = std::vector<Parameter>{Parameter::kOzoneColumn, Parameter::kMiePhaseG1};
+  options.free.emplace({kOzoneColumn, kMiePhaseG1});
   options.priors = {{kOzoneColumn, {280, 30}}};
   const FitResult result = fit_atmosphere(synthetic_reference(true_atmosphere(2), 0.02),
                                           refs::standard_spectral_data(), ToySky(), options);
