@@ -4,6 +4,7 @@
 // model/shared/mapping.glsl, shared with the shaders.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "model/photometry.h"
 
 namespace skyfit {
+
+using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blue to red
 
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
