@@ -72,9 +72,13 @@ std::string sigma_text(const FitResult& result) {
   if (result.sigma_from_residuals) {
     text = fmt::format(
         "One sigma is from the residuals (the reference states none) and the priors: {:.3g} % per "
-        "sample.\nNeighbouring residuals agree, so that {} samples count as {:.3g} independent "
-        "ones.\n",
-        result.sigma_log_percent, result.samples, result.effective_samples);
+        "sample.\n",
+        result.sigma_log_percent);
+    if (result.effective_samples < 0.95 * result.samples) {
+      text += fmt::format(
+          "Neighbouring residuals agree, so that {} samples count as {:.3g} independent ones.\n",
+          result.samples, result.effective_samples);
+    }
   } else {
     text = fmt::format(
         "One sigma is from the reference's sigma ({:.3g} % root mean square) and the priors; chi^2 "
