@@ -80,12 +80,16 @@ void FrameGraph::run(std::span<const Pass> passes) const {
     const GlFramebuffer target = framebuffer(pass);
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
     for (std::size_t unit = 0; unit < pass.reads.size(); ++unit) {
-      glBindTextureUnit(static_cast<GLuint>(unit), texture(pass.reads[unit]).object.id());
+      bind(pass.reads[unit], static_cast<GLuint>(unit));
     }
     pass.draw();
     check_gl("pass " + pass.name);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
+}
+
+void FrameGraph::bind(const std::string& name, GLuint unit) const {
+  glBindTextureUnit(unit, texture(name).object.id());
 }
 
 std::vector<float> FrameGraph::read_back(const std::string& name, GLenum format,

@@ -31,6 +31,8 @@ class FrameGraph {
   // incomplete framebuffer, an OpenGL error.
   void run(std::span<const Pass> passes) const;
 
+  void bind(const std::string& name, GLuint unit) const;
+
   // `channels` floats per pixel, rows from the bottom to the top.
   std::vector<float> read_back(const std::string& name, GLenum format, int channels) const;
 

@@ -17,71 +17,75 @@ constexpr std::string_view kPrelude =
     "#define Number float\n"
     "#define OUT(T) out T\n";
 
-// One program's sources, flattened; #line numbers the files so that messages can be translated
-// back.
+// One program's sources, flattened, and where every line of the result came from. (#line would do,
+// but Mesa's compiler forgets its file number.)
 class Expander {
  public:
   explicit Expander(std::span<const ShaderSource> extra) : extra_(extra) {}
 
   std::string expand(const std::string& path) {
-    files_.clear();
     std::string text(kPrelude);
-    append(path, "", 0, text);
+    origins_.assign(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')),
+                    {path, 1});
+    append(path, "", text);
     return text;
   }
 
-  // "2:14(3): error: ..." (Mesa) or "2(14) : error ..." (NVIDIA) becomes "path:14: ...".
+  // The first error: "0:14(3): error: ..." (Mesa) or "0(14) : error ..." (NVIDIA) becomes
+  // "path:line: ...".
   std::string translate(const std::string& log) const {
-    static const std::regex kPlace(R"(^(?:ERROR: )?(\d+)[:(](\d+)(?:\(\d+\)|\))?\s*:\s*(.*)$)");
+    static const std::regex kPlace(R"(^(?:ERROR: )?\d+[:(](\d+)(?:\(\d+\)|\))?\s*:\s*(.*)$)");
     std::istringstream lines(log);
     std::string first, line;
     while (std::getline(lines, line)) {
-      std::smatch match;
-      if (std::regex_match(line, match, kPlace)) {
-        const auto file = static_cast<std::size_t>(std::stoul(match[1]));
-        if (file < files_.size()) {
-          line = fmt::format("{}:{}: {}", files_[file], match[2].str(), match[3].str());
-        }
-        if (line.find("error") != std::string::npos) return line;
-      }
       if (first.empty()) first = line;
+      std::smatch match;
+      if (!std::regex_match(line, match, kPlace) || line.find("error") == std::string::npos)
+        continue;
+      const std::size_t number = std::stoul(match[1]);
+      if (number < 1 || number > origins_.size()) return line;
+      const Origin& origin = origins_[number - 1];
+      return fmt::format("{}:{}: {}", origin.path, origin.line, match[2].str());
     }
     return first;
   }
 
  private:
-  std::string_view find(const std::string& path, const std::string& from, int line) const {
+  struct Origin {
+    std::string path;
+    int line;
+  };
+
+  // `where` is the place of the #include.
+  std::string_view find(const std::string& path, const std::string& where) const {
     for (const auto sources : {extra_, embedded_shaders()}) {
       for (const ShaderSource& source : sources) {
         if (source.path == path) return source.text;
       }
     }
-    const std::string where = from.empty() ? std::string() : fmt::format("{}:{}: ", from, line);
     throw std::runtime_error(fmt::format("{}no such shader source: {}", where, path));
   }
 
-  void append(const std::string& path, const std::string& from, int from_line, std::string& text) {
+  void append(const std::string& path, const std::string& where, std::string& text) {
     if (std::find(files_.begin(), files_.end(), path) != files_.end()) return;
-    const std::string_view source = find(path, from, from_line);
-    const std::size_t index = files_.size();
     files_.push_back(path);
-    text += fmt::format("#line 1 {}\n", index);
     static const std::regex kInclude(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
-    std::istringstream lines{std::string(source)};
+    std::istringstream lines{std::string(find(path, where))};
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number) {
       std::smatch match;
       if (std::regex_match(line, match, kInclude)) {
-        append(match[1].str(), path, number, text);
-        text += fmt::format("#line {} {}\n", number + 1, index);
-      } else {
-        text += line + '\n';
+        append(match[1].str(), fmt::format("{}:{}: ", path, number), text);
+        continue;
       }
+      text += line + '\n';
+      origins_.push_back({path, number});
     }
   }
 
   std::span<const ShaderSource> extra_;
   std::vector<std::string> files_;
+  std::vector<Origin> origins_;  // [line of the result]
 };
 
 GlShader compile(const ShaderStage& stage, std::span<const ShaderSource> extra) {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every named view is a whole photometric picture: no holes, directions and depths that lead back
+// to the terrain, the sun's disc where the sun is; bad options are refused.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <stdexcept>
+
+#include "model/table_lookup.h"
+#include "render/gl/relief.h"
+#include "render/render.h"
+#include "tests/render/gl_fixture.h"
+
+namespace skyfit {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+const Preset& preset() {
+  static const Preset loaded = shipped("earth-clear");
+  return loaded;
+}
+
+const AtmosphereTables& tables() {
+  static const AtmosphereTables made = tables_of(preset(), kSmallTables);
+  return made;
+}
+
+Frame frame_of(std::string_view view, double sun_zenith_deg, int width = 160, int height = 100) {
+  FrameOptions options;
+  options.width = width;
+  options.height = height;
+  options.camera = find_view(view).camera;
+  options.sun_zenith = sun_zenith_deg * kDegree;
+  options.keep_gbuffer = true;
+  return render_frame(preset(), tables(), options);
+}
+
+glm::dvec3 ray_of(const Frame& frame, std::size_t pixel) {
+  const double zenith = frame.view_zenith_deg[pixel] * kDegree,
+               azimuth = frame.view_azimuth_deg[pixel] * kDegree;
+  return {std::sin(zenith) * std::cos(azimuth), -std::sin(zenith) * std::sin(azimuth),
+          std::cos(zenith)};
+}
+
+class EveryView : public ::testing::TestWithParam<std::tuple<std::string, double>> {};
+
+TEST_P(EveryView, HasNoHoles) {
+  const auto& [view, sun] = GetParam();
+  const Frame frame = frame_of(view, sun);
+  const double bottom = preset().atmosphere.bottom_radius_m;
+  const double top = preset().atmosphere.top_radius_m;
+  const double r = bottom + find_view(view).camera.altitude_m;
+  EXPECT_GE(frame.triangles, 500'000);
+  for (std::size_t i = 0; i < frame.luminance.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_TRUE(std::isfinite(frame.rgb[3 * i + k])) << "pixel " << i;
+    ASSERT_TRUE(std::isfinite(frame.luminance[i])) << "pixel " << i;
+    const double zenith = frame.view_zenith_deg[i] * kDegree;
+    const double nearest = zenith < std::numbers::pi / 2 ? r : r * std::sin(zenith);
+    const bool air = r < top || (zenith > std::numbers::pi / 2 && nearest < top - 20e3);
+    if (air && (r < top || sun == 0) && sun <= 90) {  // the night side is dark
+      EXPECT_GT(frame.luminance[i], 0) << "pixel " << i;
+    }
+    // Rays that point well below the horizon end on the ground.
+    const bool ground =
+        zenith > std::numbers::pi / 2 &&
+        nearest < bottom - 1e3 - r * find_view(view).camera.vertical_fov / frame.height;
+    if (ground) {
+      EXPECT_TRUE(std::isfinite(frame.depth_m[i])) << "pixel " << i;
+    }
+    // Rays that miss the planet see the sky. A peak stands at most 9 km high.
+    const double pixel = r * find_view(view).camera.vertical_fov / frame.height;
+    const bool sky = zenith < 60 * kDegree || nearest > bottom + 9e3 + pixel;
+    if (sky && r > bottom + 9e3) {
+      EXPECT_TRUE(std::isinf(frame.depth_m[i])) << "pixel " << i;
+    }
+  }
+}
+
+class EveryPlace : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryPlace, DepthLeadsBackToTheTerrain) {
+  const std::string& view = GetParam();
+  const Frame frame = frame_of(view, 60, 320, 200);
+  const double bottom = preset().atmosphere.bottom_radius_m;
+  const Relief relief(bottom, preset().atmosphere.ground_albedo);
+  const Camera camera = find_view(view).camera;
+  int checked = 0, good = 0;
+  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+    const double d = frame.depth_m[i];
+    if (!std::isfinite(d)) continue;
+    const glm::dvec3 p = d * ray_of(frame, i) + glm::dvec3(0, 0, bottom + camera.altitude_m);
+    const glm::dvec3 world = p.x * relief.site_x() + p.y * relief.site_y() + p.z * relief.site_z();
+    const double footprint = d * camera.vertical_fov / 200;
+    const double height = relief.height_m(glm::normalize(world), footprint);
+    ++checked;
+    // A pixel holds the nearest of its samples; rays graze the ground, so a footprint of height is
+    // what it resolves.
+    if (std::abs(glm::length(world) - bottom - height) < 1 + 2 * footprint + 1e-6 * d) ++good;
+  }
+  ASSERT_GT(checked, 1000);
+  EXPECT_GT(good, 0.97 * checked);
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, EveryPlace,
+                         ::testing::Values("ground", "sunset", "away", "10km", "limb", "space"));
+INSTANTIATE_TEST_SUITE_P(Views, EveryView,
+                         ::testing::Combine(::testing::Values("ground", "sunset", "away", "10km",
+                                                              "limb", "space"),
+                                            ::testing::Values(0.0, 60.0, 85.0, 90.0)));
+
+TEST(Frame, NormalsAreUnitVectorsAndReflectancesPhysical) {
+  const Frame frame = frame_of("10km", 60);
+  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+    if (!std::isfinite(frame.depth_m[i])) continue;
+    const glm::dvec3 n(frame.normal[3 * i], frame.normal[3 * i + 1], frame.normal[3 * i + 2]);
+    if (glm::length(n) == 0) continue;     // the last sample of a pixel at the horizon may be sky
+    EXPECT_NEAR(glm::length(n), 1, 2e-3);  // 11-bit mantissa
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_GE(frame.reflectance[4 * i + k], 0);
+      EXPECT_LE(frame.reflectance[4 * i + k], 1.01);
+    }
+  }
+}
+
+TEST(Frame, TheSunsDiscCarriesItsIlluminance) {
+  FrameOptions options;
+  options.width = options.height = 201;
+  options.samples_per_side = 4;
+  options.camera = {2, 60 * kDegree, 0, 2 * kDegree};
+  options.sun_zenith = 60 * kDegree;
+  const Frame frame = render_frame(preset(), tables(), options);
+  options.sun_zenith = 40 * kDegree;  // the same picture without the disc, about as bright
+  double disc = 0;
+  const double pixel = std::pow(2 * std::tan(1 * kDegree) / 201, 2);
+  for (const float luminance : frame.luminance) disc += luminance > 1e6f ? luminance * pixel : 0;
+  // Direct normal illuminance through the atmosphere's optical depth.
+  const NodeValues tau = lookup_optical_depth(tables(), 2, 0.5);
+  double expected = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    expected += tables().color.xyz_from_nodes[1][k] * std::exp(-tau[k]);
+  EXPECT_NEAR(disc / expected, 1, 0.01);
+  const auto brightest =
+      std::max_element(frame.luminance.begin(), frame.luminance.end()) - frame.luminance.begin();
+  EXPECT_NEAR(frame.view_zenith_deg[static_cast<std::size_t>(brightest)], 60, 0.1);
+  EXPECT_NEAR(frame.view_azimuth_deg[static_cast<std::size_t>(brightest)], 0, 0.1);
+}
+
+TEST(Frame, MirrorsAboutTheSunsAzimuthInTheSky) {
+  const Frame frame = frame_of("ground", 60, 160, 100);
+  int compared = 0;
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const auto left = static_cast<std::size_t>(y * 160 + x),
+                 right = static_cast<std::size_t>(y * 160 + 159 - x);
+      if (std::isfinite(frame.depth_m[left]) || std::isfinite(frame.depth_m[right])) continue;
+      EXPECT_NEAR(frame.luminance[left] / frame.luminance[right], 1, 1e-3);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST(Options, AreRefusedWithNameValueAndRange) {
+  const auto refusal = [](FrameOptions options) -> std::string {
+    try {
+      validate(options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  FrameOptions options;
+  EXPECT_EQ(refusal(options), "accepted");
+  options.width = 0;
+  EXPECT_EQ(refusal(options), "render.width = 0: must be 1 to 16384 pixels");
+  options.width = -5;
+  EXPECT_EQ(refusal(options), "render.width = -5: must be 1 to 16384 pixels");
+  options.width = 100'000;
+  EXPECT_EQ(refusal(options), "render.width = 100000: must be 1 to 16384 pixels");
+  options.width = options.height = 16384;
+  EXPECT_THAT(refusal(options), HasSubstr("must be at most 67108864 pixels"));
+  options = {};
+  options.camera.altitude_m = std::nan("");
+  EXPECT_THAT(refusal(options), HasSubstr("render.camera.altitude_m = nan"));
+  options = {};
+  options.camera.vertical_fov = 0;
+  EXPECT_THAT(refusal(options), HasSubstr("render.camera.vertical_fov = 0"));
+}
+
+TEST(Views, AreFoundByNameOrListed) {
+  EXPECT_EQ(find_view("10km").camera.altitude_m, 10e3);
+  try {
+    find_view("moon");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "render.view = \"moon\": must be one of ground, sunset, away, 10km, limb, space");
+  }
+}
+
+}  // namespace
+}  // namespace skyfit

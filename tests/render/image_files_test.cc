@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is written is what is read: EXR channels, values and metadata; PNG without banding; whole
+// files or none.
+#include "render/gl/image_files.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "render/gl/tone.h"
+
+namespace skyfit {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+class ImageFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "skyfit-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    directory_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(directory_))
+      names.insert(entry.path().filename().string());
+    return names;
+  }
+
+  fs::path directory_;
+};
+
+// A smooth gradient, with a value outside the gamut and a sky pixel.
+Frame gradient(int width, int height) {
+  Frame frame;
+  frame.width = width;
+  frame.height = height;
+  for (int i = 0; i < width * height; ++i) {
+    const auto x = static_cast<float>(i % width) / static_cast<float>(width);
+    const float luminance = 900 + 200 * x;
+    frame.rgb.insert(frame.rgb.end(), {luminance, luminance, luminance});
+    frame.luminance.push_back(luminance);
+    frame.view_zenith_deg.push_back(90 * x);
+    frame.view_azimuth_deg.push_back(-180 * x);
+    frame.depth_m.push_back(1e6f * x);
+  }
+  frame.rgb[0] = -3.25f;
+  frame.depth_m[1] = std::numeric_limits<float>::infinity();
+  frame.metadata = {{"skyfit:preset", "{\"skyfit_preset\": 1}"}, {"skyfit:sun_zenith_deg", "60"}};
+  return frame;
+}
+
+TEST_F(ImageFiles, ExrKeepsEveryChannelAndTheMetadata) {
+  const Frame frame = gradient(32, 8);
+  const fs::path file = directory_ / "frame.exr";
+  write_exr_file(frame, file);
+  EXPECT_THAT(files(), UnorderedElementsAre("frame.exr"));
+  const auto input = OIIO::ImageInput::open(file.string());
+  ASSERT_TRUE(input);
+  const OIIO::ImageSpec& spec = input->spec();
+  EXPECT_THAT(spec.channelnames, UnorderedElementsAre("R", "G", "B", "luminance.Y",
+                                                      "view.zenith_deg", "view.azimuth_deg", "Z"));
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+  EXPECT_EQ(spec.get_string_attribute("skyfit:preset"), "{\"skyfit_preset\": 1}");
+  EXPECT_EQ(spec.get_string_attribute("skyfit:sun_zenith_deg"), "60");
+  const auto* chromaticities = spec.find_attribute("chromaticities");
+  ASSERT_NE(chromaticities, nullptr);
+  EXPECT_FLOAT_EQ(static_cast<const float*>(chromaticities->data())[0], 0.64f);
+  std::vector<float> pixels(static_cast<std::size_t>(spec.nchannels) * 32 * 8);
+  ASSERT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
+  const auto channel = [&](std::size_t pixel, const char* name) {
+    return pixels[pixel * spec.nchannels + spec.channelindex(name)];
+  };
+  for (std::size_t i = 0; i < frame.luminance.size(); ++i) {
+    EXPECT_EQ(channel(i, "R"), frame.rgb[3 * i]);
+    EXPECT_EQ(channel(i, "luminance.Y"), frame.luminance[i]);
+    EXPECT_EQ(channel(i, "view.zenith_deg"), frame.view_zenith_deg[i]);
+    EXPECT_EQ(channel(i, "view.azimuth_deg"), frame.view_azimuth_deg[i]);
+    EXPECT_EQ(channel(i, "Z"), frame.depth_m[i]);
+  }
+}
+
+TEST_F(ImageFiles, PngIsEightBitWithoutBands) {
+  const Frame frame = gradient(256, 64);
+  const fs::path file = directory_ / "frame.png";
+  write_png_file(frame, file, {});
+  EXPECT_THAT(files(), UnorderedElementsAre("frame.png"));
+  const auto input = OIIO::ImageInput::open(file.string());
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->spec().width, 256);
+  EXPECT_EQ(input->spec().height, 64);
+  EXPECT_EQ(input->spec().format, OIIO::TypeDesc::UINT8);
+  // The mean of a column follows the gradient between the steps of 8 bits.
+  const std::vector<std::uint8_t> bytes = tone_mapped(frame, {});
+  std::vector<double> mean(256, 0);
+  for (std::size_t i = 0; i < 256 * 64; ++i) mean[i % 256] += bytes[3 * i + 1] / 64.0;
+  EXPECT_GT(mean[255] - mean[0], 8);
+  const double slope = (mean[255] - mean[0]) / 255;
+  constexpr double kNoise = 0.45;  // of a mean of 64 dithered values, four sigma
+  for (std::size_t x = 1; x < 255; ++x)
+    EXPECT_NEAR(mean[x], mean[0] + slope * static_cast<double>(x), kNoise + 0.6);
+}
+
+TEST_F(ImageFiles, ToneCurveIsMonotoneAndExposureScales) {
+  const Frame frame = gradient(64, 1);
+  const double exposure = automatic_exposure(frame);
+  Frame brighter = frame;
+  for (float& value : brighter.rgb) value *= 4;
+  for (float& value : brighter.luminance) value *= 4;
+  EXPECT_NEAR(automatic_exposure(brighter) / exposure, 0.25, 1e-6);
+}
+
+TEST_F(ImageFiles, AFailureNamesTheFileAndLeavesNothing) {
+  const Frame frame = gradient(8, 8);
+  const fs::path file = directory_ / "missing" / "frame.exr";
+  try {
+    write_exr_file(frame, file);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(file.string() + ": cannot write: "));
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+  fs::create_directory(directory_ / "frame.png");  // a directory stands in the way
+  EXPECT_THROW(write_png_file(frame, directory_ / "frame.png", {}), std::runtime_error);
+  EXPECT_THAT(files(), UnorderedElementsAre("frame.png"));
+}
+
+}  // namespace
+}  // namespace skyfit

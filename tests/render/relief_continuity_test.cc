@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The relief has no steps and no seams, the materials' mean is the ground albedo, and the mesh
+// follows the relief.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+#include "render/gl/noise.h"
+#include "render/gl/terrain.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kEarth = 6360e3;
+
+glm::dvec3 direction(int i, int count) {
+  const double z = 1 - (2 * i + 1.0) / count, turn = i * 2.399963;
+  const double s = std::sqrt(1 - z * z);
+  return {s * std::cos(turn), s * std::sin(turn), z};
+}
+
+TEST(Noise, HasTwoContinuousDerivativesAcrossLatticePlanes) {
+  constexpr double kStep = 1e-3;
+  for (int i = -50; i < 50; ++i) {
+    const glm::dvec3 at(i, 0.3 + 0.17 * i, -0.4 * i);
+    const auto slope = [&](double x) {
+      const glm::dvec3 step(kStep, 0, 0), p = at + glm::dvec3(x, 0, 0);
+      return (gradient_noise(p + step) - gradient_noise(p - step)) / (2 * kStep);
+    };
+    EXPECT_NEAR(gradient_noise(at - glm::dvec3(1e-9, 0, 0)),
+                gradient_noise(at + glm::dvec3(1e-9, 0, 0)), 1e-8);
+    EXPECT_NEAR(slope(-2 * kStep), slope(2 * kStep), 0.05);
+  }
+}
+
+TEST(Noise, HasMeanZeroAndStaysBounded) {
+  double sum = 0, largest = 0;
+  constexpr int kCount = 20000;
+  for (int i = 0; i < kCount; ++i) {
+    const double value = gradient_noise(1e4 * direction(i, kCount));
+    sum += value;
+    largest = std::max(largest, std::abs(value));
+  }
+  EXPECT_NEAR(sum / kCount, 0, 0.01);
+  EXPECT_GT(largest, 0.5);
+  EXPECT_LT(largest, 1.2);
+}
+
+TEST(Noise, ChangesLittleWhenTheFinestDetailFadesIn) {
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 p = 1e5 * direction(i, 200);
+    for (const double finest : {99.0, 199.9, 400.1}) {
+      EXPECT_NEAR(fractal_noise(p, 3200, finest), fractal_noise(p, 3200, finest * 1.001), 0.01);
+    }
+  }
+}
+
+TEST(Relief, IsContinuousAndNeverBelowTheBottomRadius) {
+  const Relief relief(kEarth, 0.15);
+  constexpr double kStep = 1;  // m
+  for (int i = 0; i < 3000; ++i) {
+    const glm::dvec3 here = direction(i, 3000);
+    const glm::dvec3 side = glm::normalize(glm::cross(here, glm::dvec3(0.3, 0.5, 0.8)));
+    const double height = relief.height_m(here, 10);
+    EXPECT_GE(height, 0);
+    EXPECT_LT(height, 9e3);
+    const double next = relief.height_m(glm::normalize(here + kStep / kEarth * side), 10);
+    EXPECT_LT(std::abs(next - height), 4 * kStep)
+        << "direction " << i;  // no slope above 76 degrees
+  }
+}
+
+TEST(Relief, LeavesRoomForACameraOneMetreUp) {
+  for (const double radius : {kEarth, 3390e3, 1e9, 1e4}) {
+    const Relief relief(radius, 0.2);
+    EXPECT_LT(relief.height_m(relief.site_z(), 0.1), 0.7) << "radius " << radius;
+  }
+}
+
+TEST(Relief, ReflectsTheGroundAlbedoOnAverage) {
+  for (const double albedo : {0.0, 0.1, 0.5, 0.95, 1.0}) {
+    const Relief relief(kEarth, albedo);
+    NodeValues sum{};
+    constexpr int kCount = 5003;  // other directions than the relief's own balance
+    for (int i = 0; i < kCount; ++i) {
+      const glm::dvec3 here = direction(i, kCount);
+      const NodeValues value = relief.reflectance(here, relief.height_m(here, 2e3), 0, 2e3);
+      for (std::size_t k = 0; k < 4; ++k) {
+        ASSERT_GE(value[k], 0);
+        ASSERT_LE(value[k], 1);
+        sum[k] += value[k] / kCount;
+      }
+    }
+    for (const double mean : sum) EXPECT_NEAR(mean, albedo, 0.02 * albedo);
+  }
+}
+
+TEST(Terrain, MeshStandsOnTheReliefAndItsNormalsPointOut) {
+  const Relief relief(kEarth, 0.15);
+  Camera camera;
+  const TerrainMesh mesh = make_terrain(relief, kEarth, camera, 1.6);
+  EXPECT_GE(mesh.indices.size() / 3, 500'000u);
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 997) {
+    const TerrainVertex& v = mesh.vertices[i];
+    const glm::dvec3 p(v.position_km[0], v.position_km[1], v.position_km[2]);
+    const glm::dvec3 from_centre = p * 1e3 + glm::dvec3(0, 0, kEarth + camera.altitude_m);
+    const glm::dvec3 world = from_centre.x * relief.site_x() + from_centre.y * relief.site_y() +
+                             from_centre.z * relief.site_z();
+    const double height = glm::length(world) - kEarth;
+    const double distance = 1e3 * glm::length(p);
+    EXPECT_GT(height, -0.1 - 1e-6 * distance);
+    EXPECT_LT(height, 9e3);
+    const glm::dvec3 n(v.normal[0], v.normal[1], v.normal[2]);
+    EXPECT_NEAR(glm::length(n), 1, 1e-6);
+    EXPECT_GT(glm::dot(n, glm::normalize(from_centre)), 0.1);
+  }
+}
+
+TEST(Terrain, ClosesWithoutASeam) {
+  const Relief relief(kEarth, 0.15);
+  Camera camera;
+  camera.altitude_m = 5e6;
+  camera.view_zenith = std::numbers::pi;
+  const TerrainMesh mesh = make_terrain(relief, kEarth, camera, 1.6);
+  for (int ring = 0; ring < mesh.rings; ++ring) {
+    const TerrainVertex& first = mesh.vertices[static_cast<std::size_t>(ring) * mesh.sectors];
+    const TerrainVertex& last =
+        mesh.vertices[static_cast<std::size_t>(ring + 1) * mesh.sectors - 1];
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_NEAR(first.position_km[k], last.position_km[k], 1e-3);
+      ASSERT_NEAR(first.normal[k], last.normal[k], 1e-4) << "ring " << ring;
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      ASSERT_NEAR(first.reflectance[k], last.reflectance[k], 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace skyfit

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// The formulas of model/shared/ give in GLSL what they give in C++: phase functions, geometry,
+// mappings, table look-ups.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/shared/shared.h"
+#include "model/table_lookup.h"
+#include "render/gl/atmosphere_pass.h"
+#include "tests/render/gl_fixture.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kFloat = 4e-6;       // a dozen roundings of 6e-8
+constexpr double kCoordinate = 2e-6;  // of 0..1: well below a hundredth of a texel of 256
+constexpr double kBottom = 6360, kThickness = 100;
+
+class SharedFormulas : public ::testing::Test {
+ protected:
+  std::unique_ptr<GlContext> context_ = make_osmesa_context();
+  Shared<double> shared_;
+};
+
+TEST_F(SharedFormulas, PhaseFunctions) {
+  std::vector<float> inputs;
+  for (const float g : {-0.6f, 0.0f, 0.3f, 0.76f, 0.95f}) {
+    for (float nu = -1; nu <= 1; nu += 0.125f) inputs.insert(inputs.end(), {g, nu, 0.3f, 0.25f});
+  }
+  const auto outputs =
+      run_glsl("#include \"model/shared/phase.glsl\"\n",
+               "y = vec4(rayleigh_phase(x.y), cornette_shanks_phase(x.x, x.y), "
+               "henyey_greenstein_phase(x.x, x.y), two_lobe_phase(x.x, x.z, x.w, x.y));",
+               inputs);
+  for (std::size_t i = 0; i < inputs.size(); i += 4) {
+    const double g = inputs[i], nu = inputs[i + 1], g2 = inputs[i + 2], weight = inputs[i + 3];
+    const double expected[4] = {shared_.rayleigh_phase(nu), shared_.cornette_shanks_phase(g, nu),
+                                shared_.henyey_greenstein_phase(g, nu),
+                                shared_.two_lobe_phase(g, g2, weight, nu)};
+    // Near nu = 1 the phase functions amplify the rounding of 1 + g^2 - 2 g nu.
+    const double tolerance = kFloat * 4 / std::pow(1 - std::abs(g), 2);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(outputs[i + k] / expected[k], 1, tolerance) << "g = " << g << ", nu = " << nu;
+    }
+  }
+}
+
+std::vector<float> rays() {
+  std::vector<float> inputs;
+  for (const float h : {0.0f, 0.002f, 0.1f, 1.2f, 8.0f, 40.0f, 99.0f}) {
+    for (const float mu : {-1.0f, -0.5f, -0.2f, -0.05f, 0.0f, 0.003f, 0.1f, 0.6f, 1.0f}) {
+      for (const float mu_s : {-0.2f, -0.05f, 0.0f, 0.2f, 1.0f})
+        inputs.insert(inputs.end(), {h, mu, mu_s, 0});
+    }
+  }
+  return inputs;
+}
+
+TEST_F(SharedFormulas, Mappings) {
+  const auto inputs = rays();
+  const auto outputs =
+      run_glsl("#include \"model/shared/geometry.glsl\"\n#include \"model/shared/mapping.glsl\"\n",
+               "bool hit = ray_hits_ground(x.x, x.y, 6360.0);\n"
+               "y = vec4(texture_from_view(x.x, x.y, hit, 128.0, 6360.0, 100.0), "
+               "unit_from_height(x.x, 6360.0, 100.0), "
+               "unit_from_sun(x.z, -0.2079, 6360.0, 100.0), hit ? 1.0 : 0.0);",
+               inputs);
+  for (std::size_t i = 0; i < inputs.size(); i += 4) {
+    const double h = inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
+    const bool hit = shared_.ray_hits_ground(h, mu, kBottom);
+    EXPECT_EQ(outputs[i + 3] > 0.5f, hit) << "h = " << h << ", mu = " << mu;
+    EXPECT_NEAR(outputs[i], shared_.texture_from_view(h, mu, hit, 128, kBottom, kThickness),
+                kCoordinate)
+        << "h = " << h << ", mu = " << mu;
+    EXPECT_NEAR(outputs[i + 1], shared_.unit_from_height(h, kBottom, kThickness), kCoordinate);
+    EXPECT_NEAR(outputs[i + 2], shared_.unit_from_sun(mu_s, -0.2079, kBottom, kThickness),
+                kCoordinate);
+  }
+}
+
+TEST_F(SharedFormulas, GeometryKeepsItsDigitsNearTheGround) {
+  const auto inputs = rays();
+  const auto outputs =
+      run_glsl("#include \"model/shared/geometry.glsl\"\n",
+               "y = vec4(distance_to_outer_sphere(6360.0, x.x, x.y, 100.0), "
+               "height_after(6360.0, x.x, x.y, 0.01), height_after(6360.0, x.x, x.y, 5.0), 0.0);",
+               inputs);
+  constexpr double kTenth = 1e-4;  // km
+  for (std::size_t i = 0; i < inputs.size(); i += 4) {
+    const double h = inputs[i], mu = inputs[i + 1];
+    const double far = shared_.distance_to_outer_sphere(kBottom, h, mu, kThickness);
+    EXPECT_NEAR(outputs[i], far, std::max(2 * kFloat * far, 1e-6))
+        << "h = " << h << ", mu = " << mu;
+    EXPECT_NEAR(outputs[i + 1], shared_.height_after(kBottom, h, mu, 0.01),
+                1e-2 * kTenth + 1e-6 * h);
+    EXPECT_NEAR(outputs[i + 2], shared_.height_after(kBottom, h, mu, 5), kTenth);
+  }
+}
+
+TEST_F(SharedFormulas, TableLookups) {
+  const AtmosphereTables tables = tables_of(shipped("earth-clear"), kSmallTables);
+  FrameGraph graph;
+  add_tables(tables, graph);
+  const auto inputs = rays();
+  const char* names[4] = {"optical_depth", "irradiance", "rayleigh_like", "single_mie"};
+  // One shader, so that the compiler drops no uniform; x.w says which function is asked for.
+  const auto look_up = [&](float which) {
+    std::vector<float> asked = inputs;
+    for (std::size_t i = 3; i < asked.size(); i += 4) asked[i] = which;
+    return run_glsl("#include \"render/shaders/atmosphere.glsl\"\n",
+                    "bool hit = ray_hits_ground(x.x, x.y, bottom_km);\n"
+                    "float nu = x.y * x.z + 0.3 * sqrt((1.0 - x.y * x.y) * (1.0 - x.z * x.z));\n"
+                    "if (x.w == 0.0) y = radiance(scattering(x.x, x.y, x.z, nu, hit), nu);\n"
+                    "if (x.w == 1.0) y = sky_irradiance(x.x, x.z);\n"
+                    "if (x.w == 2.0) y = sun_transmittance(x.x, x.z);\n",
+                    asked, [&](GLuint program) {
+                      set_atmosphere(tables, program);
+                      for (GLuint unit = 0; unit < 4; ++unit) graph.bind(names[unit], unit);
+                    });
+  };
+  const auto radiances = look_up(0), irradiances = look_up(1), suns = look_up(2);
+  constexpr double kFilter = 2e-3;  // float coordinates times steps between texels, eight of them
+  for (std::size_t i = 0; i < inputs.size(); i += 4) {
+    const double h = 1e3 * inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
+    const bool hit = shared_.ray_hits_ground(h, mu, 1e3 * kBottom);
+    const double nu = mu * mu_s + 0.3 * std::sqrt((1 - mu * mu) * (1 - mu_s * mu_s));
+    const NodeValues radiance = lookup_radiance(tables, h, mu, mu_s, nu, hit);
+    const NodeValues irradiance = lookup_irradiance(tables, h, mu_s);
+    const NodeValues sun = lookup_sun_transmittance(tables, h, mu_s);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(radiances[i + k], radiance[k], kFilter * radiance[k] + 1e-7)
+          << h << ' ' << mu << ' ' << mu_s;
+      EXPECT_NEAR(irradiances[i + k], irradiance[k], kFilter * irradiance[k] + 1e-7)
+          << h << ' ' << mu_s;
+      EXPECT_NEAR(suns[i + k], sun[k], kFilter * sun[k] + 1e-5) << h << ' ' << mu_s;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skyfit
