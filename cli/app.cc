@@ -30,6 +30,7 @@ void add_commands(CLI::App& app) {
   app.set_version_flag("--version", std::string("skyfit ") + kVersion);
   app.require_subcommand(0, 1);  // none at all is refused by run(), with a better message
   app.get_formatter()->column_width(34);
+  add_render_command(app);
   add_presets_command(app);
   add_references_command(app);
   add_check_command(app);

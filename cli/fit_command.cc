@@ -73,7 +73,7 @@ fit::FitResult fit_with_progress(const refs::Reference& reference, const SkyMode
   return fit::fit_atmosphere(reference, refs::standard_spectral_data(), model, options);
 }
 
-void run_fit(const FitCommandOptions& options) {
+void run_fit(const FitCommandOptions& options, const CLI::App& command) {
   const ResultDirectory out(
       options.out,
       {kPresetFile, kReportFile, kReportTextFile, kSamplesFile, kFigureFiles[0], kFigureFiles[1]},
@@ -81,6 +81,7 @@ void run_fit(const FitCommandOptions& options) {
   const fit::FitOptions how = fit_options(options);
   const refs::Reference reference = refs::load_reference(
       options.reference, parse_sun_zeniths(options.sun_zenith), parse_sampling(options.sampling));
+  warn_of_unused_sampling(command, options.reference);
   const auto model = make_sky_model(options.model, options.threads);
   const fit::FitResult result = fit_with_progress(reference, *model, how);
   out.publish([&](const std::filesystem::path& staging) {
@@ -156,7 +157,7 @@ void add_fit_command(CLI::App& app) {
       "\nExamples:\n"
       "  skyfit fit --reference cie:12 --out fitted\n"
       "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted");
-  command->callback([options] { run_fit(*options); });
+  command->callback([options, command] { run_fit(*options, *command); });
 }
 
 }  // namespace skyfit::cli

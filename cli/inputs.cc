@@ -38,6 +38,15 @@ void add_sampling_options(CLI::App& command, std::string& sampling, std::string&
       ->capture_default_str();
 }
 
+void warn_of_unused_sampling(const CLI::App& command, const std::string& reference) {
+  if (is_shipped_reference(reference)) return;
+  for (const char* option : {"--sampling", "--sun-zenith-deg"}) {
+    if (command.count(option) == 0) continue;
+    fmt::print(stderr, "skyfit: warning: {} is not used: {} has its own directions\n", option,
+               reference);
+  }
+}
+
 std::vector<double> parse_sun_zeniths(const std::string& text) {
   std::vector<double> angles = parse_list("--sun-zenith-deg", text);
   for (double& angle : angles) {
@@ -65,7 +74,7 @@ int default_threads() { return std::max(1, static_cast<int>(std::thread::hardwar
 
 void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Threads; results do not depend on it")
-      ->check(CLI::Range(1, 1024))
+      ->check(CLI::Range(1, 1024).description(""))
       ->capture_default_str();
 }
 

@@ -20,6 +20,10 @@ Preset preset_named(const std::string& name_or_file);
 // functions below.
 void add_sampling_options(CLI::App& command, std::string& sampling, std::string& sun_zenith);
 
+// Warns on stderr when the user gave one of these options for a file of samples, which has its own
+// directions.
+void warn_of_unused_sampling(const CLI::App& command, const std::string& reference);
+
 // Radians; the sun of a daytime reference stands above the horizon: 0 <= angle < 90 degrees. Throws
 // UsageError.
 std::vector<double> parse_sun_zeniths(const std::string& text);

@@ -49,10 +49,12 @@ void print_samples(const refs::Reference& reference) {
   }
 }
 
-void run_references(const ReferencesOptions& options) {
+void run_references(const ReferencesOptions& options, const CLI::App& command) {
   if (options.name.empty()) return print_list(options.json);
-  print_samples(refs::load_reference(options.name, parse_sun_zeniths(options.sun_zenith),
-                                     parse_sampling(options.sampling)));
+  const refs::Reference reference = refs::load_reference(
+      options.name, parse_sun_zeniths(options.sun_zenith), parse_sampling(options.sampling));
+  warn_of_unused_sampling(command, options.name);
+  print_samples(reference);
 }
 
 }  // namespace
@@ -67,7 +69,7 @@ void add_references_command(CLI::App& app) {
   command->add_flag("--json", options->json, "Print the list as JSON");
   command->footer(
       "Example: skyfit references cie:12 --sampling tregenza --sun-zenith-deg 30,60 > sky.csv");
-  command->callback([options] { run_references(*options); });
+  command->callback([options, command] { run_references(*options, *command); });
 }
 
 }  // namespace skyfit::cli

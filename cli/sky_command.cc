@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxRows = 20'000'000;  // some 3 GB of CSV
 
+constexpr double kMaxAltitude = 1e12;  // metres, beyond any atmosphere
+
 struct SkyOptions {
   std::string preset, model = "reference";
   std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength;
@@ -38,7 +40,8 @@ struct Wavelengths {
 
 SkyGrid parse_grid(const SkyOptions& options) {
   SkyGrid grid;
-  grid.altitude_m = parse_list("--altitude-m", options.altitude);
+  grid.altitude_m = parse_list_within("--altitude-m", options.altitude, 0, kMaxAltitude,
+                                      "a height above the ground in metres");
   grid.sun_zenith_deg =
       parse_list_within("--sun-zenith-deg", options.sun_zenith, 0, 180, "an angle in degrees");
   if (options.view_zenith.empty() && !options.irradiance) {
