@@ -10,8 +10,8 @@ namespace {
 
 // A mean of this becomes middle grey.
 constexpr double kMiddleGrey = 0.18;
-// At most one pixel in twenty becomes brighter than this.
-constexpr double kHighlights = 0.95, kHighlightLevel = 0.8;
+// At most one pixel in ten becomes brighter than this.
+constexpr double kHighlights = 0.9, kHighlightLevel = 0.45;
 // Below this luminance pictures stay dark, as for the eye; above, a camera stops down no further.
 // cd/m^2.
 constexpr double kDarkest = 0.02;
