@@ -110,7 +110,8 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   const double rayleigh_phase = shared.rayleigh_phase(nu);
   const double mie_phase = aerosol_phase(tables.atmosphere.mie.phase, nu);
   NodeValues sum;
-  for (std::size_t k = 0; k < 4; ++k) sum[k] = rayleigh[k] * rayleigh_phase + mie[k] * mie_phase;
+  for (std::size_t k = 0; k < 4; ++k)
+    sum[k] = std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase;
   return sum;
 }
 

@@ -27,6 +27,11 @@ void store(Table& table, int x, int y, int z, const NodeValues& value) {
   for (std::size_t k = 0; k < 4; ++k) table.rgba[4 * texel + k] = static_cast<float>(value[k]);
 }
 
+NodeValues logarithm(NodeValues value) {
+  for (double& v : value) v = std::log(std::max(v, kDarkestScattering));
+  return value;
+}
+
 // Coefficients at the four nodes.
 struct Coefficients {
   NodeValues air, aerosol_scattering, aerosol_extinction, ozone;
@@ -197,8 +202,8 @@ class TableBuilder {
           }
         }
         const int x = nu_index * s.scattering_mu_s + sun_index;
-        store(out_.rayleigh_like, x, mu_index, r_index, rayleigh);
-        store(out_.single_mie, x, mu_index, r_index, mie);
+        store(out_.rayleigh_like, x, mu_index, r_index, logarithm(rayleigh));
+        store(out_.single_mie, x, mu_index, r_index, logarithm(mie));
       }
     }
   }

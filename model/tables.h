@@ -18,7 +18,7 @@ using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blu
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
-  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 32, scattering_nu = 8;
+  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 48, scattering_nu = 8;
 };
 
 // width varies fastest; depth = 1 for 2D.
@@ -31,6 +31,9 @@ struct Table {
 // reaches the air that can be seen from a table's point.
 inline constexpr double kTableLowestSun = -0.2079;
 
+// The least value in the scattering tables, as the argument of the logarithm: 1e-5 cd/m^2.
+inline constexpr double kDarkestScattering = 1e-10;
+
 struct AtmosphereTables {
   Atmosphere<double> atmosphere;
   ColorRule color;
@@ -38,14 +41,16 @@ struct AtmosphereTables {
   Table optical_depth;  // x: mu, y: r; from a point to the top of the atmosphere (pure number). Not
                         // the transmittance: that of a finite path is exp(a difference), which does
                         // not lose its digits in thick air
-  Table irradiance;  // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit
-                     // solar irradiance
-  // 3D textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to the
+  Table irradiance;     // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit
+                        // solar irradiance
+  // The two scattering tables hold natural logarithms: toward sunset light falls exponentially with
+  // the sun's height, which a linear filter then follows. Least: log(kDarkestScattering). 3D
+  // textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to the
   // ground:
   Table rayleigh_like;  // single Rayleigh amplitude + multiple scattering / Rayleigh phase function
                         // (sr^0); light that comes straight from the ground to the eye is not in
                         // it: the renderer draws the ground
-  Table single_mie;  // single aerosol scattering / aerosol phase function (pure number)
+  Table single_mie;     // single aerosol scattering / aerosol phase function (pure number)
 };
 
 // Progress in 0..1; may be empty.

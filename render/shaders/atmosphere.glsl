@@ -68,8 +68,9 @@ Scattering scattering(float h, float mu, float mu_s, float nu, bool hits_ground)
                  height_coordinate(h, scattering_size.w));
   vec3 next = at + vec3(1.0 / scattering_size.y, 0.0, 0.0);
   float part = slot - lower;
-  return Scattering(mix(texture(rayleigh_like_table, at), texture(rayleigh_like_table, next), part),
-                    mix(texture(single_mie_table, at), texture(single_mie_table, next), part));
+  // The tables hold logarithms.
+  return Scattering(exp(mix(texture(rayleigh_like_table, at), texture(rayleigh_like_table, next), part)),
+                    exp(mix(texture(single_mie_table, at), texture(single_mie_table, next), part)));
 }
 
 vec4 radiance(Scattering s, float nu) {
