@@ -13,11 +13,13 @@ namespace {
 
 constexpr double kEarthRadius = 6360e3;
 constexpr double kMountainHeight = 4200;
+constexpr double kCragHeight = 420;
 constexpr double kHillHeight = 260;
 constexpr double kPlainHeight = 25;
-constexpr double kRoughness = 0.15;  // of the plain at the site
+constexpr double kRoughness = 0.12;  // of the plain at the site
 constexpr double kShore = 0.0015;    // of land_value(): a coast some 8 km wide
-constexpr double kFinest = 0.1;      // no detail below, m
+constexpr double kBoulder = 3.2, kBoulderHeight = 0.35;
+constexpr double kFinest = 0.1;  // no detail below, m
 
 double smoothstep(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -31,8 +33,8 @@ NodeValues mix(const NodeValues& a, const NodeValues& b, double t) {
 }
 
 // Relative reflectances at about 460, 530, 590 and 660 nm; only their ratios matter.
-constexpr NodeValues kSea = {0.62, 0.50, 0.36, 0.30};
-constexpr NodeValues kGrass = {0.38, 0.86, 0.72, 0.56};
+constexpr NodeValues kSea = {0.60, 0.42, 0.26, 0.20};
+constexpr NodeValues kGrass = {0.36, 0.80, 0.66, 0.46};
 constexpr NodeValues kSteppe = {0.70, 1.08, 1.28, 1.38};
 constexpr NodeValues kRock = {0.95, 1.08, 1.18, 1.25};
 constexpr NodeValues kSnow = {3.6, 3.6, 3.55, 3.5};
@@ -118,18 +120,25 @@ double Relief::height_m(const glm::dvec3& direction, double resolution_m) const 
   const double continent = land_value(p, resolution);
   if (continent < 0 && beach <= 0) return 0;
   const double land = smoothstep(0, 2 * kShore, continent);
-  const double fading = smoothstep(300, 7e3, distance);
-  const double roughness = kRoughness * (1 + fractal_noise(p, 9, resolution)) +
-                           0.3 * kRoughness * (1 + fractal_noise(p, 0.9, resolution));
+  const double fading = smoothstep(200, 5e3, distance);
+  double roughness = kRoughness * (1 + fractal_noise(p, 9, resolution));
+  if (resolution < kBoulder) {
+    // Boulders: where the noise is high, it breaks through the ground.
+    const double stone = fractal_noise(p + glm::dvec3(31), kBoulder, resolution);
+    roughness += 0.55 * kBoulderHeight * smoothstep(0.42, 0.62, stone) +
+                 kBoulderHeight * std::max(stone - 0.5, 0.0);
+  }
   const double range = fractal_noise(p + glm::dvec3(0, 9e6, 0), 1.3e6, std::max(resolution, 1e4));
-  const double mountains = std::max(smoothstep(-0.02, 0.6, range), 0.5 * near_site);
+  const double mountains = std::max(smoothstep(-0.02, 0.6, range), 0.75 * near_site);
   const glm::dvec3 bent = p + bend(p);
   const double massif =
       smoothstep(-0.6, 0.7, fractal_noise(bent + glm::dvec3(6e5), 70e3, std::max(resolution, 2e3)));
   double height = kPlainHeight * (1 + fractal_noise(p, 30e3, resolution));
   height += kHillHeight * (0.6 + fractal_noise(bent + glm::dvec3(4e5), 7e3, resolution));
   height += kMountainHeight * mountains * massif *
-            ridged_noise(bent, 26e3, std::max(resolution, 2 * resolution - 8e3));
+            ridged_noise(bent, 26e3, std::max(resolution, 4 * resolution - 12e3));
+  height +=
+      kCragHeight * (0.3 + mountains) * ridged_noise(bent + glm::dvec3(9e5), 3.7e3, resolution);
   return std::max(fading * land * height, 0.0) +
          roughness * std::max(smoothstep(0, 0.1 * kShore, continent), beach);
 }
@@ -145,9 +154,10 @@ NodeValues Relief::material(const glm::dvec3& direction, double height_m, double
   // Where a vertex stands for a whole mountain, the lines between the materials are as wide as its
   // height.
   const double blur = kMountainHeight * 0.3 * std::min(resolution / 15e3, 1.0);
-  NodeValues soil = mix(kGrass, kSteppe, smoothstep(-0.45, 0.55, patches + 0.4 * spots));
+  NodeValues soil =
+      mix(kGrass, kSteppe, smoothstep(-0.2, 0.7, patches + 0.5 * spots + 0.3 * grain));
   soil = mix(soil, kRock, smoothstep(900 - blur, 1900 + blur, height_m + 500 * spots));
-  soil = mix(soil, kRock, smoothstep(0.05, 0.16, steepness));
+  soil = mix(soil, kRock, smoothstep(0.04, 0.14, steepness));
   const double snow = smoothstep(2100 - blur, 2700 + blur, height_m + 500 * spots);
   soil = mix(soil, kSnow, snow * (1 - smoothstep(0.12, 0.35, steepness)));
   for (double& value : soil) value *= std::max(1 + 0.4 * grain + 0.15 * spots, 0.2);
