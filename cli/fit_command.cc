@@ -130,11 +130,7 @@ std::string parameter_list() {
 
 void add_fit_command(CLI::App& app) {
   const auto options = std::make_shared<FitCommandOptions>();
-  CLI::App* const command = app.add_subcommand(
-      "fit",
-      "Fits an atmosphere to a reference. Leaves preset.json, report.txt, report.json, "
-      "samples.csv, comparison.svg and\n"
-      "comparison.png in the directory. A LIST is a,b,c or start:stop:step, stop included.");
+  CLI::App* const command = app.add_subcommand("fit", "Fits an atmosphere to a reference.");
   command
       ->add_option("--reference", options->reference,
                    "Shipped reference (skyfit references) or a CSV of samples")
@@ -153,6 +149,10 @@ void add_fit_command(CLI::App& app) {
   command->add_flag("--json", options->json, "Print report.json to stdout");
   add_threads_option(*command, options->threads);
   command->footer(
+      "Leaves preset.json, report.txt, report.json, samples.csv, comparison.svg and "
+      "comparison.png\n"
+      "in the directory. A LIST is a,b,c or start:stop:step, stop included.\n"
+      "\n" +
       parameter_list() +
       "\nExamples:\n"
       "  skyfit fit --reference cie:12 --out fitted\n"

@@ -40,12 +40,7 @@ void run_plot(const PlotOptions& options) {
 
 void add_plot_command(CLI::App& app) {
   const auto options = std::make_shared<PlotOptions>();
-  CLI::App* const command =
-      app.add_subcommand("plot",
-                         "Draws reference, fit and start of finished fits: luminance in the "
-                         "principal plane, one panel per sun position, and\n"
-                         "maps of the residual over the sky. Several directories "
-                         "are drawn into one figure.");
+  CLI::App* const command = app.add_subcommand("plot", "Draws the figure of finished fits.");
   command->add_option("directories", options->directories, "What skyfit fit left")
       ->required()
       ->type_name("DIR");
@@ -54,7 +49,12 @@ void add_plot_command(CLI::App& app) {
       ->type_name("FILE.{svg,png,pdf}")
       ->allow_extra_args(false);
   add_threads_option(*command, options->threads);
-  command->footer("Example: skyfit plot one-lobe two-lobes --out comparison.pdf");
+  command->footer(
+      "Reference, fit and start in the principal plane, one panel per sun position, "
+      "and maps of the\n"
+      "residual over the sky. Several directories are drawn into one figure.\n"
+      "\n"
+      "Example: skyfit plot one-lobe two-lobes --out comparison.pdf");
   command->callback([options] { run_plot(*options); });
 }
 

@@ -128,10 +128,7 @@ std::string view_list() {
 void add_render_command(CLI::App& app) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* const command =
-      app.add_subcommand("render",
-                         "Renders a planet under the preset's atmosphere. OpenEXR holds linear "
-                         "cd/m^2, directions and depth; PNG is\n"
-                         "tone-mapped. Needs neither a display nor a GPU.");
+      app.add_subcommand("render", "Renders a planet under a preset's atmosphere.");
   command->add_option("--preset", options->preset, "Shipped preset or preset file")
       ->required()
       ->type_name("FILE|NAME");
@@ -154,10 +151,15 @@ void add_render_command(CLI::App& app) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_threads_option(*command, options->threads);
-  command->footer(view_list() +
-                  "\nExample: skyfit render --preset earth-clear --view ground --sun-zenith-deg 60 "
-                  "--size 1280x720\n"
-                  "           --out frame.png --out frame.exr");
+  command->footer(
+      "OpenEXR holds linear cd/m^2, luminance, directions and depth; PNG "
+      "is tone-mapped. Neither a\n"
+      "display nor a GPU is needed.\n"
+      "\n" +
+      view_list() +
+      "\nExample: skyfit render --preset earth-clear --view ground --sun-zenith-deg 60 "
+      "--size 1280x720\n"
+      "           --out frame.png --out frame.exr");
   command->callback([options] { run_render(*options); });
 }
 

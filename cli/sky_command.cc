@@ -180,51 +180,55 @@ void run_sky(const SkyOptions& options) {
   }
 }
 
+void add_sky_options(CLI::App& command, SkyOptions& options) {
+  command.add_option("--preset", options.preset, "Shipped preset or preset file")
+      ->required()
+      ->type_name("FILE|NAME");
+  command.add_option("--model", options.model, "Sky model")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command.add_option("--sun-zenith-deg", options.sun_zenith, "Sun zenith angles, 0 to 180")
+      ->required()
+      ->type_name("LIST");
+  command
+      .add_option("--view-zenith-deg", options.view_zenith,
+                  "View zenith angles, 0 to 180; over 90 looks down")
+      ->type_name("LIST");
+  command
+      .add_option("--azimuth-deg", options.azimuth,
+                  "View azimuths relative to the sun's, -360 to 360; 0 = toward it")
+      ->type_name("LIST")
+      ->capture_default_str();
+  command.add_option("--altitude-m", options.altitude, "Heights of the observer above the ground")
+      ->type_name("LIST")
+      ->capture_default_str();
+  command
+      .add_option("--wavelength-nm", options.wavelength,
+                  "Print radiance per unit solar irradiance (1/sr) at these wavelengths")
+      ->type_name("LIST");
+  auto* const luminance =
+      command.add_flag("--luminance", options.luminance, "Print luminance in cd/m^2 (the default)");
+  command
+      .add_flag("--irradiance", options.irradiance,
+                "Print direct, diffuse and global irradiance (no view directions): lx,\n"
+                "or W m^-2 nm^-1 with --wavelength-nm")
+      ->excludes(luminance);
+  add_threads_option(command, options.threads);
+}
+
 }  // namespace
 
 void add_sky_command(CLI::App& app) {
   const auto options = std::make_shared<SkyOptions>();
-  CLI::App* const command =
-      app.add_subcommand("sky",
-                         "Evaluates a preset at every combination of the lists and prints CSV. A "
-                         "LIST is a,b,c or start:stop:step, stop\n"
-                         "included. Values are diffuse light, light reflected by the ground "
-                         "included, the sun's disc not; the sun is at 1 au.");
-  command->add_option("--preset", options->preset, "Shipped preset or preset file")
-      ->required()
-      ->type_name("FILE|NAME");
-  command->add_option("--model", options->model, "Sky model")
-      ->type_name("NAME")
-      ->capture_default_str();
-  command->add_option("--sun-zenith-deg", options->sun_zenith, "Sun zenith angles, 0 to 180")
-      ->required()
-      ->type_name("LIST");
-  command
-      ->add_option("--view-zenith-deg", options->view_zenith,
-                   "View zenith angles, 0 to 180; over 90 looks down")
-      ->type_name("LIST");
-  command
-      ->add_option("--azimuth-deg", options->azimuth,
-                   "View azimuths relative to the sun's, -360 to 360; 0 = toward it")
-      ->type_name("LIST")
-      ->capture_default_str();
-  command->add_option("--altitude-m", options->altitude, "Heights of the observer above the ground")
-      ->type_name("LIST")
-      ->capture_default_str();
-  command
-      ->add_option("--wavelength-nm", options->wavelength,
-                   "Print radiance per unit solar irradiance (1/sr) at these wavelengths")
-      ->type_name("LIST");
-  auto* const luminance = command->add_flag("--luminance", options->luminance,
-                                            "Print luminance in cd/m^2 (the default)");
-  command
-      ->add_flag("--irradiance", options->irradiance,
-                 "Print direct, diffuse and global irradiance at the observer (no view "
-                 "directions): illuminance in lx,\n"
-                 "or W m^-2 nm^-1 with --wavelength-nm")
-      ->excludes(luminance);
-  add_threads_option(*command, options->threads);
+  CLI::App* const command = app.add_subcommand(
+      "sky", "Evaluates a preset and prints CSV: luminance, radiance or irradiance.");
+  add_sky_options(*command, *options);
   command->footer(
+      "Prints every combination of the lists. A LIST is a,b,c or "
+      "start:stop:step, stop included.\n"
+      "Light is diffuse, that reflected by the ground included, the sun's "
+      "disc not, the sun at 1 au.\n"
+      "\n"
       "Examples:\n"
       "  skyfit sky --preset earth-clear --sun-zenith-deg 30 --view-zenith-deg 0:85:5 "
       "--azimuth-deg 0,180\n"
