@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad input ends with one line that says where, what was found and what was expected, a status that
+// is not 0, and nothing left behind.
+#include <nlohmann/json.hpp>
+
+#include "data_refs/references.h"
+#include "tests/cli/program.h"
+
+namespace skyfit::cli {
+namespace {
+
+constexpr const char* kHeader =
+    "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,luminance_cd_m2\n";
+
+class BadInputTest : public ProgramTest {
+ protected:
+  // A preset file with one field changed, or added.
+  void write_preset(const std::string& name, const std::string& pointer,
+                    const nlohmann::json& value) const {
+    auto preset = nlohmann::json::parse(refs::shipped_preset_json("earth-clear"));
+    preset[nlohmann::json::json_pointer(pointer)] = value;
+    write(name, preset.dump(2));
+  }
+  void expect_fit_refusal(const std::string& reference,
+                          const std::vector<std::string>& texts) const {
+    expect_refusal({"fit", "--reference", reference, "--out", "fitted"}, texts);
+  }
+  void expect_sky_refusal(const std::vector<std::string>& arguments,
+                          const std::vector<std::string>& texts) const {
+    std::vector<std::string> all = {"sky", "--preset", "earth-clear"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    expect_refusal(all, texts);
+  }
+};
+
+TEST_F(BadInputTest, CommandLine) {
+  expect_refusal({}, {"expected a command"});
+  expect_refusal({"fot"}, {"fot"});
+  expect_refusal({"fit"}, {"--reference is required"});
+  expect_refusal({"fit", "--reference", "cie:12"}, {"--out is required"});
+  expect_refusal({"fit", "--reference", "cie:12", "--out", "x", "--lobes", "abc"},
+                 {"--lobes", "abc"});
+  expect_refusal({"fit", "--reference", "cie:12", "--out", "x", "--wings", "2"}, {"--wings"});
+}
+
+TEST_F(BadInputTest, MissingFiles) {
+  expect_fit_refusal("missing.csv", {"missing.csv"});
+  expect_refusal({"check", "missing.json"}, {"missing.json", "no such file"});
+  expect_refusal({"check", "missing.csv"}, {"missing.csv", "no such file"});
+  expect_refusal({"plot", "missing", "--out", "figure.svg"}, {"missing"});
+  expect_refusal(
+      {"sky", "--preset", "missing.json", "--sun-zenith-deg", "0", "--view-zenith-deg", "0"},
+      {"missing.json", "no such file", "earth-clear"});
+  expect_refusal({"render", "--preset", "earth-bright", "--out", "frame.png"},
+                 {"earth-bright", "bodare-2014"});
+}
+
+TEST_F(BadInputTest, UnknownNames) {
+  expect_refusal({"presets", "venus"}, {"venus", "earth-clear"});
+  expect_refusal({"references", "cie:16"}, {"cie:16"});
+  expect_fit_refusal("cie:16", {"cie:16"});
+  expect_refusal({"fit", "--reference", "cie:12", "--free", "mie.beta", "--out", "x"},
+                 {"--free", "mie.beta", "mie.scattering"});
+  expect_refusal({"fit", "--reference", "cie:12", "--sampling", "random", "--out", "x"},
+                 {"--sampling", "random", "tregenza"});
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", "magic"},
+                     {"magic", "reference"});
+  expect_refusal({"render", "--preset", "earth-clear", "--view", "moon", "--out", "frame.png"},
+                 {"moon", "ground", "space"});
+}
+
+TEST_F(BadInputTest, SamplesWithTheWrongUnit) {
+  write("unit.csv",
+        "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,luminance_kcd_m2\n30,10,0,5\n");
+  expect_fit_refusal("unit.csv", {"unit.csv:1", "luminance_kcd_m2", "luminance_cd_m2"});
+  expect_refusal({"check", "unit.csv"}, {"unit.csv:1", "luminance_kcd_m2"});
+  write("word.csv", kHeader + std::string("30,10,0,bright\n"));
+  expect_fit_refusal("word.csv", {"word.csv:2", "luminance_cd_m2", "bright"});
+}
+
+TEST_F(BadInputTest, SamplesThatAreNotNumbers) {
+  for (const char* value : {"nan", "NaN", "inf", "-5", "0", ""}) {
+    write("sky.csv", kHeader + std::string("30,10,0,5000\n30,20,0,") + value + "\n");
+    expect_fit_refusal("sky.csv", {"sky.csv:3", "luminance_cd_m2", "expected"});
+  }
+}
+
+TEST_F(BadInputTest, EmptyReferences) {
+  write("empty.csv", "");
+  expect_fit_refusal("empty.csv", {"empty.csv", "expected"});
+  write("header.csv", kHeader);
+  expect_fit_refusal("header.csv", {"header.csv", "expected"});
+  expect_refusal({"check", "header.csv"}, {"header.csv", "expected"});
+}
+
+TEST_F(BadInputTest, SunsBelowTheHorizon) {
+  expect_refusal({"fit", "--reference", "cie:12", "--sun-zenith-deg", "80,95", "--out", "x"},
+                 {"--sun-zenith-deg", "95", "above the horizon"});
+  write("night.csv", kHeader + std::string("95,10,0,5000\n"));
+  expect_fit_refusal("night.csv", {"night.csv:2", "sun_zenith_deg", "95", "above the horizon"});
+}
+
+TEST_F(BadInputTest, PresetsWithUnphysicalValues) {
+  write_preset("bad.json", "/mie/scattering_per_m/value", -4e-6);
+  expect_refusal({"check", "bad.json"},
+                 {"bad.json", "mie.scattering_per_m.value", "-4e-06", "expected"});
+  expect_refusal({"sky", "--preset", "bad.json", "--sun-zenith-deg", "0", "--view-zenith-deg", "0"},
+                 {"bad.json", "mie.scattering_per_m.value"});
+  expect_refusal({"render", "--preset", "bad.json", "--out", "frame.exr"},
+                 {"bad.json", "mie.scattering_per_m.value"});
+  expect_refusal({"fit", "--reference", "cie:12", "--preset", "bad.json", "--out", "x"},
+                 {"bad.json", "mie.scattering_per_m.value"});
+}
+
+TEST_F(BadInputTest, PresetsWithUnknownMissingOrWrongFields) {
+  write_preset("bad.json", "/mie/turbidity", 2.5);
+  expect_refusal({"check", "bad.json"}, {"bad.json", "mie.turbidity"});
+  write_preset("bad.json", "/rayleigh/scale_height_m", "8 km");
+  expect_refusal({"check", "bad.json"},
+                 {"bad.json", "rayleigh.scale_height_m", "8 km", "expected"});
+  write_preset("bad.json", "/rayleigh/scale_height_m", nullptr);
+  expect_refusal({"check", "bad.json"}, {"bad.json", "rayleigh.scale_height_m", "expected"});
+  write_preset("bad.json", "/skyfit_preset", 2);
+  expect_refusal({"check", "bad.json"}, {"bad.json", "skyfit_preset"});
+  write("bad.json", "{ \"skyfit_preset\": 1,");
+  expect_refusal({"check", "bad.json"}, {"bad.json"});
+  write("bad.json", "");
+  expect_refusal({"check", "bad.json"}, {"bad.json"});
+}
+
+TEST_F(BadInputTest, Lists) {
+  expect_sky_refusal({"--sun-zenith-deg", "0:80:0", "--view-zenith-deg", "0"},
+                     {"--sun-zenith-deg", "0:80:0", "step that is not zero"});
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "80:0:5"},
+                     {"--view-zenith-deg", "80:0:5", "sign"});
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--azimuth-deg", "nan"},
+                     {"--azimuth-deg", "nan"});
+  expect_sky_refusal({"--sun-zenith-deg", "200", "--view-zenith-deg", "0"},
+                     {"--sun-zenith-deg", "200", "from 0 to 180"});
+  expect_sky_refusal({"--sun-zenith-deg", "-1", "--view-zenith-deg", "0"},
+                     {"--sun-zenith-deg", "-1", "from 0 to 180"});
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--altitude-m", ""},
+                     {"--altitude-m"});
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--altitude-m", "-5"},
+                     {"-5"});
+  expect_sky_refusal({"--sun-zenith-deg", "0"}, {"--view-zenith-deg", "expected"});
+  expect_sky_refusal({"--sun-zenith-deg", "0:90:0.001", "--view-zenith-deg", "0:90:0.001"},
+                     {"combinations", "at most"});
+  expect_refusal({"fit", "--reference", "cie:12", "--sun-zenith-deg", "0:80:0", "--out", "x"},
+                 {"--sun-zenith-deg", "0:80:0"});
+}
+
+TEST_F(BadInputTest, Wavelengths) {
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--wavelength-nm", "200"},
+                     {"--wavelength-nm", "200", "from 360 to 830"});
+  expect_sky_refusal(
+      {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--wavelength-nm", "550", "--luminance"},
+      {"--luminance"});
+  expect_sky_refusal(
+      {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--luminance", "--irradiance"},
+      {"--luminance"});
+}
+
+TEST_F(BadInputTest, FitOptions) {
+  const auto refuse = [&](std::vector<std::string> extra, const std::vector<std::string>& texts) {
+    extra.insert(extra.begin(), {"fit", "--reference", "cie:12", "--out", "x"});
+    expect_refusal(extra, texts);
+  };
+  refuse({"--starts", "0"}, {"starts = 0", "must be >= 1"});
+  refuse({"--lobes", "3"}, {"lobes = 3", "must be 1 or 2"});
+  refuse({"--max-iterations", "0"}, {"max_iterations = 0", "must be >= 1"});
+  refuse({"--exclude-sun-deg", "nan"}, {"--exclude-sun-deg", "nan"});
+  refuse({"--exclude-sun-deg", "-1"}, {"exclude_sun_deg = -1"});
+  refuse({"--fix", "ground.albedo"}, {"--fix", "ground.albedo", "name=value"});
+  refuse({"--prior", "ground.albedo=0.1:-1"}, {"--prior", "sigma > 0"});
+  refuse({"--threads", "0"}, {"--threads", "0"});
+}
+
+TEST_F(BadInputTest, UnwritableOutputs) {
+  write("file", "text");
+  expect_refusal({"fit", "--reference", "cie:12", "--out", "file"},
+                 {"file", "expected a directory"});
+  expect_refusal({"fit", "--reference", "cie:12", "--out", "file/below"},
+                 {"file/below", "cannot be written"});
+  expect_refusal({"fit", "--reference", "cie:12", "--out", "/proc/fitted"},
+                 {"/proc/fitted", "cannot be written"});
+  expect_refusal({"render", "--preset", "earth-clear", "--out", "missing/frame.png"},
+                 {"missing/frame.png", "folder"});
+  expect_refusal({"render", "--preset", "earth-clear", "--out", "/proc/frame.png"},
+                 {"/proc/frame.png", "cannot be written"});
+  expect_refusal({"plot", "file", "--out", "/proc/figure.svg"},
+                 {"/proc/figure.svg", "cannot be written"});
+}
+
+TEST_F(BadInputTest, ADirectoryWithOtherFilesIsNotTouched) {
+  write("mine/thesis.tex", "words");
+  expect_refusal({"fit", "--reference", "cie:12", "--out", "mine"},
+                 {"mine", "thesis.tex", "--force"});
+  EXPECT_EQ(read("mine/thesis.tex"), "words");
+}
+
+TEST_F(BadInputTest, OutputsOfAnotherKind) {
+  expect_refusal({"render", "--preset", "earth-clear", "--out", "frame.jpg"},
+                 {"--out", "frame.jpg", ".png or .exr"});
+  expect_refusal({"plot", "x", "--out", "figure.gif"},
+                 {"--out", "figure.gif", ".svg, .png or .pdf"});
+}
+
+TEST_F(BadInputTest, ImagesOfNoOrAbsurdSize) {
+  for (const char* size :
+       {"0x720", "1280x0", "1280", "-1x-1", "1000000x1000000", "16384x16384", "bigxsmall", ""}) {
+    expect_refusal({"render", "--preset", "earth-clear", "--size", size, "--out", "frame.png"},
+                   {"--size", size, "expected WIDTHxHEIGHT"});
+  }
+}
+
+TEST_F(BadInputTest, RenderAngles) {
+  const auto refuse = [&](const std::string& option, const std::string& value) {
+    expect_refusal({"render", "--preset", "earth-clear", option, value, "--out", "frame.png"},
+                   {option, value});
+  };
+  refuse("--sun-zenith-deg", "181");
+  refuse("--sun-zenith-deg", "10,20");
+  refuse("--sun-zenith-deg", "nan");
+  refuse("--field-of-view-deg", "0");
+  refuse("--altitude-m", "high");
+}
+
+}  // namespace
+}  // namespace skyfit::cli

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every command does what its help says, and what one command writes another reads.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "model/version.h"
+#include "tests/cli/program.h"
+
+namespace skyfit::cli {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+class CommandsTest : public ProgramTest {
+ protected:
+  // Runs and expects success without a word on stderr; returns stdout.
+  std::string output(const std::vector<std::string>& arguments) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return outcome.out;
+  }
+};
+
+TEST_F(CommandsTest, EveryCommandHasHelpWithAnExample) {
+  for (const char* command : {"fit", "sky", "plot", "render", "presets", "references", "check"}) {
+    EXPECT_THAT(output({command, "--help"}), HasSubstr(std::string("skyfit ") + command + " "))
+        << command;
+    EXPECT_THAT(output({command, "--help"}), HasSubstr("Example")) << command;
+    EXPECT_THAT(output({"--help"}), HasSubstr(command));
+  }
+}
+
+TEST_F(CommandsTest, VersionIsTheProjects) {
+  EXPECT_EQ(output({"--version"}), std::string("skyfit ") + kVersion + "\n");
+}
+
+TEST_F(CommandsTest, PresetsPrintWhatCheckAccepts) {
+  const json names = json::parse(output({"presets", "--json"}));
+  EXPECT_GE(names.size(), 4u);
+  EXPECT_EQ(lines(output({"presets"})).size(), names.size());
+  for (const std::string name : names) {
+    write("preset.json", output({"presets", name}));
+    EXPECT_THAT(output({"check", "preset.json"}), HasSubstr("valid preset \"" + name + "\""));
+    EXPECT_EQ(json::parse(output({"check", "--json", "preset.json"})).at("name"), name);
+  }
+}
+
+TEST_F(CommandsTest, ReferencesPrintWhatCheckAccepts) {
+  const json list = json::parse(output({"references", "--json"}));
+  EXPECT_EQ(list.size(), 16u);
+  write("sky.csv",
+        output({"references", "cie:12", "--sampling", "tregenza", "--sun-zenith-deg", "0:80:10"}));
+  const json summary = json::parse(output({"check", "--json", "sky.csv"}));
+  EXPECT_EQ(summary.at("samples"), 9 * 145);
+  EXPECT_EQ(summary.at("scans"), 9);
+  EXPECT_EQ(summary.at("quantity"), "relative luminance");
+  EXPECT_THAT(summary.at("sun_zenith_deg"), ElementsAre(0, 80));
+
+  // Read back and printed again it is the same, but for azimuths, which come back between -180 and
+  // 180.
+  const auto first = lines(read("sky.csv")), second = lines(output({"references", "sky.csv"}));
+  ASSERT_EQ(first.size(), second.size());
+  EXPECT_EQ(first[1], second[1]);
+  for (std::size_t i = 2; i < first.size(); ++i) {
+    auto a = fields(first[i]), b = fields(second[i]);
+    EXPECT_NEAR(std::remainder(std::stod(a[2]) - std::stod(b[2]), 360), 0, 1e-6);
+    a[2] = b[2];
+    EXPECT_EQ(a, b);
+  }
+}
+
+// A file of samples has its own directions: options that would choose them are not passed over in
+// silence.
+TEST_F(CommandsTest, UnusedSamplingIsSaid) {
+  write("sky.csv", output({"references", "cie:12", "--sun-zenith-deg", "40"}));
+  const Outcome outcome = run({"references", "sky.csv", "--sampling", "tregenza"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err,
+            "skyfit: warning: --sampling is not used: sky.csv has its own directions\n");
+}
+
+TEST_F(CommandsTest, SkyPrintsEveryCombinationWithTheAnglesAsGiven) {
+  const auto rows = lines(output({"sky", "--preset", "earth-clear", "--sun-zenith-deg", "30,60",
+                                  "--view-zenith-deg", "0:80:40", "--azimuth-deg", "-90,0,270",
+                                  "--altitude-m", "0,1000", "--wavelength-nm", "450,550.5"}));
+  ASSERT_EQ(rows.size(), 1u + 2 * 3 * 3 * 2 * 2);
+  EXPECT_EQ(rows[0],
+            "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,wavelength_nm,radiance_"
+            "per_irradiance_sr");
+  std::set<std::vector<std::string>> combinations;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    auto row = fields(rows[i]);
+    ASSERT_EQ(row.size(), 6u);
+    EXPECT_GT(std::stod(row[5]), 0);
+    row.pop_back();
+    combinations.insert(row);
+  }
+  EXPECT_EQ(combinations.size(), rows.size() - 1);
+  EXPECT_TRUE(combinations.contains({"1000", "60", "40", "-90", "550.5"}));
+}
+
+// Luminance is the default; azimuth -90 mirrors 270, and both are the same direction.
+TEST_F(CommandsTest, SkyPrintsLuminanceByDefault) {
+  const std::vector<std::string> arguments = {
+      "sky", "--preset",      "earth-clear", "--sun-zenith-deg", "30", "--view-zenith-deg",
+      "45",  "--azimuth-deg", "-90,270,90"};
+  const auto rows = lines(output(arguments));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0],
+            "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,luminance_cd_m2");
+  const double luminance = std::stod(fields(rows[1])[4]);
+  constexpr double kRounding = 1e-6;  // nine digits, and cosines of 270 degrees
+  EXPECT_NEAR(std::stod(fields(rows[2])[4]) / luminance, 1, kRounding);
+  EXPECT_NEAR(std::stod(fields(rows[3])[4]) / luminance, 1, kRounding);
+  auto explicit_arguments = arguments;
+  explicit_arguments.emplace_back("--luminance");
+  EXPECT_EQ(lines(output(explicit_arguments)), rows);
+}
+
+// global = direct + diffuse; direct horizontal = direct normal * cos(sun zenith).
+TEST_F(CommandsTest, SkyPrintsIrradiance) {
+  for (const bool spectral : {false, true}) {
+    std::vector<std::string> arguments = {"sky", "--preset",    "earth-clear", "--sun-zenith-deg",
+                                          "60",  "--irradiance"};
+    if (spectral) arguments.insert(arguments.end(), {"--wavelength-nm", "550"});
+    const auto rows = lines(output(arguments));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0],
+              spectral
+                  ? "altitude_m,sun_zenith_deg,wavelength_nm,direct_normal_w_m2_nm,"
+                    "direct_horizontal_w_m2_nm,diffuse_horizontal_w_m2_nm,global_horizontal_w_m2_nm"
+                  : "altitude_m,sun_zenith_deg,direct_normal_lx,direct_horizontal_lx,"
+                    "diffuse_horizontal_lx,global_horizontal_lx");
+    const auto row = fields(rows[1]);
+    const std::size_t first = spectral ? 3 : 2;
+    const double normal = std::stod(row[first]), direct = std::stod(row[first + 1]);
+    const double diffuse = std::stod(row[first + 2]), global = std::stod(row[first + 3]);
+    constexpr double kNineDigits = 1e-8;
+    EXPECT_NEAR(direct / normal, 0.5, kNineDigits);
+    EXPECT_NEAR((direct + diffuse) / global, 1, kNineDigits);
+    EXPECT_GT(diffuse, 0);
+  }
+}
+
+TEST_F(CommandsTest, FitLeavesItsFilesAndNothingElse) {
+  const std::vector<std::string> fit = {"fit",   "--reference", "cie:12",  "--sun-zenith-deg",
+                                        "20,60", "--lobes",     "1",       "--starts",
+                                        "1",     "--out",       "a/fitted"};
+  EXPECT_THAT(output(fit), HasSubstr("cie:12"));
+  EXPECT_THAT(files(),
+              UnorderedElementsAre("a", "a/fitted", "a/fitted/preset.json", "a/fitted/report.json",
+                                   "a/fitted/report.txt", "a/fitted/samples.csv",
+                                   "a/fitted/comparison.svg", "a/fitted/comparison.png"));
+  EXPECT_THAT(output({"check", "a/fitted/preset.json"}), HasSubstr("result of a fit"));
+  const json report = json::parse(read("a/fitted/report.json"));
+  EXPECT_GT(report.at("rms_log_percent"), 0.0);
+  EXPECT_LT(report.at("rms_log_percent"), 30.0);  // the baseline preset, not fitted, has 25
+  EXPECT_FALSE(report.at("parameters").empty());
+
+  output(fit);  // an earlier result may be replaced
+  EXPECT_EQ(files().size(), 8u);
+  output({"plot", "a/fitted", "--out", "figure.svg", "--out", "figure.pdf"});
+  EXPECT_THAT(read("figure.svg"), HasSubstr("<svg"));
+  EXPECT_THAT(read("figure.pdf"), ::testing::StartsWith("%PDF"));
+}
+
+// RMS of the residuals of samples.csv, weighted, is the RMS of the report.
+TEST_F(CommandsTest, SamplesGiveTheReportedRms) {
+  output({"fit", "--reference", "cie:9", "--sun-zenith-deg", "30,50", "--lobes", "1", "--starts",
+          "1", "--out", "fitted"});
+  const auto rows = lines(read("fitted/samples.csv"));
+  ASSERT_GT(rows.size(), 2u);
+  double squares = 0, weights = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const auto row = fields(rows[i]);
+    EXPECT_NEAR(std::log(std::stod(row[4]) / std::stod(row[3])), std::stod(row[5]), 1e-12);
+    squares += std::stod(row[6]) * std::pow(std::stod(row[5]), 2);
+    weights += std::stod(row[6]);
+  }
+  const double rms = json::parse(read("fitted/report.json")).at("rms_log_percent");
+  EXPECT_NEAR(100 * std::sqrt(squares / weights), rms, 1e-6 * rms);
+}
+
+TEST_F(CommandsTest, FitPrintsItsReportAsJson) {
+  const json report = json::parse(
+      output({"fit", "--reference", "cie:12", "--sun-zenith-deg", "40", "--lobes", "1", "--starts",
+              "1", "--fix", "ground.albedo=0.25", "--json", "--out", "fitted"}));
+  EXPECT_EQ(report, json::parse(read("fitted/report.json")));
+  const json preset = json::parse(read("fitted/preset.json"));
+  EXPECT_EQ(preset.at("ground").at("albedo"), 0.25);
+}
+
+TEST_F(CommandsTest, RenderWritesPicturesOfTheGivenSize) {
+  output({"render", "--preset", "earth-clear", "--view", "ground", "--sun-zenith-deg", "50",
+          "--size", "64x36", "--samples-per-side", "1", "--out", "frame.png", "--out",
+          "frame.exr"});
+  EXPECT_THAT(files(), UnorderedElementsAre("frame.png", "frame.exr"));
+  const std::string png = read("frame.png");
+  ASSERT_GT(png.size(), 24u);
+  EXPECT_EQ(png.substr(0, 4), "\x89PNG");
+  EXPECT_EQ(png.substr(16, 8), std::string("\0\0\0\x40\0\0\0\x24", 8));  // IHDR: width, height
+  EXPECT_EQ(read("frame.exr").substr(0, 4), "\x76\x2f\x31\x01");
+}
+
+TEST_F(CommandsTest, AFullDiskIsAnError) {
+  const Outcome outcome = run({"presets", "mars"}, {}, "/dev/full");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("stdout"));
+}
+
+}  // namespace
+}  // namespace skyfit::cli
