@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/phase_moments.h"
 #include "model/shared/shared.h"
 
 namespace skyfit {
@@ -109,23 +110,13 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   }
   const double rayleigh_phase = shared.rayleigh_phase(nu);
   const double mie_phase = aerosol_phase(tables.atmosphere.mie.phase, nu);
+  const double length_km =
+      1e-3 * (hits_ground ? shared.distance_to_inner_sphere(p.bottom, height, mu, 0.0)
+                          : shared.distance_to_outer_sphere(p.bottom, height, mu, p.thickness));
   NodeValues sum;
   for (std::size_t k = 0; k < 4; ++k)
-    sum[k] = std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase;
+    sum[k] = length_km * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);
   return sum;
-}
-
-double aerosol_phase(const AerosolPhase<double>& phase, double nu) {
-  Shared<double> shared;
-  switch (phase.type) {
-    case PhaseType::kCornetteShanks:
-      return shared.cornette_shanks_phase(phase.g, nu);
-    case PhaseType::kHenyeyGreenstein:
-      return shared.henyey_greenstein_phase(phase.g, nu);
-    case PhaseType::kTwoLobe:
-      break;
-  }
-  return shared.two_lobe_phase(phase.g1, phase.g2, phase.weight, nu);
 }
 
 }  // namespace skyfit

@@ -22,7 +22,4 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
 NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
                            double nu, bool hits_ground);
 
-// Phase function of the aerosol, 1/sr.
-double aerosol_phase(const AerosolPhase<double>& phase, double nu);
-
 }  // namespace skyfit

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
+#include "model/diffuse_source.h"
 #include "model/gauss.h"
+#include "model/parameter_field.h"
 #include "model/ray.h"
 #include "model/shared/shared.h"
 #include "model/table_lookup.h"
@@ -27,51 +30,56 @@ void store(Table& table, int x, int y, int z, const NodeValues& value) {
   for (std::size_t k = 0; k < 4; ++k) table.rgba[4 * texel + k] = static_cast<float>(value[k]);
 }
 
-NodeValues logarithm(NodeValues value) {
-  for (double& v : value) v = std::log(std::max(v, kDarkestScattering));
-  return value;
-}
-
-// Coefficients at the four nodes.
+// Coefficients at the four nodes, 1/m.
 struct Coefficients {
-  NodeValues air, aerosol_scattering, aerosol_extinction, ozone;
-
-  NodeValues optical_depth(const PathColumns& c) const {
-    NodeValues tau;
-    for (std::size_t k = 0; k < 4; ++k) {
-      tau[k] =
-          air[k] * c.air.value + aerosol_extinction[k] * c.aerosol.value + ozone[k] * c.ozone.value;
-    }
-    return tau;
-  }
+  NodeValues air, aerosol_scattering, aerosol_scattering_cut, aerosol_extinction,
+      aerosol_extinction_cut, ozone;
 };
 
-double at(const PowerLaw<double>& law, double wavelength_nm) {
-  return law.value * std::pow(wavelength_nm / law.wavelength_nm, -law.exponent);
+NodeValues optical_depth(const Coefficients& c, const NodeValues& aerosol_extinction,
+                         const PathColumns& columns) {
+  NodeValues tau;
+  for (std::size_t k = 0; k < 4; ++k) {
+    tau[k] = c.air[k] * columns.air.value + aerosol_extinction[k] * columns.aerosol.value +
+             c.ozone[k] * columns.ozone.value;
+  }
+  return tau;
 }
 
-Coefficients coefficients_of(const Atmosphere<double>& a, const ColorRule& color) {
-  constexpr double kMoleculesPerDobson = 2.687e20;  // 1/m^2
+NodeOptics optics_of(const Atmosphere<double>& atmosphere, const ColorRule& color) {
+  const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
+  NodeOptics optics;
+  for (std::size_t k = 0; k < 4; ++k)
+    optics[k] = optics_at<0>(plain, color.nodes[k], kSourceMoments);
+  return optics;
+}
+
+Coefficients coefficients_of(const NodeOptics& optics, double single_scattering_albedo) {
   Coefficients c;
-  const double ozone_depth = a.ozone.profile == OzoneProfile::kExponential
-                                 ? a.rayleigh.scale_height_m
-                                 : 0.5 * (kTentTop - kTentBottom);
   for (std::size_t k = 0; k < 4; ++k) {
-    const WavelengthNode& node = color.nodes[k];
-    c.air[k] = at(a.rayleigh.scattering_per_m, node.wavelength_nm);
-    c.aerosol_scattering[k] = at(a.mie.scattering_per_m, node.wavelength_nm);
-    c.aerosol_extinction[k] = c.aerosol_scattering[k] / a.mie.single_scattering_albedo;
-    c.ozone[k] =
-        a.ozone.column_du * kMoleculesPerDobson * node.ozone_cross_section_m2 / ozone_depth;
+    c.air[k] = optics[k].air.v;
+    c.aerosol_scattering[k] = optics[k].aerosol_scattering.v;
+    c.aerosol_scattering_cut[k] = optics[k].aerosol_scattering_cut.v;
+    c.aerosol_extinction[k] = c.aerosol_scattering[k] / single_scattering_albedo;
+    c.aerosol_extinction_cut[k] = optics[k].aerosol_extinction.v;
+    c.ozone[k] = optics[k].ozone.v;
   }
   return c;
 }
 
 // One step of the quadrature along a ray: what does not depend on the sun.
 struct Step {
-  double distance, height;
+  double distance, height, mu;
   NodeValues air,
       aerosol;  // scattered toward the eye per unit of light from the sun and of phase function
+  NodeValues aerosol_cut;  // the same without the forward peak: for light that was scattered before
+};
+
+// A texel's ray. The ends of the table's halves, where rays have no length, stand for rays of a
+// decimetre's height.
+struct TexelRay {
+  double height, mu;
+  ViewRay ray;
 };
 
 class TableBuilder {
@@ -79,8 +87,7 @@ class TableBuilder {
   TableBuilder(const Atmosphere<double>& atmosphere, const ColorRule& color,
                const TableSizes& sizes)
       : bottom_(atmosphere.bottom_radius_m),
-        thickness_(atmosphere.top_radius_m - atmosphere.bottom_radius_m),
-        coefficients_(coefficients_of(atmosphere, color)) {
+        thickness_(atmosphere.top_radius_m - atmosphere.bottom_radius_m) {
     out_.atmosphere = atmosphere;
     out_.color = color;
     out_.sizes = sizes;
@@ -91,6 +98,9 @@ class TableBuilder {
                a.mie.scale_height_m,
                a.ozone.column_du > 0,
                a.ozone.profile == OzoneProfile::kExponential};
+    const NodeOptics optics = optics_of(atmosphere, color);
+    coefficients_ = coefficients_of(optics, a.mie.single_scattering_albedo);
+    source_ = std::make_unique<DiffuseSource>(shells_, optics);
     for (const double part : {0.0, 0.25, 0.6, 1.0, 1.7, 2.5, 4.0}) {
       add_break(part * a.mie.scale_height_m);
       add_break(part * a.rayleigh.scale_height_m);
@@ -101,16 +111,19 @@ class TableBuilder {
   }
 
   AtmosphereTables build(const std::function<void(double)>& progress) {
-    make_optical_depth();
+    // Single scattering keeps the true phase function under the cut extinction (TMS, see
+    // model/optics.h).
+    make_optical_depth(coefficients_.aerosol_extinction_cut);
     const TableSizes& s = out_.sizes;
     const int width = s.scattering_mu_s * s.scattering_nu;
     out_.rayleigh_like = make_table(width, s.scattering_mu, s.scattering_r);
     out_.single_mie = make_table(width, s.scattering_mu, s.scattering_r);
     for (int r = 0; r < s.scattering_r; ++r) {
       tbb::parallel_for(0, s.scattering_mu, [&](int mu) { scatter(mu, r); });
-      if (progress) progress(0.9 * (r + 1) / s.scattering_r);
+      if (progress) progress(0.1 + 0.8 * (r + 1) / s.scattering_r);
     }
     make_irradiance();
+    make_optical_depth(coefficients_.aerosol_extinction);
     if (progress) progress(1);
     return std::move(out_);
   }
@@ -125,7 +138,7 @@ class TableBuilder {
     return std::min(shared.height_from_unit(index / (size - 1.0), bottom_, thickness_), thickness_);
   }
 
-  void make_optical_depth() {
+  void make_optical_depth(const NodeValues& aerosol_extinction) {
     const TableSizes& s = out_.sizes;
     out_.optical_depth = make_table(s.optical_depth_mu, s.optical_depth_r, 1);
     tbb::parallel_for(0, s.optical_depth_r, [&](int y) {
@@ -135,13 +148,25 @@ class TableBuilder {
         const double unit = x / (s.optical_depth_mu - 1.0);
         const double mu = shared.mu_from_upward_unit(unit, h, bottom_, thickness_);
         store(out_.optical_depth, x, y, 0,
-              coefficients_.optical_depth(shells_.columns_to_top(h, mu)));
+              optical_depth(coefficients_, aerosol_extinction, shells_.columns_to_top(h, mu)));
       }
     });
   }
 
-  // The ray of a texel; which half of the table it is in says whether it ends on the ground.
-  ViewRay texel_ray(double h, double mu, bool hits_ground) const {
+  // Which half of the table the texel is in says whether its ray ends on the ground.
+  TexelRay texel_ray(int mu_index, int r_index) const {
+    Shared<double> shared;
+    const TableSizes& s = out_.sizes;
+    const double v = (mu_index + 0.5) / s.scattering_mu;
+    const bool hits_ground = v < 0.5;
+    const double least = std::min(0.1, 1e-6 * thickness_);
+    const double h = hits_ground ? std::max(height_of(r_index, s.scattering_r), least)
+                                 : std::min(height_of(r_index, s.scattering_r), thickness_ - least);
+    const double mu = shared.mu_from_texture(v, h, s.scattering_mu, bottom_, thickness_);
+    return {h, mu, ray_of(h, mu, hits_ground)};
+  }
+
+  ViewRay ray_of(double h, double mu, bool hits_ground) const {
     Shared<double> shared;
     ViewRay ray;
     ray.entry_height = h;
@@ -161,50 +186,82 @@ class TableBuilder {
     for (const QuadratureNode& node :
          composite_gauss(shell_crossings(ray, bottom_, breaks_), kOrder)) {
       const RayPoint point = ray_point(ray, bottom_, node.s);
-      const NodeValues tau = coefficients_.optical_depth(columns_along(shells_, ray, point));
+      const NodeValues tau = optical_depth(coefficients_, coefficients_.aerosol_extinction_cut,
+                                           columns_along(shells_, ray, point));
       const double air = std::exp(-point.height / shells_.air_scale_height);
       const double aerosol = std::exp(-point.height / shells_.aerosol_scale_height);
-      Step step{node.s, std::min(point.height, thickness_), {}, {}};
+      Step step{node.s, std::min(point.height, thickness_), point.mu, {}, {}, {}};
       for (std::size_t k = 0; k < 4; ++k) {
         const double reaches_eye = node.weight * std::exp(-tau[k]);
         step.air[k] = coefficients_.air[k] * air * reaches_eye;
         step.aerosol[k] = coefficients_.aerosol_scattering[k] * aerosol * reaches_eye;
+        step.aerosol_cut[k] = coefficients_.aerosol_scattering_cut[k] * aerosol * reaches_eye;
       }
       steps.push_back(step);
     }
     return steps;
   }
 
-  void scatter(int mu_index, int r_index) {
+  // One sun and scattering angle of a ray, and what has been added up for it.
+  struct Cell {
+    double mu_s, nu;
+    double table_nu;  // the table's, which may be impossible for this ray; then nu is the nearest
+                      // possible
+    NodeValues rayleigh, mie;
+    std::array<float, 4> multiple;
+  };
+
+  std::vector<Cell> cells_of(double mu) const {
     Shared<double> shared;
     const TableSizes& s = out_.sizes;
-    const double h = height_of(r_index, s.scattering_r);
-    const double v = (mu_index + 0.5) / s.scattering_mu;
-    const double mu = shared.mu_from_texture(v, h, s.scattering_mu, bottom_, thickness_);
-    const std::vector<Step> steps = steps_along(texel_ray(h, mu, v < 0.5));
+    std::vector<Cell> cells;
     for (int nu_index = 0; nu_index < s.scattering_nu; ++nu_index) {
       for (int sun_index = 0; sun_index < s.scattering_mu_s; ++sun_index) {
         const double mu_s = shared.sun_from_unit(sun_index / (s.scattering_mu_s - 1.0),
                                                  kTableLowestSun, bottom_, thickness_);
-        // Not every angle between sun and view is possible.
         const double widest = std::sqrt((1 - mu * mu) * (1 - mu_s * mu_s));
-        const double nu = std::clamp(shared.cosine_from_unit(nu_index / (s.scattering_nu - 1.0)),
-                                     mu * mu_s - widest, mu * mu_s + widest);
-        NodeValues rayleigh{}, mie{};
-        for (const Step& step : steps) {
-          const double r = bottom_ + step.height;
-          const double mu_s_there =
-              std::clamp(((bottom_ + h) * mu_s + step.distance * nu) / r, -1.0, 1.0);
-          const NodeValues sun = lookup_sun_transmittance(out_, step.height, mu_s_there);
-          for (std::size_t k = 0; k < 4; ++k) {
-            rayleigh[k] += step.air[k] * sun[k];
-            mie[k] += step.aerosol[k] * sun[k];
-          }
-        }
-        const int x = nu_index * s.scattering_mu_s + sun_index;
-        store(out_.rayleigh_like, x, mu_index, r_index, logarithm(rayleigh));
-        store(out_.single_mie, x, mu_index, r_index, logarithm(mie));
+        const double table_nu = shared.cosine_from_unit(nu_index / (s.scattering_nu - 1.0));
+        const double nu = std::clamp(table_nu, mu * mu_s - widest, mu * mu_s + widest);
+        cells.push_back({mu_s, nu, table_nu, {}, {}, {}});
       }
+    }
+    return cells;
+  }
+
+  void add_step(const Step& step, const DiffuseSource::Slice& slice, double height,
+                Cell& cell) const {
+    const double mu_s = std::clamp(
+        ((bottom_ + height) * cell.mu_s + step.distance * cell.nu) / (bottom_ + step.height), -1.0,
+        1.0);
+    const NodeValues sun = lookup_sun_transmittance(out_, step.height, mu_s);
+    for (std::size_t k = 0; k < 4; ++k) {
+      cell.rayleigh[k] += step.air[k] * sun[k];
+      cell.mie[k] += step.aerosol[k] * sun[k];
+    }
+    const double widest = std::sqrt((1 - step.mu * step.mu) * (1 - mu_s * mu_s));
+    slice.add(mu_s, widest > 1e-9 ? (cell.nu - step.mu * mu_s) / widest : 1.0,
+              cell.multiple.data());
+  }
+
+  void scatter(int mu_index, int r_index) {
+    Shared<double> shared;
+    const TexelRay texel = texel_ray(mu_index, r_index);
+    std::vector<Cell> cells = cells_of(texel.mu);
+    DiffuseSource::Slice slice;
+    for (const Step& step : steps_along(texel.ray)) {
+      source_->slice(step.height, step.mu, step.air, step.aerosol_cut, slice);
+      for (Cell& cell : cells) add_step(step, slice, texel.height, cell);
+    }
+    const double per_kilometre = 1e3 / texel.ray.length;
+    for (std::size_t x = 0; x < cells.size(); ++x) {
+      Cell& cell = cells[x];
+      for (std::size_t k = 0; k < 4; ++k) {
+        cell.rayleigh[k] += cell.multiple[k] / shared.rayleigh_phase(cell.table_nu);
+        cell.rayleigh[k] = std::log(std::max(cell.rayleigh[k] * per_kilometre, kDarkestScattering));
+        cell.mie[k] = std::log(std::max(cell.mie[k] * per_kilometre, kDarkestScattering));
+      }
+      store(out_.rayleigh_like, static_cast<int>(x), mu_index, r_index, cell.rayleigh);
+      store(out_.single_mie, static_cast<int>(x), mu_index, r_index, cell.mie);
     }
   }
 
@@ -238,7 +295,8 @@ class TableBuilder {
   }
 
   double bottom_, thickness_;
-  Coefficients coefficients_;
+  Coefficients coefficients_{};
+  std::unique_ptr<DiffuseSource> source_;
   Shells shells_{};
   std::vector<double> breaks_;  // heights between which the quadrature has its nodes
   AtmosphereTables out_;

@@ -18,7 +18,7 @@ using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blu
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
-  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 48, scattering_nu = 8;
+  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 48, scattering_nu = 12;
 };
 
 // width varies fastest; depth = 1 for 2D.
@@ -31,8 +31,9 @@ struct Table {
 // reaches the air that can be seen from a table's point.
 inline constexpr double kTableLowestSun = -0.2079;
 
-// The least value in the scattering tables, as the argument of the logarithm: 1e-5 cd/m^2.
-inline constexpr double kDarkestScattering = 1e-10;
+// The least value in the scattering tables, as the argument of the logarithm, 1/km: 1e-5 cd/m^2
+// over 100 km.
+inline constexpr double kDarkestScattering = 1e-12;
 
 struct AtmosphereTables {
   Atmosphere<double> atmosphere;
@@ -44,9 +45,10 @@ struct AtmosphereTables {
   Table irradiance;     // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit
                         // solar irradiance
   // The two scattering tables hold natural logarithms: toward sunset light falls exponentially with
-  // the sun's height, which a linear filter then follows. Least: log(kDarkestScattering). 3D
-  // textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to the
-  // ground:
+  // the sun's height, which a linear filter then follows. They hold the mean over
+  // the ray, amplitude / length in km, because the amplitude of a ray that ends at its beginning is
+  // 0. 3D textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to
+  // the ground:
   Table rayleigh_like;  // single Rayleigh amplitude + multiple scattering / Rayleigh phase function
                         // (sr^0); light that comes straight from the ground to the eye is not in
                         // it: the renderer draws the ground

@@ -92,24 +92,32 @@ Number sun_from_unit(Number x_mu_s, Number mu_s_min, Number bottom, Number thick
   return clamp(mu_s, Number(-1.0), Number(1.0));
 }
 
-Number unit_from_cosine(Number cosine) { return 0.5 * cosine + 0.5; }
-Number cosine_from_unit(Number x) { return 2.0 * x - 1.0; }
+// The angle between sun and view: the sine of its half, finest toward the sun, where the light changes most. Deviation:
+// Bruneton 2017 takes the cosine.
+Number unit_from_cosine(Number cosine) {
+  return 1.0 - sqrt(max(0.5 - 0.5 * cosine, Number(0.0)));
+}
+Number cosine_from_unit(Number x) { return 1.0 - 2.0 * (1.0 - x) * (1.0 - x); }
 
 // Texture coordinate of the view zenith in the scattering table: the halves meet at the horizon and share no texel.
+// Deviation: the square root of Bruneton's distance, which spreads 64 texels evenly over the sky instead of one over the
+// 30 degrees about the zenith.
 Number texture_from_view(Number h, Number mu, bool hits_ground, Number size, Number bottom, Number thickness) {
   Number half_size = 0.5 * size;
   if (hits_ground) {
-    return 0.5 - 0.5 * texture_from_unit(unit_from_ground_ray(h, mu, bottom), half_size);
+    return 0.5 - 0.5 * texture_from_unit(sqrt(unit_from_ground_ray(h, mu, bottom)), half_size);
   }
-  return 0.5 + 0.5 * texture_from_unit(unit_from_upward_ray(h, mu, bottom, thickness), half_size);
+  return 0.5 + 0.5 * texture_from_unit(sqrt(unit_from_upward_ray(h, mu, bottom, thickness)), half_size);
 }
 
 Number mu_from_texture(Number u, Number h, Number size, Number bottom, Number thickness) {
   Number half_size = 0.5 * size;
   if (u < Number(0.5)) {
-    return mu_from_ground_unit(unit_from_texture(1.0 - 2.0 * u, half_size), h, bottom);
+    Number ground = unit_from_texture(1.0 - 2.0 * u, half_size);
+    return mu_from_ground_unit(ground * ground, h, bottom);
   }
-  return mu_from_upward_unit(unit_from_texture(2.0 * u - 1.0, half_size), h, bottom, thickness);
+  Number sky = unit_from_texture(2.0 * u - 1.0, half_size);
+  return mu_from_upward_unit(sky * sky, h, bottom, thickness);
 }
 
 // Where a view ray meets the atmosphere when the eye may be outside: distance to the first point inside, 0 when the eye

@@ -68,9 +68,12 @@ Scattering scattering(float h, float mu, float mu_s, float nu, bool hits_ground)
                  height_coordinate(h, scattering_size.w));
   vec3 next = at + vec3(1.0 / scattering_size.y, 0.0, 0.0);
   float part = slot - lower;
-  // The tables hold logarithms.
-  return Scattering(exp(mix(texture(rayleigh_like_table, at), texture(rayleigh_like_table, next), part)),
-                    exp(mix(texture(single_mie_table, at), texture(single_mie_table, next), part)));
+  // The tables hold logarithms of the mean over the ray.
+  float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, h, mu, 0.0)
+                                : distance_to_outer_sphere(bottom_km, h, mu, thickness_km);
+  return Scattering(
+      length_km * exp(mix(texture(rayleigh_like_table, at), texture(rayleigh_like_table, next), part)),
+      length_km * exp(mix(texture(single_mie_table, at), texture(single_mie_table, next), part)));
 }
 
 vec4 radiance(Scattering s, float nu) {
