@@ -50,6 +50,11 @@ void accumulate(const Table& table, double u, double v, double w, double weight,
   }
 }
 
+// Below the lowest sun of the tables the twilight falls by e per degree.
+double deep_twilight(double mu_s) {
+  return std::exp(std::min((mu_s - kTableLowestSun) * 57.3, 0.0));
+}
+
 }  // namespace
 
 NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, double mu) {
@@ -84,7 +89,7 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
   const double x = shared.unit_from_sun(mu_s, kTableLowestSun, p.bottom, p.thickness);
   const double y = shared.unit_from_height(height, p.bottom, p.thickness);
   accumulate(table, shared.texture_from_unit(x, table.width),
-             shared.texture_from_unit(y, table.height), 0.5, 1, sum);
+             shared.texture_from_unit(y, table.height), 0.5, deep_twilight(mu_s), sum);
   return sum;
 }
 

@@ -59,10 +59,11 @@ vec4 scattered_beyond(Place from, float nu, bool hits_ground) {
     bool reached = b * b > a * c && d > 0.0 && r * from.mu_s + d * nu <= 0.0;
     float length = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
                                : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);
-    if (!reached || d > length) return vec4(0.0);
+    vec4 faint = deep_twilight(from.mu_s) * radiance(scattering(from.h, from.mu, mu_s_min, nu, hits_ground), nu);
+    if (!reached || d > length) return faint;
     Place lit = place_along(from, nu, d);
-    return transmittance_between(from, lit, hits_ground) *
-           radiance(scattering(lit.h, lit.mu, mu_s_min, nu, hits_ground), nu);
+    return max(faint, transmittance_between(from, lit, hits_ground) *
+                          radiance(scattering(lit.h, lit.mu, mu_s_min, nu, hits_ground), nu));
   }
   return radiance(scattering(from.h, from.mu, from.mu_s, nu, hits_ground), nu);
 }

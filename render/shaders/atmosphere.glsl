@@ -47,11 +47,14 @@ vec4 sun_transmittance(float h, float mu_s) {
   return visible * exp(-optical_depth_to_top(h, max(mu_s, mu_horizon)));
 }
 
+// Below the lowest sun of the tables the twilight falls by e per degree.
+float deep_twilight(float mu_s) { return exp(min((mu_s - mu_s_min) * 57.3, 0.0)); }
+
 // Diffuse, on a horizontal surface that faces up.
 vec4 sky_irradiance(float h, float mu_s) {
   vec2 size = vec2(textureSize(irradiance_table, 0));
   float x = texture_from_unit(unit_from_sun(mu_s, mu_s_min, bottom_km, thickness_km), size.x);
-  return texture(irradiance_table, vec2(x, height_coordinate(h, size.y)));
+  return deep_twilight(mu_s) * texture(irradiance_table, vec2(x, height_coordinate(h, size.y)));
 }
 
 struct Scattering {

@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Views, EveryPlace,
 INSTANTIATE_TEST_SUITE_P(Views, EveryView,
                          ::testing::Combine(::testing::Values("ground", "sunset", "away", "10km",
                                                               "limb", "space"),
-                                            ::testing::Values(0.0, 60.0, 85.0, 90.0)));
+                                            ::testing::Values(0.0, 60.0, 85.0, 90.0, 110.0)));
 
 TEST(Frame, NormalsAreUnitVectorsAndReflectancesPhysical) {
   const Frame frame = frame_of("10km", 60);
