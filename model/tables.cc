@@ -256,7 +256,8 @@ class TableBuilder {
     for (std::size_t x = 0; x < cells.size(); ++x) {
       Cell& cell = cells[x];
       for (std::size_t k = 0; k < 4; ++k) {
-        cell.rayleigh[k] += cell.multiple[k] / shared.rayleigh_phase(cell.table_nu);
+        // The series of the diffuse field may swing below 0 where the field is dark.
+        cell.rayleigh[k] += std::max(cell.multiple[k], 0.0f) / shared.rayleigh_phase(cell.table_nu);
         cell.rayleigh[k] = std::log(std::max(cell.rayleigh[k] * per_kilometre, kDarkestScattering));
         cell.mie[k] = std::log(std::max(cell.mie[k] * per_kilometre, kDarkestScattering));
       }

@@ -33,7 +33,7 @@ inline constexpr double kTableLowestSun = -0.2079;
 
 // The least value in the scattering tables, as the argument of the logarithm, 1/km: 1e-5 cd/m^2
 // over 100 km.
-inline constexpr double kDarkestScattering = 1e-12;
+inline constexpr double kDarkestScattering = 2e-10;
 
 struct AtmosphereTables {
   Atmosphere<double> atmosphere;
