@@ -31,8 +31,8 @@ struct Table {
 // reaches the air that can be seen from a table's point.
 inline constexpr double kTableLowestSun = -0.2079;
 
-// The least value in the scattering tables, as the argument of the logarithm, 1/km: 1e-5 cd/m^2
-// over 100 km.
+// The least value in the scattering tables, as the argument of the logarithm, 1/km: about
+// 2e-4 cd/m^2 over 100 km, as dark as a night without moon.
 inline constexpr double kDarkestScattering = 2e-10;
 
 struct AtmosphereTables {
