@@ -25,7 +25,8 @@ namespace {
 
 Shared<double> shared;  // stateless
 
-// Weights of a layer for one stream: I = t I_far + near Q_near + far Q_far, Q linear in optical depth.
+// Weights of a layer for one stream: I = t I_far + near Q_near + far Q_far, Q linear in optical
+// depth.
 template <int N>
 struct LayerWeights {
   Dual<N> t, near, far;
@@ -55,8 +56,15 @@ template <int N>
 class ModeSolver {
  public:
   ModeSolver(const Shells& shells, const Optics<N>& optics, const std::vector<double>& heights,
-             const std::vector<double>& sun_mu, const StreamBasis& basis, const FieldShape& shape, int m)
-      : shells_(shells), optics_(optics), heights_(heights), sun_mu_(sun_mu), basis_(basis), shape_(shape), m_(m) {
+             const std::vector<double>& sun_mu, const StreamBasis& basis, const FieldShape& shape,
+             int m)
+      : shells_(shells),
+        optics_(optics),
+        heights_(heights),
+        sun_mu_(sun_mu),
+        basis_(basis),
+        shape_(shape),
+        m_(m) {
     rows_ = basis.moments() - m;
     moments_.assign(rows_ * shape.size(), 0.0);
     source_.resize(moments_.size());
@@ -84,7 +92,9 @@ class ModeSolver {
   std::size_t n_slices() const { return static_cast<std::size_t>(shape_.slices); }
 
   // Rows are kept by parity: l - m = 0, 2, 4, .. then 1, 3, 5, ..
-  int row_of(int l) const { return (l - m_) % 2 == 0 ? (l - m_) / 2 : basis_.rows(m_, 0) + (l - m_) / 2; }
+  int row_of(int l) const {
+    return (l - m_) % 2 == 0 ? (l - m_) / 2 : basis_.rows(m_, 0) + (l - m_) / 2;
+  }
 
   // Source per extinction of each moment: omega_l = sum_i k_i rho_i chi_i,l / extinction.
   void set_albedos() {
@@ -97,9 +107,10 @@ class ModeSolver {
       };
       const Dual<N> air = optics_.air * density(optics_.air_scale_height);
       const Dual<N> rho_aerosol = density(optics_.aerosol_scale_height);
-      const Dual<N> ozone = optics_.ozone_follows_air
-                                ? optics_.ozone * density(optics_.air_scale_height)
-                                : optics_.ozone * shared.tent_density(h, kTentBottom, kTentPeak, kTentTop);
+      const Dual<N> ozone =
+          optics_.ozone_follows_air
+              ? optics_.ozone * density(optics_.air_scale_height)
+              : optics_.ozone * shared.tent_density(h, kTentBottom, kTentPeak, kTentTop);
       const Dual<N> extinction = air + optics_.aerosol_extinction * rho_aerosol + ozone;
       if (!(extinction.v > 0)) continue;
       const Dual<N> aerosol = optics_.aerosol_scattering_cut * rho_aerosol / extinction;
@@ -118,11 +129,14 @@ class ModeSolver {
     layers_.resize(static_cast<std::size_t>(shape_.levels - 1) * basis_.streams());
     for (int i = 0; i + 1 < shape_.levels; ++i) {
       for (int k = 0; k < basis_.streams(); ++k) {
-        layers_[i * basis_.streams() + k] = layer_weights((above[i] - above[i + 1]) * (1 / basis_.mu(k)));
+        layers_[i * basis_.streams() + k] =
+            layer_weights((above[i] - above[i + 1]) * (1 / basis_.mu(k)));
       }
     }
   }
-  Dual<N> vertical_depth(double height) const { return optics_.optical_depth(shells_.columns_to_top(height, 1)); }
+  Dual<N> vertical_depth(double height) const {
+    return optics_.optical_depth(shells_.columns_to_top(height, 1));
+  }
 
   // Moments of the sun's beam, Lambda_lm(mu_s) exp(-tau), and its irradiance of the ground.
   void set_direct_beam() {
@@ -131,11 +145,13 @@ class ModeSolver {
       normalised_legendre(m_, basis_.moments(), sun_mu_[j], lambda.data());
       for (int i = 0; i < shape_.levels; ++i) {
         const double mu = sun_mu_[j];
-        if (mu < 0 && shared.sphere_discriminant(shells_.bottom_radius, heights_[i], mu, 0) >= 0) continue;
+        if (mu < 0 && shared.sphere_discriminant(shells_.bottom_radius, heights_[i], mu, 0) >= 0)
+          continue;
         const Dual<N> tau = optics_.optical_depth(shells_.columns_to_top(heights_[i], mu));
         const double t = std::exp(-tau.v);
         const Dual<N> beam = tau.chain(t, -t);
-        for (int l = m_; l < basis_.moments(); ++l) put(row(moments_, row_of(l)), i, j, lambda[l - m_], beam);
+        for (int l = m_; l < basis_.moments(); ++l)
+          put(row(moments_, row_of(l)), i, j, lambda[l - m_], beam);
         if (m_ == 0 && i == 0) put(ground_.data(), 0, j, std::max(mu, 0.0), beam);
       }
     }
@@ -143,7 +159,8 @@ class ModeSolver {
   void put(double* row, int level, int sun, double factor, const Dual<N>& x) const {
     double* at = row + level * shape_.row() + sun;
     at[0] = factor * x.v;
-    for (std::size_t p = 1; p < n_slices(); ++p) at[p * shape_.suns] = factor * derivative(x, p - 1);
+    for (std::size_t p = 1; p < n_slices(); ++p)
+      at[p * shape_.suns] = factor * derivative(x, p - 1);
   }
   static double derivative(const Dual<N>& x, std::size_t p) {
     if constexpr (N > 0) return x.d[p];
@@ -163,7 +180,8 @@ class ModeSolver {
         for (std::size_t p = 1; p < n_slices(); ++p) {
           kernels::add_scaled(derivative(omega, p - 1), in, out + p * suns, suns);
         }
-        for (std::size_t j = 0; j < suns; ++j) source_size_ = std::max(source_size_, std::abs(out[j]));
+        for (std::size_t j = 0; j < suns; ++j)
+          source_size_ = std::max(source_size_, std::abs(out[j]));
       }
     }
   }
@@ -171,8 +189,10 @@ class ModeSolver {
   // Source function at the streams: first half looks up, second half looks down.
   void synthesise() {
     const int n = basis_.streams(), even = basis_.rows(m_, 0), odd = basis_.rows(m_, 1);
-    kernels::multiply(basis_.synthesis(m_, 0).data(), source_.data(), row(field_, 0), n, even, shape_.size());
-    kernels::multiply(basis_.synthesis(m_, 1).data(), row(source_, even), row(field_, n), n, odd, shape_.size());
+    kernels::multiply(basis_.synthesis(m_, 0).data(), source_.data(), row(field_, 0), n, even,
+                      shape_.size());
+    kernels::multiply(basis_.synthesis(m_, 1).data(), row(source_, even), row(field_, n), n, odd,
+                      shape_.size());
     kernels::butterfly(row(field_, 0), row(field_, n), n * shape_.size());
   }
 
@@ -186,7 +206,8 @@ class ModeSolver {
     for (int k = 0; k < n; ++k) sweep(row(field_, n + k), k, 0, 1, reflected);
   }
 
-  // Replaces the source function of one stream by its radiance, from the level `first` in steps of `step`.
+  // Replaces the source function of one stream by its radiance, from the level `first` in steps of
+  // `step`.
   void sweep(double* q, int stream, int first, int step, std::vector<double> radiance) const {
     const std::size_t width = shape_.row(), suns = shape_.suns;
     std::vector<double> far_source(q + first * width, q + (first + 1) * width), next(width);
@@ -194,10 +215,12 @@ class ModeSolver {
     for (int i = first + step; i >= 0 && i < shape_.levels; i += step) {
       const LayerWeights<N>& w = layers_[std::min(i, i - step) * basis_.streams() + stream];
       double* near = q + i * width;
-      kernels::blend(w.t.v, radiance.data(), w.near.v, near, w.far.v, far_source.data(), next.data(), width);
+      kernels::blend(w.t.v, radiance.data(), w.near.v, near, w.far.v, far_source.data(),
+                     next.data(), width);
       for (std::size_t p = 1; p < n_slices(); ++p) {
         kernels::add_blend(derivative(w.t, p - 1), radiance.data(), derivative(w.near, p - 1), near,
-                           derivative(w.far, p - 1), far_source.data(), next.data() + p * suns, suns);
+                           derivative(w.far, p - 1), far_source.data(), next.data() + p * suns,
+                           suns);
       }
       std::copy(near, near + width, far_source.begin());
       std::copy(next.begin(), next.end(), near);
@@ -205,14 +228,16 @@ class ModeSolver {
     }
   }
 
-  // albedo / pi times the irradiance that the order before left on the ground; the sun's mode 0 only.
+  // albedo / pi times the irradiance that the order before left on the ground; the sun's mode 0
+  // only.
   std::vector<double> reflected_radiance() const {
     std::vector<double> r(shape_.row(), 0.0);
     if (m_ != 0) return r;
     const Dual<N> f = optics_.ground_albedo * (1 / std::numbers::pi);
     kernels::add_scaled(f.v, ground_.data(), r.data(), r.size());
     for (std::size_t p = 1; p < n_slices(); ++p) {
-      kernels::add_scaled(derivative(f, p - 1), ground_.data(), r.data() + p * shape_.suns, shape_.suns);
+      kernels::add_scaled(derivative(f, p - 1), ground_.data(), r.data() + p * shape_.suns,
+                          shape_.suns);
     }
     return r;
   }
@@ -220,16 +245,18 @@ class ModeSolver {
   void collect_ground_irradiance() {
     std::fill(ground_.begin(), ground_.end(), 0.0);
     for (int k = 0; k < basis_.streams(); ++k) {
-      kernels::add_scaled(2 * std::numbers::pi * basis_.weight(k) * basis_.mu(k), row(field_, k), ground_.data(),
-                          shape_.row());
+      kernels::add_scaled(2 * std::numbers::pi * basis_.weight(k) * basis_.mu(k), row(field_, k),
+                          ground_.data(), shape_.row());
     }
   }
 
   void analyse() {
     const int n = basis_.streams(), even = basis_.rows(m_, 0), odd = basis_.rows(m_, 1);
     kernels::butterfly(row(field_, 0), row(field_, n), n * shape_.size());
-    kernels::multiply(basis_.analysis(m_, 0).data(), row(field_, 0), moments_.data(), even, n, shape_.size());
-    kernels::multiply(basis_.analysis(m_, 1).data(), row(field_, n), row(moments_, even), odd, n, shape_.size());
+    kernels::multiply(basis_.analysis(m_, 0).data(), row(field_, 0), moments_.data(), even, n,
+                      shape_.size());
+    kernels::multiply(basis_.analysis(m_, 1).data(), row(field_, n), row(moments_, even), odd, n,
+                      shape_.size());
   }
 
   const Shells& shells_;
@@ -255,7 +282,8 @@ double largest(const std::vector<double>& v) {
 }
 
 // Per slice: the largest change over the largest total.
-double change(const std::vector<double>& order, const std::vector<double>& total, const FieldShape& shape) {
+double change(const std::vector<double>& order, const std::vector<double>& total,
+              const FieldShape& shape) {
   std::vector<double> top(shape.slices, 0.0), step(shape.slices, 0.0);
   const std::size_t blocks = order.size() / shape.suns;
   for (std::size_t b = 0; b < blocks; ++b) {
@@ -273,7 +301,8 @@ double change(const std::vector<double>& order, const std::vector<double>& total
 }
 
 // Back from the order of the parities to ascending l.
-std::vector<double> by_ascending_l(const std::vector<double>& v, const StreamBasis& basis, int m, std::size_t size) {
+std::vector<double> by_ascending_l(const std::vector<double>& v, const StreamBasis& basis, int m,
+                                   std::size_t size) {
   std::vector<double> r(v.size());
   for (int l = m; l < basis.moments(); ++l) {
     const int from = (l - m) % 2 == 0 ? (l - m) / 2 : basis.rows(m, 0) + (l - m) / 2;
@@ -286,8 +315,8 @@ std::vector<double> by_ascending_l(const std::vector<double>& v, const StreamBas
 
 template <int N>
 void solve_mode(const Shells& shells, const Optics<N>& optics, const std::vector<double>& heights,
-                const std::vector<double>& sun_mu, const StreamBasis& basis, const DiffuseOptions& options, int m,
-                DiffuseField& field) {
+                const std::vector<double>& sun_mu, const StreamBasis& basis,
+                const DiffuseOptions& options, int m, DiffuseField& field) {
   ModeSolver<N> solver(shells, optics, heights, sun_mu, basis, field.shape, m);
   const double beam = 0.25 / std::numbers::pi;  // Lambda_00^2, the size of mode 0's first source
   std::vector<double> total(solver.moments().size(), 0.0), ground(field.shape.row(), 0.0);
@@ -307,10 +336,12 @@ void solve_mode(const Shells& shells, const Optics<N>& optics, const std::vector
   if (m == 0) field.ground_irradiance = ground;
 }
 
-template void solve_mode<0>(const Shells&, const Optics<0>&, const std::vector<double>&, const std::vector<double>&,
-                            const StreamBasis&, const DiffuseOptions&, int, DiffuseField&);
-template void solve_mode<kParameterCount>(const Shells&, const Optics<kParameterCount>&, const std::vector<double>&,
-                                          const std::vector<double>&, const StreamBasis&, const DiffuseOptions&, int,
+template void solve_mode<0>(const Shells&, const Optics<0>&, const std::vector<double>&,
+                            const std::vector<double>&, const StreamBasis&, const DiffuseOptions&,
+                            int, DiffuseField&);
+template void solve_mode<kParameterCount>(const Shells&, const Optics<kParameterCount>&,
+                                          const std::vector<double>&, const std::vector<double>&,
+                                          const StreamBasis&, const DiffuseOptions&, int,
                                           DiffuseField&);
 
 }  // namespace skyfit

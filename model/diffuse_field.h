@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The diffuse field of the atmosphere for a list of local sun angles: successive orders of scattering until they no
-// longer matter, in a plane-parallel column under a spherical direct beam (pseudo-spherical). Its Legendre moments are
-// the source of multiple scattering; the caller integrates that source along spherical view rays, at the local sun.
-// Azimuth is a Fourier series, zenith a double-Gauss rule, the source linear in optical depth within a layer.
+// The diffuse field of the atmosphere for a list of local sun angles: successive orders of
+// scattering until they no longer matter, in a plane-parallel column under a spherical direct beam
+// (pseudo-spherical). Its Legendre moments are the source of multiple scattering; the caller
+// integrates that source along spherical view rays, at the local sun. Azimuth is a Fourier series,
+// zenith a double-Gauss rule, the source linear in optical depth within a layer.
 #pragma once
 
 #include <vector>
@@ -16,8 +17,8 @@ namespace skyfit {
 // Heights of the levels, ascending from 0 to top, h_i = top (i / (count - 1))^2.
 std::vector<double> level_heights(double top, int count);
 
-// Layout of a field: for a mode m and a moment l, [level][slice][sun], sun fastest; slice 0 is the value, slice 1 + p the
-// derivative by parameter p.
+// Layout of a field: for a mode m and a moment l, [level][slice][sun], sun fastest; slice 0 is the
+// value, slice 1 + p the derivative by parameter p.
 struct FieldShape {
   int levels = 0, slices = 0, suns = 0;
   std::size_t row() const { return static_cast<std::size_t>(slices) * suns; }
@@ -26,23 +27,27 @@ struct FieldShape {
 
 struct DiffuseField {
   FieldShape shape;
-  // moments[m][(l - m) * shape.size() + ...] = 2 pi integral Lambda_lm I_m dmu, I = sum_m (2 - delta_m0) I_m cos m phi, mu
-  // and phi those of the direction in which one looks. Empty for the modes that do not matter.
+  // moments[m][(l - m) * shape.size() + ...] = 2 pi integral Lambda_lm I_m dmu, I = sum_m (2 -
+  // delta_m0) I_m cos m phi, mu and phi those of the direction in which one looks. Empty for the
+  // modes that do not matter.
   std::vector<std::vector<double>> moments;
   std::vector<double> ground_irradiance;  // diffuse, on the ground, [slice][sun]
   int orders = 0;                         // of scattering and reflection that were summed
 };
 
 struct DiffuseOptions {
-  double tolerance = 1e-6;  // an order ends the sum when it changes no moment by more than this share of the largest
-  double mode_tolerance = 1e-6;  // a mode is left out when its source is below this share of the direct beam's
-  int max_orders = 2000;         // beyond: std::runtime_error
+  double tolerance = 1e-6;  // an order ends the sum when it changes no moment by more than this
+                            // share of the largest
+  double mode_tolerance =
+      1e-6;  // a mode is left out when its source is below this share of the direct beam's
+  int max_orders = 2000;  // beyond: std::runtime_error
 };
 
-// One mode m of the field; `field` must have its shape set; safe to call for different modes at once.
+// One mode m of the field; `field` must have its shape set; safe to call for different modes at
+// once.
 template <int N>
 void solve_mode(const Shells& shells, const Optics<N>& optics, const std::vector<double>& heights,
-                const std::vector<double>& sun_mu, const StreamBasis& basis, const DiffuseOptions& options, int m,
-                DiffuseField& field);
+                const std::vector<double>& sun_mu, const StreamBasis& basis,
+                const DiffuseOptions& options, int m, DiffuseField& field);
 
 }  // namespace skyfit

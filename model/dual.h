@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value and its derivatives by N parameters (forward mode). The model uses it for its scalars; fields are
-// differentiated by hand. N = 0 is a plain double in disguise.
+// A value and its derivatives by N parameters (forward mode). The model uses it for its scalars;
+// fields are differentiated by hand. N = 0 is a plain double in disguise.
 #pragma once
 
 #include <array>

@@ -11,7 +11,8 @@ GaussRule gauss_legendre(int order) {
   for (int i = 0; i < order; ++i) {
     double x = std::cos(std::numbers::pi * (i + 0.75) / (order + 0.5));
     double slope = 1;
-    for (int iteration = 0; iteration < 8; ++iteration) {  // Newton's method, quadratic from a good guess
+    for (int iteration = 0; iteration < 8;
+         ++iteration) {  // Newton's method, quadratic from a good guess
       double p0 = 1, p1 = x;
       for (int n = 2; n <= order; ++n) {
         const double p2 = ((2 * n - 1) * x * p1 - (n - 1) * p0) / n;

@@ -3,7 +3,8 @@
 
 // Sanitizers instrument the functions that choose a clone before they can run.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define SKYFIT_CLONES __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
+#define SKYFIT_CLONES \
+  __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
 #else
 #define SKYFIT_CLONES
 #endif
@@ -11,8 +12,8 @@
 namespace skyfit::kernels {
 
 SKYFIT_CLONES
-void multiply(const double* __restrict a, const double* __restrict b, double* __restrict c, std::size_t rows,
-              std::size_t inner, std::size_t columns) {
+void multiply(const double* __restrict a, const double* __restrict b, double* __restrict c,
+              std::size_t rows, std::size_t inner, std::size_t columns) {
   constexpr std::size_t kRows = 4, kColumns = 16;  // a block of C that stays in registers
   for (std::size_t j = 0; j < columns; j += kColumns) {
     const std::size_t width = columns - j < kColumns ? columns - j : kColumns;
@@ -30,7 +31,8 @@ void multiply(const double* __restrict a, const double* __restrict b, double* __
       } else {
         for (std::size_t k = 0; k < inner; ++k) {
           for (std::size_t x = 0; x < height; ++x) {
-            for (std::size_t y = 0; y < width; ++y) sum[x][y] += a[(i + x) * inner + k] * b[k * columns + j + y];
+            for (std::size_t y = 0; y < width; ++y)
+              sum[x][y] += a[(i + x) * inner + k] * b[k * columns + j + y];
           }
         }
       }
@@ -57,8 +59,8 @@ void blend(double t, const double* __restrict in, double a, const double* __rest
 }
 
 SKYFIT_CLONES
-void add_blend(double t, const double* __restrict in, double a, const double* __restrict near, double b,
-               const double* __restrict far, double* __restrict out, std::size_t count) {
+void add_blend(double t, const double* __restrict in, double a, const double* __restrict near,
+               double b, const double* __restrict far, double* __restrict out, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out[i] += t * in[i] + a * near[i] + b * far[i];
 }
 

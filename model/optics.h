@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere at one wavelength, with derivatives by the parameters that seeded it.
-// The forward peak of the aerosol's phase function is cut off (delta-M, Wiscombe 1977): the share f = chi_L of the
-// scattering is taken as not scattered at all, and the moments that are left are (chi - f) / (1 - f). Single scattering
-// keeps the true phase function under the cut extinction (TMS, Nakajima & Tanaka 1988).
+// The forward peak of the aerosol's phase function is cut off (delta-M, Wiscombe 1977): the share f
+// = chi_L of the scattering is taken as not scattered at all, and the moments that are left are
+// (chi - f) / (1 - f). Single scattering keeps the true phase function under the cut extinction
+// (TMS, Nakajima & Tanaka 1988).
 #pragma once
 
 #include <cmath>
@@ -38,10 +39,11 @@ struct PathColumns {
 
 template <int N>
 struct Optics {
-  Dual<N> air;                 // Rayleigh scattering = extinction at h = 0, 1/m
-  Dual<N> air_scale_height;    // m
-  Dual<N> aerosol_extinction;  // cut, at h = 0, 1/m
-  Dual<N> aerosol_scattering;  // true, at h = 0, 1/m: for single scattering
+  Dual<N> air;                      // Rayleigh scattering = extinction at h = 0, 1/m
+  Dual<N> air_scale_height;         // m
+  Dual<N> aerosol_extinction;       // cut, at h = 0, 1/m
+  Dual<N> aerosol_extinction_true;  // what weakens the sun's beam itself
+  Dual<N> aerosol_scattering;       // true, at h = 0, 1/m: for single scattering
   Dual<N> aerosol_scattering_cut;
   Dual<N> aerosol_scale_height;
   Dual<N> ozone;  // absorption where the profile is 1, 1/m
@@ -51,12 +53,14 @@ struct Optics {
   std::vector<Dual<N>> moments;  // of the cut phase function
 
   Dual<N> optical_depth(const PathColumns& c) const {
-    Dual<N> tau(air.v * c.air.value + aerosol_extinction.v * c.aerosol.value + ozone.v * c.ozone.value);
+    Dual<N> tau(air.v * c.air.value + aerosol_extinction.v * c.aerosol.value +
+                ozone.v * c.ozone.value);
     const double by_air_height = air.v * c.air.by_scale_height + ozone.v * c.ozone.by_scale_height;
     const double by_aerosol_height = aerosol_extinction.v * c.aerosol.by_scale_height;
     for (std::size_t p = 0; p < N; ++p) {
-      tau.d[p] = air.d[p] * c.air.value + aerosol_extinction.d[p] * c.aerosol.value + ozone.d[p] * c.ozone.value +
-                 by_air_height * air_scale_height.d[p] + by_aerosol_height * aerosol_scale_height.d[p];
+      tau.d[p] = air.d[p] * c.air.value + aerosol_extinction.d[p] * c.aerosol.value +
+                 ozone.d[p] * c.ozone.value + by_air_height * air_scale_height.d[p] +
+                 by_aerosol_height * aerosol_scale_height.d[p];
     }
     return tau;
   }
@@ -78,12 +82,14 @@ Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, in
   for (Dual<N>& chi : o.moments) chi = (chi - cut) / (Dual<N>(1.0) - cut);
   o.aerosol_scattering = at(a.mie.scattering_per_m);
   o.aerosol_scattering_cut = o.aerosol_scattering * (Dual<N>(1.0) - cut);
-  o.aerosol_extinction = o.aerosol_scattering / a.mie.single_scattering_albedo - o.aerosol_scattering * cut;
+  o.aerosol_extinction_true = o.aerosol_scattering / a.mie.single_scattering_albedo;
+  o.aerosol_extinction = o.aerosol_extinction_true - o.aerosol_scattering * cut;
   o.aerosol_scale_height = a.mie.scale_height_m;
   o.ozone_follows_air = a.ozone.profile == OzoneProfile::kExponential;
   const Dual<N> column = a.ozone.column_du * (kMoleculesPerDobson * node.ozone_cross_section_m2);
   // The vertical integral of the profile: the scale height of the air, or half the tent's base.
-  o.ozone = o.ozone_follows_air ? column / a.rayleigh.scale_height_m : column * (2 / (kTentTop - kTentBottom));
+  o.ozone = o.ozone_follows_air ? column / a.rayleigh.scale_height_m
+                                : column * (2 / (kTentTop - kTentBottom));
   o.ground_albedo = a.ground_albedo;
   return o;
 }

@@ -14,18 +14,30 @@ namespace skyfit {
 template <class T>
 T& parameter_field(Atmosphere<T>& a, Parameter parameter) {
   switch (parameter) {
-    case Parameter::kRayleighScattering: return a.rayleigh.scattering_per_m.value;
-    case Parameter::kRayleighScaleHeight: return a.rayleigh.scale_height_m;
-    case Parameter::kMieScattering: return a.mie.scattering_per_m.value;
-    case Parameter::kMieAngstromExponent: return a.mie.scattering_per_m.exponent;
-    case Parameter::kMieSingleScatteringAlbedo: return a.mie.single_scattering_albedo;
-    case Parameter::kMieScaleHeight: return a.mie.scale_height_m;
-    case Parameter::kMiePhaseG: return a.mie.phase.g;
-    case Parameter::kMiePhaseG1: return a.mie.phase.g1;
-    case Parameter::kMiePhaseG2: return a.mie.phase.g2;
-    case Parameter::kMiePhaseWeight: return a.mie.phase.weight;
-    case Parameter::kOzoneColumn: return a.ozone.column_du;
-    case Parameter::kGroundAlbedo: return a.ground_albedo;
+    case Parameter::kRayleighScattering:
+      return a.rayleigh.scattering_per_m.value;
+    case Parameter::kRayleighScaleHeight:
+      return a.rayleigh.scale_height_m;
+    case Parameter::kMieScattering:
+      return a.mie.scattering_per_m.value;
+    case Parameter::kMieAngstromExponent:
+      return a.mie.scattering_per_m.exponent;
+    case Parameter::kMieSingleScatteringAlbedo:
+      return a.mie.single_scattering_albedo;
+    case Parameter::kMieScaleHeight:
+      return a.mie.scale_height_m;
+    case Parameter::kMiePhaseG:
+      return a.mie.phase.g;
+    case Parameter::kMiePhaseG1:
+      return a.mie.phase.g1;
+    case Parameter::kMiePhaseG2:
+      return a.mie.phase.g2;
+    case Parameter::kMiePhaseWeight:
+      return a.mie.phase.weight;
+    case Parameter::kOzoneColumn:
+      return a.ozone.column_du;
+    case Parameter::kGroundAlbedo:
+      return a.ground_albedo;
   }
   throw std::logic_error("parameter_field: unknown parameter");
 }
@@ -43,10 +55,12 @@ Atmosphere<Dual<N>> seeded(const Atmosphere<double>& a, std::span<const Paramete
                             a.mie.scattering_per_m.exponent};
   s.mie.single_scattering_albedo = a.mie.single_scattering_albedo;
   s.mie.scale_height_m = a.mie.scale_height_m;
-  s.mie.phase = {a.mie.phase.type, a.mie.phase.g, a.mie.phase.g1, a.mie.phase.g2, a.mie.phase.weight};
+  s.mie.phase = {a.mie.phase.type, a.mie.phase.g, a.mie.phase.g1, a.mie.phase.g2,
+                 a.mie.phase.weight};
   s.ozone = {a.ozone.column_du, a.ozone.profile};
   s.ground_albedo = a.ground_albedo;
-  if (parameters.size() > static_cast<std::size_t>(N)) throw std::logic_error("seeded: too many parameters");
+  if (parameters.size() > static_cast<std::size_t>(N))
+    throw std::logic_error("seeded: too many parameters");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if constexpr (N > 0) parameter_field(s, parameters[i]).d[i] = 1;
   }

@@ -15,9 +15,12 @@ template <class T>
 T aerosol_phase(const AerosolPhase<T>& phase, double nu) {
   Shared<T> shared;
   switch (phase.type) {
-    case PhaseType::kCornetteShanks: return shared.cornette_shanks_phase(phase.g, T(nu));
-    case PhaseType::kHenyeyGreenstein: return shared.henyey_greenstein_phase(phase.g, T(nu));
-    case PhaseType::kTwoLobe: return shared.two_lobe_phase(phase.g1, phase.g2, phase.weight, T(nu));
+    case PhaseType::kCornetteShanks:
+      return shared.cornette_shanks_phase(phase.g, T(nu));
+    case PhaseType::kHenyeyGreenstein:
+      return shared.henyey_greenstein_phase(phase.g, T(nu));
+    case PhaseType::kTwoLobe:
+      return shared.two_lobe_phase(phase.g1, phase.g2, phase.weight, T(nu));
   }
   return T(0.0);
 }
@@ -57,13 +60,17 @@ std::vector<T> cornette_shanks_moments(const T& g, int count) {
 template <class T>
 std::vector<T> aerosol_phase_moments(const AerosolPhase<T>& phase, int count) {
   switch (phase.type) {
-    case PhaseType::kCornetteShanks: return cornette_shanks_moments(phase.g, count);
-    case PhaseType::kHenyeyGreenstein: return henyey_greenstein_moments(phase.g, count);
-    case PhaseType::kTwoLobe: break;
+    case PhaseType::kCornetteShanks:
+      return cornette_shanks_moments(phase.g, count);
+    case PhaseType::kHenyeyGreenstein:
+      return henyey_greenstein_moments(phase.g, count);
+    case PhaseType::kTwoLobe:
+      break;
   }
   std::vector<T> chi = cornette_shanks_moments(phase.g1, count);
   const std::vector<T> second = cornette_shanks_moments(phase.g2, count);
-  for (int l = 0; l < count; ++l) chi[l] = phase.weight * chi[l] + (T(1.0) - phase.weight) * second[l];
+  for (int l = 0; l < count; ++l)
+    chi[l] = phase.weight * chi[l] + (T(1.0) - phase.weight) * second[l];
   return chi;
 }
 

@@ -16,7 +16,8 @@ PathColumns Shells::columns_to_top(double height, double mu) const {
   PathColumns c;
   c.air = exponential_column(bottom_radius, height, mu, top, air_scale_height);
   c.aerosol = exponential_column(bottom_radius, height, mu, top, aerosol_scale_height);
-  if (ozone) c.ozone = ozone_follows_air ? c.air : Column{tent_column(bottom_radius, height, mu, top), 0};
+  if (ozone)
+    c.ozone = ozone_follows_air ? c.air : Column{tent_column(bottom_radius, height, mu, top), 0};
   return c;
 }
 
@@ -46,7 +47,8 @@ ViewRay view_ray(double bottom_radius, double top, double altitude, double mu) {
 }
 
 RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s) {
-  const double h = std::max(shared.height_after(bottom_radius, ray.entry_height, ray.entry_mu, s), 0.0);
+  const double h =
+      std::max(shared.height_after(bottom_radius, ray.entry_height, ray.entry_mu, s), 0.0);
   return {s, h, std::clamp(ray.radius_mu_at(s, bottom_radius) / (bottom_radius + h), -1.0, 1.0)};
 }
 
@@ -61,15 +63,18 @@ PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoi
     return c += -shells.columns_to_top(ray.entry_height, -ray.entry_mu);
   }
   // Down to the lowest point, then up.
-  const double lowest_mu = ray.hits_ground ? -ray_point(ray, shells.bottom_radius, ray.length).mu : 0;
+  const double lowest_mu =
+      ray.hits_ground ? -ray_point(ray, shells.bottom_radius, ray.length).mu : 0;
   PathColumns c = shells.columns_to_top(ray.tangent_height, lowest_mu);
   PathColumns up = c;
   c += -shells.columns_to_top(ray.entry_height, -ray.entry_mu);
-  if (point.s > ray.tangent_s) c += (up += -shells.columns_to_top(point.height, std::max(point.mu, 0.0)));
+  if (point.s > ray.tangent_s)
+    c += (up += -shells.columns_to_top(point.height, std::max(point.mu, 0.0)));
   return c;
 }
 
-std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius, const std::vector<double>& heights) {
+std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
+                                    const std::vector<double>& heights) {
   std::vector<double> s = {0};
   auto crossing_down = [&](double h) {
     return shared.distance_to_inner_sphere(bottom_radius, ray.entry_height, ray.entry_mu, h);
@@ -79,7 +84,7 @@ std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius, co
   };
   if (ray.tangent_s > 0) {
     for (auto h = heights.rbegin(); h != heights.rend(); ++h) {
-      if (*h < ray.entry_height && *h > ray.tangent_height) s.push_back(crossing_down(*h));
+      if (*h<ray.entry_height&& * h> ray.tangent_height) s.push_back(crossing_down(*h));
     }
     s.push_back(ray.tangent_s);
   }
@@ -102,7 +107,8 @@ std::vector<QuadratureNode> composite_gauss(const std::vector<double>& breaks, i
   std::vector<QuadratureNode> nodes;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double length = breaks[i + 1] - breaks[i];
-    for (int k = 0; k < order; ++k) nodes.push_back({breaks[i] + length * rule.node[k], length * rule.weight[k]});
+    for (int k = 0; k < order; ++k)
+      nodes.push_back({breaks[i] + length * rule.node[k], length * rule.weight[k]});
   }
   return nodes;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A straight ray through spherical shells: where it runs, nodes of a quadrature along it, and columns along it.
-// Lengths in metres.
+// A straight ray through spherical shells: where it runs, nodes of a quadrature along it, and
+// columns along it. Lengths in metres.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,8 @@ struct Shells {
   PathColumns columns_to_top(double height, double mu) const;
 };
 
-// One look: the part of a ray that lies inside the atmosphere. s is the distance from the ray's entry.
+// One look: the part of a ray that lies inside the atmosphere. s is the distance from the ray's
+// entry.
 struct ViewRay {
   double entry_height = 0, entry_mu = 0;  // where the ray begins inside the atmosphere
   double entry_distance = 0;              // from the observer to there; 0 inside
@@ -42,8 +43,10 @@ RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s);
 // Columns from the ray's entry to the point.
 PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point);
 
-// Where the ray crosses the shells of the given ascending heights, with its ends and its lowest point, ascending in s.
-std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius, const std::vector<double>& heights);
+// Where the ray crosses the shells of the given ascending heights, with its ends and its lowest
+// point, ascending in s.
+std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
+                                    const std::vector<double>& heights);
 
 struct QuadratureNode {
   double s, weight;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one interface of every sky model: an atmosphere, suns and view directions go in; radiance per unit solar
-// irradiance comes out, with exact derivatives when asked.
+// The one interface of every sky model: an atmosphere, suns and view directions go in; radiance per
+// unit solar irradiance comes out, with exact derivatives when asked.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,9 @@
 
 namespace skyfit {
 
-// One look at the sky. Angles in radians. The observer stands `altitude_m` above the bottom radius; zenith angles are
-// those at the observer. Azimuth 0 looks toward the sun's azimuth. view_zenith > pi/2 looks down.
+// One look at the sky. Angles in radians. The observer stands `altitude_m` above the bottom radius;
+// zenith angles are those at the observer. Azimuth 0 looks toward the sun's azimuth. view_zenith >
+// pi/2 looks down.
 struct SkyPoint {
   double altitude_m = 0;
   double sun_zenith = 0;
@@ -30,15 +31,16 @@ struct SkyValues {
   std::vector<double> derivative;
   double at(int point, int wavelength) const { return value[point * wavelengths + wavelength]; }
   double derivative_at(int parameter, int point, int wavelength) const {
-    return derivative[(static_cast<std::size_t>(parameter) * points + point) * wavelengths + wavelength];
+    return derivative[(static_cast<std::size_t>(parameter) * points + point) * wavelengths +
+                      wavelength];
   }
 };
 
-// Irradiances per unit solar irradiance at the top of the atmosphere (pure numbers) for one observer and one sun, one
-// value per wavelength.
+// Irradiances per unit solar irradiance at the top of the atmosphere (pure numbers) for one
+// observer and one sun, one value per wavelength.
 struct SkyIrradiance {
-  std::vector<double> direct_normal;       // the sun's beam on a surface that faces it
-  std::vector<double> direct_horizontal;   // direct_normal * cos(sun zenith), 0 when the sun is down
+  std::vector<double> direct_normal;      // the sun's beam on a surface that faces it
+  std::vector<double> direct_horizontal;  // direct_normal * cos(sun zenith), 0 when the sun is down
   std::vector<double> diffuse_horizontal;  // sky on a horizontal surface that faces up
   std::vector<double> global_horizontal;   // direct + diffuse
 };
@@ -48,20 +50,25 @@ class SkyModel {
   virtual ~SkyModel() = default;
   virtual std::string_view name() const = 0;
 
-  // Diffuse radiance per unit solar irradiance (1/sr): scattered light and light reflected by the ground, the sun's disc
-  // not. `derivatives` lists the parameters to differentiate by; their order is that of SkyValues::derivative.
-  // Throws std::invalid_argument for an atmosphere that validate() refuses or a point the model cannot do.
-  virtual SkyValues radiance(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
-                             std::span<const SkyPoint> points, std::span<const Parameter> derivatives) const = 0;
+  // Diffuse radiance per unit solar irradiance (1/sr): scattered light and light reflected by the
+  // ground, the sun's disc not. `derivatives` lists the parameters to differentiate by; their order
+  // is that of SkyValues::derivative. Throws std::invalid_argument for an atmosphere that
+  // validate() refuses or a point the model cannot do.
+  virtual SkyValues radiance(const Atmosphere<double>& atmosphere,
+                             std::span<const WavelengthNode> wavelengths,
+                             std::span<const SkyPoint> points,
+                             std::span<const Parameter> derivatives) const = 0;
 
-  virtual SkyIrradiance irradiance(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
-                                   double altitude_m, double sun_zenith) const = 0;
+  virtual SkyIrradiance irradiance(const Atmosphere<double>& atmosphere,
+                                   std::span<const WavelengthNode> wavelengths, double altitude_m,
+                                   double sun_zenith) const = 0;
 };
 
 // The names that make_sky_model accepts.
 std::vector<std::string_view> sky_model_names();
 
-// Throws std::invalid_argument that lists the known names. `threads` >= 1; results do not depend on it.
+// Throws std::invalid_argument that lists the known names. `threads` >= 1; results do not depend on
+// it.
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, int threads);
 
 }  // namespace skyfit

@@ -23,10 +23,12 @@ double scaled_erfc(double z) {
   return series / (z * std::sqrt(std::numbers::pi));
 }
 
-// Column to infinity in units of the local density times H, for mu >= 0, and its derivative by x = r / H.
-// With r' the radius along the ray, u = (r' - r) / H and w^2 = mu^2 + (r'^2 - r^2) / r^2 the column is
+// Column to infinity in units of the local density times H, for mu >= 0, and its derivative by x =
+// r / H. With r' the radius along the ray, u = (r' - r) / H and w^2 = mu^2 + (r'^2 - r^2) / r^2 the
+// column is
 //   x integral_mu^inf exp(-u) dw,   u = x (sqrt(1 + y) - 1),   y = w^2 - mu^2,
-// and exp(-u) = exp(-x y / 2) (1 + x y^2 / 8 - x y^3 / 16 + x^2 y^4 / 128 + ...), each term 1 / x smaller.
+// and exp(-u) = exp(-x y / 2) (1 + x y^2 / 8 - x y^3 / 16 + x^2 y^4 / 128 + ...), each term 1 / x
+// smaller.
 struct Chapman {
   double value, by_x;
 };
@@ -40,7 +42,8 @@ Chapman chapman(double x, double mu) {
   for (int k = 1; k + 1 < static_cast<int>(m.size()); ++k) {
     m[k + 1] = ((1 + 2.0 * k - 2 * a * mu2) * m[k] + 2.0 * k * mu2 * m[k - 1]) / (2 * a);
   }
-  // Beyond these the terms are below the rounding error that the recursion of m would multiply by x.
+  // Beyond these the terms are below the rounding error that the recursion of m would multiply by
+  // x.
   constexpr double kFirstOrder = 1e10, kSecondOrder = 1e5;
   double sum = m[0], slope = -0.5 * m[1];
   if (x < kFirstOrder) {
@@ -59,15 +62,17 @@ Column column_to_infinity(double bottom_radius, double height, double mu, double
   const double x = (bottom_radius + height) / scale_height;
   const double density = shared.exponential_density(height, scale_height);
   const Chapman c = chapman(x, mu);
-  return {density * scale_height * c.value, density * (c.value * (1 + height / scale_height) - x * c.by_x)};
+  return {density * scale_height * c.value,
+          density * (c.value * (1 + height / scale_height) - x * c.by_x)};
 }
 
-// From the tangent point t metres away (r^2 = r_t^2 + t^2) the height is h0 + (t^2 - t0^2) / (r + r0).
+// From the tangent point t metres away (r^2 = r_t^2 + t^2) the height is h0 + (t^2 - t0^2) / (r +
+// r0).
 double tent_between(double bottom_radius, double height, double t0, double low, double high) {
-  static constexpr std::array<double, 4> kNode = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
-                                                  0.9305681557970263};
-  static constexpr std::array<double, 4> kWeight = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
-                                                    0.1739274225687269};
+  static constexpr std::array<double, 4> kNode = {0.0694318442029737, 0.3300094782075719,
+                                                  0.6699905217924281, 0.9305681557970263};
+  static constexpr std::array<double, 4> kWeight = {0.1739274225687269, 0.3260725774312731,
+                                                    0.3260725774312731, 0.1739274225687269};
   const double r0 = bottom_radius + height;
   auto distance_at = [&](double h) {
     return std::sqrt(std::max(t0 * t0 + (h - height) * (h + height + 2 * bottom_radius), 0.0));
@@ -103,17 +108,22 @@ double tangent_height(double bottom_radius, double height, double mu) {
 
 }  // namespace
 
-Column exponential_column(double bottom_radius, double height, double mu, double top, double scale_height) {
-  auto to_infinity = [&](double h, double m) { return column_to_infinity(bottom_radius, h, m, scale_height); };
+Column exponential_column(double bottom_radius, double height, double mu, double top,
+                          double scale_height) {
+  auto to_infinity = [&](double h, double m) {
+    return column_to_infinity(bottom_radius, h, m, scale_height);
+  };
   Column c = to_infinity(height, std::abs(mu));
   if (mu < 0) {
     const Column tangent = to_infinity(tangent_height(bottom_radius, height, mu), 0);
     c = {2 * tangent.value - c.value, 2 * tangent.by_scale_height - c.by_scale_height};
   }
-  constexpr double kNothingAbove = 40;  // scale heights: exp(-40) of the density at the point is beyond doubles' digits
+  constexpr double kNothingAbove =
+      40;  // scale heights: exp(-40) of the density at the point is beyond doubles' digits
   if (top - height < kNothingAbove * scale_height) {
     const double r = bottom_radius + height, r_top = bottom_radius + top;
-    const double mu_top2 = ((top - height) * (top + height + 2 * bottom_radius) + r * r * mu * mu) / (r_top * r_top);
+    const double mu_top2 =
+        ((top - height) * (top + height + 2 * bottom_radius) + r * r * mu * mu) / (r_top * r_top);
     const Column above = to_infinity(top, std::sqrt(std::max(mu_top2, 0.0)));
     c.value -= above.value;
     c.by_scale_height -= above.by_scale_height;

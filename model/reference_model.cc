@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/reference_model.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "model/gauss.h"
+#include "model/parameter_field.h"
+#include "model/sky_solution.h"
+
+namespace skyfit {
+namespace {
+
+void check(bool good, const char* name, double value, const char* expected) {
+  if (!good)
+    throw std::invalid_argument(
+        fmt::format("reference model: {} = {:.9g}: must be {}", name, value, expected));
+}
+
+void check(const SkyPoint& p) {
+  check(std::isfinite(p.altitude_m) && p.altitude_m >= 0, "altitude_m", p.altitude_m, ">= 0");
+  check(p.sun_zenith >= 0 && p.sun_zenith <= std::numbers::pi, "sun zenith (rad)", p.sun_zenith,
+        "in 0 .. pi");
+  check(p.view_zenith >= 0 && p.view_zenith <= std::numbers::pi, "view zenith (rad)", p.view_zenith,
+        "in 0 .. pi");
+  check(std::isfinite(p.relative_azimuth), "relative azimuth (rad)", p.relative_azimuth, "finite");
+}
+
+// The distinct view rays of a list of points, and which ray each point takes.
+struct ViewRays {
+  std::vector<ViewPath> paths;
+  std::vector<int> path_of_point;
+};
+ViewRays distinct_view_rays(const Shells& shells, const std::vector<double>& heights,
+                            std::span<const SkyPoint> points) {
+  ViewRays rays;
+  std::map<std::pair<double, double>, int> known;
+  for (const SkyPoint& p : points) {
+    const auto [at, added] =
+        known.try_emplace({p.altitude_m, p.view_zenith}, static_cast<int>(rays.paths.size()));
+    if (added)
+      rays.paths.push_back(view_path(shells, heights, p.altitude_m, std::cos(p.view_zenith)));
+    rays.path_of_point.push_back(at->second);
+  }
+  return rays;
+}
+
+template <int N>
+SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
+                std::span<const SkyPoint> points, std::span<const Parameter> derivatives,
+                const ReferenceOptions& options) {
+  Shells shells = SkySolution<N>::shells_of(atmosphere);
+  for (const Parameter p : derivatives) shells.ozone |= p == Parameter::kOzoneColumn;
+  const ViewRays rays =
+      distinct_view_rays(shells, level_heights(shells.top, options.levels), points);
+  std::vector<SunAlongRay> suns;
+  std::vector<double> mu_s;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ViewPath& path = rays.paths[rays.path_of_point[i]];
+    suns.emplace_back(shells.bottom_radius, path.ray, points[i]);
+    for (const RayPoint& p : path.nodes) mu_s.push_back(suns.back().mu_s(p));
+  }
+  const SkySolution<N> solution(atmosphere, wavelengths, derivatives, mu_s, options);
+
+  const int n_points = static_cast<int>(points.size()),
+            n_waves = static_cast<int>(wavelengths.size());
+  std::vector<PathSource<N>> sources(rays.paths.size() * n_waves);
+  tbb::parallel_for(0, static_cast<int>(sources.size()), [&](int i) {
+    sources[i] = solution.source(rays.paths[i / n_waves], i % n_waves);
+  });
+  SkyValues values{n_points, n_waves, static_cast<int>(derivatives.size()), {}, {}};
+  values.value.resize(static_cast<std::size_t>(n_points) * n_waves);
+  values.derivative.resize(values.value.size() * derivatives.size());
+  tbb::parallel_for(0, n_points, [&](int i) {
+    const int ray = rays.path_of_point[i];
+    const ViewPath& path = rays.paths[ray];
+    if (path.nodes.empty()) return;
+    const auto samples = single_scattering_samples(shells, path.ray, suns[i]);
+    for (int w = 0; w < n_waves; ++w) {
+      const auto parts = solution.radiance(path, sources[ray * n_waves + w], suns[i], samples, w);
+      const Dual<N> sum = solution.sum(parts, suns[i].nu(), w);
+      values.value[static_cast<std::size_t>(i) * n_waves + w] = sum.v;
+      if constexpr (N > 0) {
+        for (std::size_t p = 0; p < derivatives.size(); ++p) {
+          values.derivative[(p * n_points + i) * n_waves + w] = sum.d[p];
+        }
+      }
+    }
+  });
+  return values;
+}
+
+}  // namespace
+
+ReferenceModel::ReferenceModel(const ReferenceOptions& options) : options_(options) {
+  check(options.streams >= 2, "streams", options.streams, ">= 2");
+  check(options.moments >= 3 && options.moments <= 2 * options.streams, "moments", options.moments,
+        "in 3 .. 2 streams");
+  check(options.levels >= 4, "levels", options.levels, ">= 4");
+  check(options.threads >= 1, "threads", options.threads, ">= 1");
+  check(options.tolerance > 0, "tolerance", options.tolerance, "> 0");
+}
+
+SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
+                                   std::span<const WavelengthNode> wavelengths,
+                                   std::span<const SkyPoint> points,
+                                   std::span<const Parameter> derivatives) const {
+  validate(atmosphere);
+  for (const SkyPoint& p : points) check(p);
+  for (const Parameter p : derivatives) {
+    if (!has_parameter(atmosphere, p)) {
+      throw std::invalid_argument(fmt::format(
+          "reference model: the atmosphere has no {} to differentiate by", parameter_info(p).name));
+    }
+  }
+  tbb::task_arena arena(options_.threads);
+  return arena.execute([&] {
+    return derivatives.empty()
+               ? solve<0>(atmosphere, wavelengths, points, derivatives, options_)
+               : solve<kParameterCount>(atmosphere, wavelengths, points, derivatives, options_);
+  });
+}
+
+// The diffuse part is the integral of the radiance over the upper hemisphere in polar coordinates
+// about the sun, where the aureole is: polar angle pi x^2, azimuth over the arc above the horizon,
+// both by Gauss's rule.
+SkyIrradiance ReferenceModel::irradiance(const Atmosphere<double>& atmosphere,
+                                         std::span<const WavelengthNode> wavelengths,
+                                         double altitude_m, double sun_zenith) const {
+  constexpr int kPolar = 40, kAzimuth = 24;
+  const GaussRule polar = gauss_legendre(kPolar), azimuth = gauss_legendre(kAzimuth);
+  const double cs = std::cos(sun_zenith), ss = std::sin(sun_zenith);
+  std::vector<SkyPoint> points;
+  std::vector<double> weights;
+  for (int i = 0; i < kPolar; ++i) {
+    const double x = polar.node[i], theta = std::numbers::pi * x * x;
+    const double c = std::cos(theta), s = std::sin(theta);
+    // cos zenith = c cs + s ss cos(a); above the horizon where cos(a) > -c cs / (s ss)
+    const double limit = s * ss > 1e-12 ? -c * cs / (s * ss) : (c * cs > 0 ? -1.0 : 1.0);
+    const double arc = std::acos(std::clamp(limit, -1.0, 1.0));
+    for (int k = 0; arc > 0 && k < kAzimuth; ++k) {
+      const double a = arc * azimuth.node[k];
+      const double mu = std::clamp(c * cs + s * ss * std::cos(a), 0.0, 1.0);
+      // The view's horizontal components: toward the sun's azimuth, and across.
+      points.push_back({altitude_m, sun_zenith, std::acos(mu),
+                        std::atan2(s * std::sin(a), c * ss - s * cs * std::cos(a))});
+      weights.push_back(2 * arc * azimuth.weight[k] * polar.weight[i] * 2 * std::numbers::pi * x *
+                        s * mu);
+    }
+  }
+  const SkyValues sky = radiance(atmosphere, wavelengths, points, {});
+  const Shells shells = SkySolution<0>::shells_of(atmosphere);
+  const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, cs);
+  const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
+  SkyIrradiance result;
+  for (int w = 0; w < sky.wavelengths; ++w) {
+    double diffuse = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      diffuse += weights[i] * sky.at(static_cast<int>(i), w);
+    double direct = to_sun.hits_ground ? 0 : 1;
+    if (direct > 0 && to_sun.length > 0) {
+      const PathColumns columns =
+          columns_along(shells, to_sun, ray_point(to_sun, shells.bottom_radius, to_sun.length));
+      Optics<0> optics = optics_at(plain, wavelengths[w], options_.moments);
+      optics.aerosol_extinction = optics.aerosol_extinction_true;  // the beam itself, nothing cut
+      direct = std::exp(-optics.optical_depth(columns).v);
+    }
+    result.direct_normal.push_back(direct);
+    result.direct_horizontal.push_back(direct * std::max(cs, 0.0));
+    result.diffuse_horizontal.push_back(diffuse);
+    result.global_horizontal.push_back(result.direct_horizontal.back() + diffuse);
+  }
+  return result;
+}
+
+}  // namespace skyfit

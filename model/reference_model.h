@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// `reference`: the yardstick. Single scattering by quadrature in spherical geometry with the true
+// phase function; multiple scattering from the converged diffuse field (model/diffuse_field.h), its
+// source integrated along the spherical view ray at the local sun; Lambert ground, ozone.
+// Unpolarised, no refraction. Approximate: the transport of the diffuse field itself is
+// plane-parallel. It matters for low suns; docs/accuracy.md states the error against Monte Carlo.
+#pragma once
+
+#include "model/sky_model.h"
+
+namespace skyfit {
+
+struct ReferenceOptions {
+  int streams = 16;  // per hemisphere
+  int moments = 32;  // of the aerosol's phase function, <= 2 streams
+  int levels = 48;   // of the diffuse field
+  int threads = 1;
+  double tolerance = 1e-6;  // of the sum over orders of scattering
+};
+
+class ReferenceModel final : public SkyModel {
+ public:
+  explicit ReferenceModel(const ReferenceOptions& options);  // throws std::invalid_argument
+  std::string_view name() const override { return "reference"; }
+  SkyValues radiance(const Atmosphere<double>& atmosphere,
+                     std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
+                     std::span<const Parameter> derivatives) const override;
+  SkyIrradiance irradiance(const Atmosphere<double>& atmosphere,
+                           std::span<const WavelengthNode> wavelengths, double altitude_m,
+                           double sun_zenith) const override;
+
+ private:
+  ReferenceOptions options_;
+};
+
+}  // namespace skyfit

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fixed grid of local sun angles at which the diffuse field is solved, and cubic interpolation
+// in it. The grid does not depend on what is asked, so neither does an answer.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace skyfit {
+
+struct SunStencil {
+  std::array<int, 4> index{};
+  std::array<double, 4> weight{};
+};
+
+class SunGrid {
+ public:
+  SunGrid();
+  int size() const { return static_cast<int>(mu_.size()); }
+  double mu(int i) const { return mu_[i]; }
+  // Lagrange's cubic in the cosine through the four nearest nodes; the last node's value below the
+  // grid.
+  SunStencil stencil(double mu_s) const;
+
+ private:
+  std::vector<double> mu_;  // descending, from the zenith to below the twilight
+};
+
+// Lagrange's weights at x for the four (or fewer) nodes.
+void lagrange_weights(const double* nodes, int count, double x, double* weights);
+
+}  // namespace skyfit
