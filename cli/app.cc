@@ -30,6 +30,9 @@ void add_commands(CLI::App& app) {
   app.set_version_flag("--version", std::string("skyfit ") + kVersion);
   app.require_subcommand(0, 1);  // none at all is refused by run(), with a better message
   app.get_formatter()->column_width(34);
+  add_fit_command(app);
+  add_sky_command(app);
+  add_plot_command(app);
   add_render_command(app);
   add_presets_command(app);
   add_references_command(app);
