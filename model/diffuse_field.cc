@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/diffuse_field.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -85,7 +87,6 @@ class ModeSolver {
 
   const std::vector<double>& moments() const { return moments_; }
   const std::vector<double>& ground() const { return ground_; }
-  double source_size() const { return source_size_; }
 
  private:
   double* row(std::vector<double>& v, int r) const { return v.data() + r * shape_.size(); }
@@ -168,7 +169,6 @@ class ModeSolver {
   }
 
   void scatter() {
-    source_size_ = 0;
     const std::size_t suns = shape_.suns;
     std::fill(source_.begin(), source_.end(), 0.0);
     for (int r = 0; r < rows_; ++r) {
@@ -180,8 +180,6 @@ class ModeSolver {
         for (std::size_t p = 1; p < n_slices(); ++p) {
           kernels::add_scaled(derivative(omega, p - 1), in, out + p * suns, suns);
         }
-        for (std::size_t j = 0; j < suns; ++j)
-          source_size_ = std::max(source_size_, std::abs(out[j]));
       }
     }
   }
@@ -267,7 +265,6 @@ class ModeSolver {
   const FieldShape shape_;
   const int m_;
   int rows_;
-  double source_size_ = 0;
   std::vector<Dual<N>> albedo_;           // [level][row]
   std::vector<LayerWeights<N>> layers_;   // [layer][stream]
   std::vector<double> moments_, source_;  // [row][level][slice][sun]
@@ -275,27 +272,19 @@ class ModeSolver {
   std::vector<double> ground_;            // [slice][sun]
 };
 
-double largest(const std::vector<double>& v) {
-  double x = 0;
-  for (const double y : v) x = std::max(x, std::abs(y));
-  return x;
+// The largest moment per [slice][sun].
+std::vector<double> largest_moments(const std::vector<double>& moments, std::size_t row) {
+  std::vector<double> top(row, 0.0);
+  for (std::size_t at = 0; at < moments.size(); at += row) {
+    for (std::size_t j = 0; j < row; ++j) top[j] = std::max(top[j], std::abs(moments[at + j]));
+  }
+  return top;
 }
 
-// Per slice: the largest change over the largest total.
-double change(const std::vector<double>& order, const std::vector<double>& total,
-              const FieldShape& shape) {
-  std::vector<double> top(shape.slices, 0.0), step(shape.slices, 0.0);
-  const std::size_t blocks = order.size() / shape.suns;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t slice = b % shape.slices;
-    for (std::size_t j = b * shape.suns; j < (b + 1) * shape.suns; ++j) {
-      step[slice] = std::max(step[slice], std::abs(order[j]));
-      top[slice] = std::max(top[slice], std::abs(total[j]));
-    }
-  }
+double largest_ratio(const std::vector<double>& x, const std::vector<double>& scale) {
   double worst = 0;
-  for (int s = 0; s < shape.slices; ++s) {
-    if (top[s] > 0) worst = std::max(worst, step[s] / top[s]);
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (scale[j] > 0) worst = std::max(worst, x[j] / scale[j]);
   }
   return worst;
 }
@@ -311,22 +300,24 @@ std::vector<double> by_ascending_l(const std::vector<double>& v, const StreamBas
   return r;
 }
 
-}  // namespace
-
 template <int N>
-void solve_mode(const Shells& shells, const Optics<N>& optics, const std::vector<double>& heights,
-                const std::vector<double>& sun_mu, const StreamBasis& basis,
-                const DiffuseOptions& options, int m, DiffuseField& field) {
-  ModeSolver<N> solver(shells, optics, heights, sun_mu, basis, field.shape, m);
-  const double beam = 0.25 / std::numbers::pi;  // Lambda_00^2, the size of mode 0's first source
-  std::vector<double> total(solver.moments().size(), 0.0), ground(field.shape.row(), 0.0);
+void solve_mode(ModeSolver<N> solver, const StreamBasis& basis, const DiffuseOptions& options,
+                int m, DiffuseField& field) {
+  const std::size_t row = field.shape.row();
+  std::vector<double> total(solver.moments().size(), 0.0), ground(row, 0.0);
   for (int order = 1;; ++order) {
     solver.advance();
-    if (order == 1 && largest(solver.moments()) < options.mode_tolerance * beam) return;
+    const std::vector<double> step = largest_moments(solver.moments(), row);
     kernels::add_scaled(1, solver.moments().data(), total.data(), total.size());
-    kernels::add_scaled(1, solver.ground().data(), ground.data(), ground.size());
-    if (m == 0) field.orders = order;
-    if (change(solver.moments(), total, field.shape) < options.tolerance) break;
+    kernels::add_scaled(1, solver.ground().data(), ground.data(), row);
+    if (m == 0) {
+      field.orders = order;
+      field.scale = largest_moments(total, row);
+    }
+    if (largest_ratio(step, field.scale) < options.tolerance) {
+      if (m > 0 && order == 1) return;
+      break;
+    }
     if (order == options.max_orders) {
       throw std::runtime_error("reference model: multiple scattering did not converge in " +
                                std::to_string(options.max_orders) + " orders");
@@ -336,12 +327,37 @@ void solve_mode(const Shells& shells, const Optics<N>& optics, const std::vector
   if (m == 0) field.ground_irradiance = ground;
 }
 
-template void solve_mode<0>(const Shells&, const Optics<0>&, const std::vector<double>&,
-                            const std::vector<double>&, const StreamBasis&, const DiffuseOptions&,
-                            int, DiffuseField&);
-template void solve_mode<kParameterCount>(const Shells&, const Optics<kParameterCount>&,
-                                          const std::vector<double>&, const std::vector<double>&,
-                                          const StreamBasis&, const DiffuseOptions&, int,
-                                          DiffuseField&);
+}  // namespace
+
+template <int N>
+std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
+                                               std::span<const Optics<N>> optics, int slices,
+                                               const std::vector<double>& heights,
+                                               const std::vector<double>& sun_mu,
+                                               const StreamBasis& basis,
+                                               const DiffuseOptions& options) {
+  const int waves = static_cast<int>(optics.size()), modes = basis.moments();
+  const FieldShape shape{static_cast<int>(heights.size()), slices, static_cast<int>(sun_mu.size())};
+  std::vector<DiffuseField> fields(waves);
+  auto solve = [&](int wave, int m) {
+    solve_mode(ModeSolver<N>(shells, optics[wave], heights, sun_mu, basis, shape, m), basis,
+               options, m, fields[wave]);
+  };
+  tbb::parallel_for(0, waves, [&](int w) {
+    fields[w].shape = shape;
+    fields[w].moments.resize(modes);
+    solve(w, 0);
+  });
+  tbb::parallel_for(0, waves * (modes - 1),
+                    [&](int task) { solve(task % waves, 1 + task / waves); });
+  return fields;
+}
+
+template std::vector<DiffuseField> solve_diffuse_fields<0>(
+    const Shells&, std::span<const Optics<0>>, int, const std::vector<double>&,
+    const std::vector<double>&, const StreamBasis&, const DiffuseOptions&);
+template std::vector<DiffuseField> solve_diffuse_fields<kParameterCount>(
+    const Shells&, std::span<const Optics<kParameterCount>>, int, const std::vector<double>&,
+    const std::vector<double>&, const StreamBasis&, const DiffuseOptions&);
 
 }  // namespace skyfit

@@ -6,6 +6,7 @@
 // zenith a double-Gauss rule, the source linear in optical depth within a layer.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "model/optics.h"
@@ -32,22 +33,25 @@ struct DiffuseField {
   // modes that do not matter.
   std::vector<std::vector<double>> moments;
   std::vector<double> ground_irradiance;  // diffuse, on the ground, [slice][sun]
+  std::vector<double> scale;              // largest moment of mode 0, [slice][sun]
   int orders = 0;                         // of scattering and reflection that were summed
 };
 
 struct DiffuseOptions {
-  double tolerance = 1e-6;  // an order ends the sum when it changes no moment by more than this
-                            // share of the largest
-  double mode_tolerance =
-      1e-6;  // a mode is left out when its source is below this share of the direct beam's
+  // An order of a mode ends the sum, and a mode is left out, when it changes no moment by more than
+  // this share of the largest moment of mode 0 for the same sun (and the same derivative).
+  double tolerance = 3e-6;
   int max_orders = 2000;  // beyond: std::runtime_error
 };
 
-// One mode m of the field; `field` must have its shape set; safe to call for different modes at
-// once.
+// The fields of several wavelengths, in parallel over wavelengths and modes on the calling arena's
+// threads. All optics must keep the same number of moments as the basis.
 template <int N>
-void solve_mode(const Shells& shells, const Optics<N>& optics, const std::vector<double>& heights,
-                const std::vector<double>& sun_mu, const StreamBasis& basis,
-                const DiffuseOptions& options, int m, DiffuseField& field);
+std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
+                                               std::span<const Optics<N>> optics, int slices,
+                                               const std::vector<double>& heights,
+                                               const std::vector<double>& sun_mu,
+                                               const StreamBasis& basis,
+                                               const DiffuseOptions& options);
 
 }  // namespace skyfit

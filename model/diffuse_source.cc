@@ -66,18 +66,10 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics)
     : shells_(shells), sun_mu_(sun_cosines()) {
   const StreamBasis basis(kStreams, kSourceMoments);
   const std::vector<double> heights = level_heights(shells.top, kLevels);
-  std::array<DiffuseField, 4> fields;
-  for (DiffuseField& field : fields) {
-    field.shape = {kLevels, 1, static_cast<int>(sun_mu_.size())};
-    field.moments.resize(kSourceMoments);
-  }
   DiffuseOptions options;
-  options.mode_tolerance = 1e-5;  // a hundredth of what the tables resolve
-  options.tolerance = 1e-5;
-  tbb::parallel_for(0, 4 * kSourceMoments, [&](int task) {
-    const auto node = static_cast<std::size_t>(task % 4);
-    solve_mode<0>(shells, optics[node], heights, sun_mu_, basis, options, task / 4, fields[node]);
-  });
+  options.tolerance = 1e-5;  // a hundredth of what the tables resolve
+  const std::vector<DiffuseField> fields =
+      solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, basis, options);
   const std::size_t size = index(kLevels, 0);
   air_.resize(size);
   aerosol_.resize(size);

@@ -14,30 +14,38 @@ namespace skyfit::kernels {
 SKYFIT_CLONES
 void multiply(const double* __restrict a, const double* __restrict b, double* __restrict c,
               std::size_t rows, std::size_t inner, std::size_t columns) {
-  constexpr std::size_t kRows = 4, kColumns = 16;  // a block of C that stays in registers
-  for (std::size_t j = 0; j < columns; j += kColumns) {
-    const std::size_t width = columns - j < kColumns ? columns - j : kColumns;
-    for (std::size_t i = 0; i < rows; i += kRows) {
-      const std::size_t height = rows - i < kRows ? rows - i : kRows;
-      double sum[kRows][kColumns] = {};
-      if (width == kColumns && height == kRows) {
-        for (std::size_t k = 0; k < inner; ++k) {
-          const double* __restrict row = b + k * columns + j;
-          for (std::size_t x = 0; x < kRows; ++x) {
-            const double factor = a[(i + x) * inner + k];
-            for (std::size_t y = 0; y < kColumns; ++y) sum[x][y] += factor * row[y];
-          }
-        }
-      } else {
-        for (std::size_t k = 0; k < inner; ++k) {
-          for (std::size_t x = 0; x < height; ++x) {
-            for (std::size_t y = 0; y < width; ++y)
-              sum[x][y] += a[(i + x) * inner + k] * b[k * columns + j + y];
-          }
-        }
+  constexpr std::size_t kRows = 6, kColumns = 8;  // a block of C that stays in registers
+  typedef double Vector __attribute__((vector_size(kColumns * sizeof(double))));
+  if (rows < kRows || columns < kColumns) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t j = 0; j < columns; ++j) c[i * columns + j] = 0;
+      for (std::size_t k = 0; k < inner; ++k) {
+        const double factor = a[i * inner + k];
+        for (std::size_t j = 0; j < columns; ++j) c[i * columns + j] += factor * b[k * columns + j];
       }
-      for (std::size_t x = 0; x < height; ++x) {
-        for (std::size_t y = 0; y < width; ++y) c[(i + x) * columns + j + y] = sum[x][y];
+    }
+    return;
+  }
+  // The last blocks overlap the ones before and write the same numbers again.
+  for (std::size_t column = 0; column < columns; column += kColumns) {
+    const std::size_t j = column + kColumns <= columns ? column : columns - kColumns;
+    for (std::size_t row = 0; row < rows; row += kRows) {
+      const std::size_t i = row + kRows <= rows ? row : rows - kRows;
+      Vector s0{}, s1{}, s2{}, s3{}, s4{}, s5{};
+      const double* factor = a + i * inner;
+      for (std::size_t k = 0; k < inner; ++k, ++factor) {
+        Vector x;
+        __builtin_memcpy(&x, b + k * columns + j, sizeof x);
+        s0 += factor[0] * x;
+        s1 += factor[inner] * x;
+        s2 += factor[2 * inner] * x;
+        s3 += factor[3 * inner] * x;
+        s4 += factor[4 * inner] * x;
+        s5 += factor[5 * inner] * x;
+      }
+      const Vector sums[kRows] = {s0, s1, s2, s3, s4, s5};
+      for (std::size_t x = 0; x < kRows; ++x) {
+        __builtin_memcpy(c + (i + x) * columns + j, &sums[x], sizeof sums[x]);
       }
     }
   }

@@ -11,11 +11,11 @@
 namespace skyfit {
 
 struct ReferenceOptions {
-  int streams = 16;  // per hemisphere
-  int moments = 32;  // of the aerosol's phase function, <= 2 streams
-  int levels = 48;   // of the diffuse field
+  int streams = 12;  // per hemisphere
+  int moments = 24;  // of the aerosol's phase function, <= 2 streams
+  int levels = 32;   // of the diffuse field
   int threads = 1;
-  double tolerance = 1e-6;  // of the sum over orders of scattering
+  double tolerance = 3e-6;  // of the sum over orders of scattering
 };
 
 class ReferenceModel final : public SkyModel {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/sky_solution.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -13,27 +11,27 @@ namespace {
 
 Shared<double> shared;  // stateless
 
-// Sum over Fourier modes and the suns of the stencil of one node's series, per slice.
+// Sum over Fourier modes and the suns of the stencil of one node's series [mode][sun][slice].
 template <int N>
 Dual<N> series_sum(const double* series, int modes, const FieldShape& shape, double cos_azimuth,
                    const SunStencil& sun) {
-  Dual<N> sum;
+  std::array<double, N + 1> sum{};
   double cosine = 1, before = cos_azimuth;  // cos m phi by Chebyshev's recursion
   for (int m = 0; m < modes; ++m) {
     const double factor = m == 0 ? 1 : 2 * cosine;
     const double* at = series + m * shape.row();
-    for (int k = 0; k < 4; ++k) sum.v += factor * sun.weight[k] * at[sun.index[k]];
-    if constexpr (N > 0) {
-      for (int p = 0; p + 1 < shape.slices; ++p) {
-        at += shape.suns;
-        for (int k = 0; k < 4; ++k) sum.d[p] += factor * sun.weight[k] * at[sun.index[k]];
-      }
+    for (int k = 0; k < 4; ++k) {
+      const double weight = factor * sun.weight[k];
+      const double* slices = at + sun.index[k] * shape.slices;
+      for (int p = 0; p < shape.slices; ++p) sum[p] += weight * slices[p];
     }
     const double next = 2 * cos_azimuth * cosine - before;
     before = cosine;
     cosine = next;
   }
-  return sum;
+  Dual<N> result(sum[0]);
+  for (std::size_t p = 0; p < N; ++p) result.d[p] = sum[p + 1];
+  return result;
 }
 
 }  // namespace
@@ -68,19 +66,13 @@ SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
   const Atmosphere<Dual<N>> seeded_atmosphere = seeded<N>(atmosphere, derivatives);
   for (const WavelengthNode& node : wavelengths) {
     optics_.push_back(optics_at(seeded_atmosphere, node, options.moments));
-    fields_.push_back({{options.levels, slices_, static_cast<int>(suns.size())},
-                       std::vector<std::vector<double>>(options.moments),
-                       {},
-                       0});
   }
   DiffuseOptions diffuse;
   diffuse.tolerance = options.tolerance;
-  const int modes = options.moments;
-  tbb::parallel_for(0, static_cast<int>(optics_.size()) * modes, [&](int task) {
-    const int w = task % static_cast<int>(optics_.size()),
-              m = task / static_cast<int>(optics_.size());
-    solve_mode(shells_, optics_[w], heights_, suns, basis_, diffuse, m, fields_[w]);
-  });
+  fields_ = solve_diffuse_fields<N>(shells_, optics_, slices_, heights_, suns, basis_, diffuse);
+  for (const DiffuseField& field : fields_) {
+    ground_series_.push_back(suns_first(field.ground_irradiance.data(), field.shape));
+  }
 }
 
 template <int N>
@@ -127,7 +119,7 @@ Dual<N> SkySolution<N>::ground(const ViewPath& path, const SunAlongRay& sun, int
   };
   const DiffuseField& field = fields_[wavelength];
   Dual<N> irradiance =
-      series_sum<N>(field.ground_irradiance.data(), 1, field.shape, 1, stencil(mu_s));
+      series_sum<N>(ground_series_[wavelength].data(), 1, field.shape, 1, stencil(mu_s));
   if (mu_s > 0) irradiance += mu_s * transmitted(shells_.columns_to_top(0, mu_s));
   return optics.ground_albedo * (1 / std::numbers::pi) * irradiance *
          transmitted(path.columns_to_end);

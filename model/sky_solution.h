@@ -58,6 +58,8 @@ class SkySolution {
   std::vector<int> solved_;  // grid index -> solved index, -1 when not needed
   std::vector<Optics<N>> optics_;
   std::vector<DiffuseField> fields_;
+  std::vector<std::vector<double>>
+      ground_series_;  // diffuse irradiance of the ground, [sun][slice]
 };
 
 }  // namespace skyfit

@@ -43,7 +43,9 @@ class MomentsAtHeight {
  public:
   MomentsAtHeight(const DiffuseField& field, double top, double height) : field_(field) {
     const int levels = field.shape.levels;
-    const double x = std::sqrt(height / top) * (levels - 1);
+    double x = std::sqrt(height / top) * (levels - 1);
+    constexpr double kOnLevel = 1e-6;  // of the distance of two levels: three of the weights are 0
+    if (std::abs(x - std::round(x)) < kOnLevel) x = std::round(x);
     first_ = std::clamp(static_cast<int>(x) - 1, 0, levels - 4);
     const double nodes[4] = {0, 1, 2, 3};
     lagrange_weights(nodes, 4, x - first_, weight_);
@@ -71,31 +73,44 @@ template <int N>
 void set_series(const Shells& shells, const Optics<N>& optics, const ViewPath& path,
                 const DiffuseField& field, int moments, PathSource<N>& source) {
   const std::size_t row = field.shape.row(), suns = field.shape.suns;
-  std::vector<double> lambda(moments);
+  std::vector<double> lambda(moments), sum(row);
   for (std::size_t i = 0; i < path.nodes.size(); ++i) {
     const MomentsAtHeight at(field, shells.top, path.nodes[i].height);
     for (int m = 0; m < source.aerosol_modes; ++m) {
       normalised_legendre(m, moments, path.nodes[i].mu, lambda.data());
-      double* aerosol = &source.aerosol_series[(i * source.aerosol_modes + m) * row];
+      std::fill(sum.begin(), sum.end(), 0.0);
       for (int l = m; l < moments; ++l) {
         const Dual<N>& chi = optics.moments[l];
-        at.add(m, l - m, lambda[l - m] * chi.v, aerosol, row);
+        at.add(m, l - m, lambda[l - m] * chi.v, sum.data(), row);
         for (std::size_t p = 0; p + 1 < static_cast<std::size_t>(field.shape.slices); ++p) {
           const double slope = derivative_of(chi, p);
-          if (slope != 0) at.add(m, l - m, lambda[l - m] * slope, aerosol + (p + 1) * suns, suns);
+          if (slope != 0)
+            at.add(m, l - m, lambda[l - m] * slope, sum.data() + (p + 1) * suns, suns);
         }
       }
+      std::ranges::copy(suns_first(sum.data(), field.shape),
+                        &source.aerosol_series[(i * source.aerosol_modes + m) * row]);
       if (m >= source.air_modes) continue;
-      double* air = &source.air_series[(i * source.air_modes + m) * row];
+      std::fill(sum.begin(), sum.end(), 0.0);
       for (int l = m; l < static_cast<int>(kRayleighMoments.size()); ++l) {
         if (kRayleighMoments[l] != 0)
-          at.add(m, l - m, lambda[l - m] * kRayleighMoments[l], air, row);
+          at.add(m, l - m, lambda[l - m] * kRayleighMoments[l], sum.data(), row);
       }
+      std::ranges::copy(suns_first(sum.data(), field.shape),
+                        &source.air_series[(i * source.air_modes + m) * row]);
     }
   }
 }
 
 }  // namespace
+
+std::vector<double> suns_first(const double* row, const FieldShape& shape) {
+  std::vector<double> r(shape.row());
+  for (int p = 0; p < shape.slices; ++p) {
+    for (int j = 0; j < shape.suns; ++j) r[j * shape.slices + p] = row[p * shape.suns + j];
+  }
+  return r;
+}
 
 ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
                    double mu) {

@@ -29,7 +29,7 @@ struct ViewPath {
 ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
                    double mu);
 
-// Per wavelength. Layout of series: [node][mode][slice][sun].
+// Per wavelength. Layout of series: [node][mode][sun][slice].
 template <int N>
 struct PathSource {
   std::vector<Dual<N>> air_weight,
@@ -37,6 +37,9 @@ struct PathSource {
   int air_modes = 0, aerosol_modes = 0;
   std::vector<double> air_series, aerosol_series;
 };
+
+// One row of a field, [slice][sun], turned into [sun][slice].
+std::vector<double> suns_first(const double* row, const FieldShape& shape);
 
 template <int N>
 PathSource<N> path_source(const Shells& shells, const Optics<N>& optics, const ViewPath& path,

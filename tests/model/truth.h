@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The truth tables in tests/model/data: Monte Carlo in spherical geometry and discrete ordinates; their headers say how
-// they were made.
+// The truth tables in tests/model/data: Monte Carlo in spherical geometry and discrete ordinates;
+// their headers say how they were made.
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/sky_model.h"
@@ -87,8 +89,9 @@ Errors errors(const std::vector<Compared>& rows, Keep keep) {
     if (std::abs(c.error()) > e.worst) {
       e.worst = std::abs(c.error());
       std::ostringstream text;
-      text << "sun " << c.point.sun_zenith / kDegree << " view " << c.point.view_zenith / kDegree << " azimuth "
-           << c.point.relative_azimuth / kDegree << " deg: " << 100 * c.error() << " %";
+      text << "sun " << c.point.sun_zenith / kDegree << " view " << c.point.view_zenith / kDegree
+           << " azimuth " << c.point.relative_azimuth / kDegree << " deg: " << 100 * c.error()
+           << " %";
       e.where = text.str();
     }
   }
@@ -97,11 +100,13 @@ Errors errors(const std::vector<Compared>& rows, Keep keep) {
 }
 
 inline std::vector<Compared> compare(const SkyModel& model, const Atmosphere<double>& atmosphere,
-                                     const std::vector<SkyPoint>& points, const std::vector<double>& truth) {
+                                     const std::vector<SkyPoint>& points,
+                                     const std::vector<double>& truth) {
   const WavelengthNode node{550, 0};
   const SkyValues values = model.radiance(atmosphere, {&node, 1}, points, {});
   std::vector<Compared> rows;
-  for (std::size_t i = 0; i < points.size(); ++i) rows.push_back({points[i], truth[i], values.at(static_cast<int>(i), 0)});
+  for (std::size_t i = 0; i < points.size(); ++i)
+    rows.push_back({points[i], truth[i], values.at(static_cast<int>(i), 0)});
   return rows;
 }
 
@@ -115,7 +120,8 @@ inline std::vector<Compared> compare_monte_carlo(const SkyModel& model, bool haz
   return compare(model, monte_carlo_earth(haze), points, truth);
 }
 
-inline std::vector<Compared> compare_plane_parallel(const SkyModel& model, const std::string& name) {
+inline std::vector<Compared> compare_plane_parallel(const SkyModel& model,
+                                                    const std::string& name) {
   std::vector<SkyPoint> points;
   std::vector<double> truth;
   for (const Row& r : read_rows("plane_parallel.csv")) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The forward model: 4 nodes x 9 suns x 115 directions at the ground, value alone and with ten
+// derivatives, and how the cost grows with directions and wavelengths.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "data_refs/spectra.h"
+#include "model/sky_model.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::vector<SkyPoint> sky_points(int directions) {
+  std::vector<SkyPoint> points;
+  for (int sun = 0; sun <= 80; sun += 10) {
+    for (int i = 0; i < directions; ++i) {
+      const double zenith = 85.0 * ((i % 23) + 0.5) / 23, azimuth = 180.0 * (i / 23) / 4;
+      points.push_back({0, sun * kDegree, zenith * kDegree, azimuth * kDegree});
+    }
+  }
+  return points;
+}
+
+Atmosphere<double> two_lobe_earth() {
+  Atmosphere<double> a;
+  a.mie.scattering_per_m.value = 1.5e-4;
+  a.mie.phase = {PhaseType::kTwoLobe, 0, 0.75, 0.3, 0.4};
+  return a;
+}
+
+const std::vector<Parameter> kTen = {
+    Parameter::kRayleighScattering, Parameter::kRayleighScaleHeight,
+    Parameter::kMieScattering,      Parameter::kMieSingleScatteringAlbedo,
+    Parameter::kMieScaleHeight,     Parameter::kMiePhaseG1,
+    Parameter::kMiePhaseG2,         Parameter::kMiePhaseWeight,
+    Parameter::kOzoneColumn,        Parameter::kGroundAlbedo};
+
+void run(benchmark::State& state, int directions, int nodes,
+         const std::vector<Parameter>& derivatives, int threads) {
+  const auto model = make_sky_model("reference", threads);
+  const auto points = sky_points(directions);
+  const LuminanceRule rule = luminance_rule(refs::standard_spectral_data(), nodes);
+  const Atmosphere<double> atmosphere = two_lobe_earth();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(model->radiance(atmosphere, rule.nodes, points, derivatives));
+  }
+}
+
+void Value(benchmark::State& state) { run(state, 115, 4, {}, static_cast<int>(state.range(0))); }
+void ValueAndTenDerivatives(benchmark::State& state) {
+  run(state, 115, 4, kTen, static_cast<int>(state.range(0)));
+}
+void ValueByDirections(benchmark::State& state) {
+  run(state, static_cast<int>(state.range(0)), 4, {}, 1);
+}
+void ValueByWavelengths(benchmark::State& state) {
+  run(state, 115, static_cast<int>(state.range(0)), {}, 1);
+}
+
+BENCHMARK(Value)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(ValueAndTenDerivatives)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(ValueByDirections)->Arg(115)->Arg(230)->Arg(460)->Unit(benchmark::kMillisecond);
+BENCHMARK(ValueByWavelengths)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace skyfit
