@@ -20,8 +20,7 @@ using enum Parameter;
 // of a day.
 // - Single scattering albedo: 0.92 +- 0.05 spans urban, smoke and dust aerosols (AERONET: Dubovik
 // et al. 2002, 0.86-0.97).
-// - Ground albedo: 0.15 +- 0.1 spans grass, soil, towns and water, without snow.
-// The aerosol's amount and phase function are what a sky says best, so they have none.
+// - Ground albedo: 0.15 +- 0.05 spans grass, soil, towns and water in visible light, without snow.
 constexpr std::array<ParameterInfo, kParameterCount> kTable = {{
     {kRayleighScattering, "rayleigh.scattering", "1/m", 1.216e-5, 0.5 * 1.216e-5, 2.0 * 1.216e-5,
      Prior{1.216e-5, 0.05 * 1.216e-5}, true,
@@ -46,7 +45,7 @@ constexpr std::array<ParameterInfo, kParameterCount> kTable = {{
      "share of the lobe g1"},
     {kOzoneColumn, "ozone.column", "DU", 300.0, 0.0, 600.0, std::nullopt, false,
      "vertical column of ozone"},
-    {kGroundAlbedo, "ground.albedo", "1", 0.1, 0.0, 1.0, Prior{0.15, 0.1}, true,
+    {kGroundAlbedo, "ground.albedo", "1", 0.1, 0.0, 1.0, Prior{0.15, 0.05}, true,
      "Lambertian albedo of the ground"},
 }};
 

@@ -50,7 +50,9 @@ TEST_P(CieFitTest, ReachesTheKnownMisfit) {
   EXPECT_EQ(result.per_sun.size(), 9u);
   for (const FittedParameter& row : result.parameters) {
     // The priors hold the air: Rayleigh within three prior sigmas, the heights not identifiable.
-    if (row.id == Parameter::kMieScaleHeight) EXPECT_FALSE(row.identifiable);
+    if (row.id == Parameter::kMieScaleHeight) {
+      EXPECT_FALSE(row.identifiable);
+    }
     if (row.id == Parameter::kRayleighScattering) {
       EXPECT_NEAR(row.fitted, row.prior->mean, 3 * row.prior->sigma);
     }
