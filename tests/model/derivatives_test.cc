@@ -49,7 +49,7 @@ void expect_exact(const Atmosphere<double>& a, Parameter parameter) {
   const SkyValues exact = model->radiance(a, nodes, list, {&parameter, 1});
   const ParameterInfo& info = parameter_info(parameter);
   const double step =
-      1e-4 * std::max(std::abs(get_parameter(a, parameter)), 1e-3 * (info.upper - info.lower));
+      2e-5 * std::max(std::abs(get_parameter(a, parameter)), 1e-3 * (info.upper - info.lower));
   auto at = [&](double value) {
     Atmosphere<double> b = a;
     set_parameter(b, parameter, value);
