@@ -3,7 +3,8 @@
 // phase function; multiple scattering from the converged diffuse field (model/diffuse_field.h), its
 // source integrated along the spherical view ray at the local sun; Lambert ground, ozone.
 // Unpolarised, no refraction. Approximate: the transport of the diffuse field itself is
-// plane-parallel. It matters for low suns; README.md, Accuracy, states the error against Monte Carlo.
+// plane-parallel. It matters for low suns; README.md, Accuracy, states the error against Monte
+// Carlo.
 #pragma once
 
 #include "model/sky_model.h"

@@ -50,6 +50,12 @@ void accumulate(const Table& table, double u, double v, double w, double weight,
   }
 }
 
+// Of the cubic through the values at 0, 1, 2 and 3 (Lagrange).
+std::array<double, 4> cubic_weights(double x) {
+  const double a = x - 1, b = x - 2, c = x - 3;
+  return {-a * b * c / 6, x * b * c / 2, -x * a * c / 2, x * a * b / 6};
+}
+
 // Below the lowest sun of the tables the twilight falls by e per degree.
 double deep_twilight(double mu_s) {
   return std::exp(std::min((mu_s - kTableLowestSun) * 57.3, 0.0));
@@ -101,17 +107,17 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   const double sun = shared.texture_from_unit(
       shared.unit_from_sun(mu_s, kTableLowestSun, p.bottom, p.thickness), s.scattering_mu_s);
   const double slot = shared.unit_from_cosine(nu) * (s.scattering_nu - 1);
-  const double lower = std::min(std::floor(slot), s.scattering_nu - 2.0);
+  const double lower = std::clamp(std::floor(slot) - 1, 0.0, s.scattering_nu - 4.0);
   const double v =
       shared.texture_from_view(height, mu, hits_ground, s.scattering_mu, p.bottom, p.thickness);
   const double w = shared.texture_from_unit(shared.unit_from_height(height, p.bottom, p.thickness),
                                             s.scattering_r);
   NodeValues rayleigh{}, mie{};
-  for (const double step : {0.0, 1.0}) {
-    const double part = step > 0 ? slot - lower : 1 - (slot - lower);
-    const double u = (lower + step + sun) / s.scattering_nu;
-    accumulate(tables.rayleigh_like, u, v, w, part, rayleigh);
-    accumulate(tables.single_mie, u, v, w, part, mie);
+  const std::array<double, 4> weight = cubic_weights(slot - lower);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double u = (lower + static_cast<double>(i) + sun) / s.scattering_nu;
+    accumulate(tables.rayleigh_like, u, v, w, weight[i], rayleigh);
+    accumulate(tables.single_mie, u, v, w, weight[i], mie);
   }
   const double rayleigh_phase = shared.rayleigh_phase(nu);
   const double mie_phase = aerosol_phase(tables.atmosphere.mie.phase, nu);

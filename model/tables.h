@@ -18,7 +18,7 @@ using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blu
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
-  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 48, scattering_nu = 12;
+  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 48, scattering_nu = 32;
 };
 
 // width varies fastest; depth = 1 for 2D.

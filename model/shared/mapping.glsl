@@ -99,15 +99,20 @@ Number unit_from_cosine(Number cosine) {
 }
 Number cosine_from_unit(Number x) { return 1.0 - 2.0 * (1.0 - x) * (1.0 - x); }
 
+// Rays to the sky, whose brightness changes fastest along the limb: coordinate of the square root of Bruneton's
+// distance, x = s at both ends, 1.6 times as coarse as s at the zenith and 2.5 times as fine at the horizon.
+Number sky_from_root(Number s) { return (1.6 - sqrt(max(2.56 - 2.4 * s, Number(0.0)))) / 1.2; }
+Number root_from_sky(Number x) { return x * (1.6 - 0.6 * x); }
+
 // Texture coordinate of the view zenith in the scattering table: the halves meet at the horizon and share no texel.
-// Deviation: the square root of Bruneton's distance, which spreads 64 texels evenly over the sky instead of one over the
+// Deviation: the square root of Bruneton's distance, which spreads the texels over the sky instead of one over the
 // 30 degrees about the zenith.
 Number texture_from_view(Number h, Number mu, bool hits_ground, Number size, Number bottom, Number thickness) {
   Number half_size = 0.5 * size;
   if (hits_ground) {
     return 0.5 - 0.5 * texture_from_unit(sqrt(unit_from_ground_ray(h, mu, bottom)), half_size);
   }
-  return 0.5 + 0.5 * texture_from_unit(sqrt(unit_from_upward_ray(h, mu, bottom, thickness)), half_size);
+  return 0.5 + 0.5 * texture_from_unit(sky_from_root(sqrt(unit_from_upward_ray(h, mu, bottom, thickness))), half_size);
 }
 
 Number mu_from_texture(Number u, Number h, Number size, Number bottom, Number thickness) {
@@ -116,7 +121,7 @@ Number mu_from_texture(Number u, Number h, Number size, Number bottom, Number th
     Number ground = unit_from_texture(1.0 - 2.0 * u, half_size);
     return mu_from_ground_unit(ground * ground, h, bottom);
   }
-  Number sky = unit_from_texture(2.0 * u - 1.0, half_size);
+  Number sky = root_from_sky(unit_from_texture(2.0 * u - 1.0, half_size));
   return mu_from_upward_unit(sky * sky, h, bottom, thickness);
 }
 

@@ -61,22 +61,31 @@ struct Scattering {
   vec4 rayleigh_like, single_mie;
 };
 
+// Of the cubic through the values at 0, 1, 2 and 3 (Lagrange).
+vec4 cubic_weights(float x) {
+  float a = x - 1.0, b = x - 2.0, c = x - 3.0;
+  return vec4(-a * b * c / 6.0, x * b * c / 2.0, -x * a * c / 2.0, x * a * b / 6.0);
+}
+
 // Along the whole ray, to the top or to the ground.
 Scattering scattering(float h, float mu, float mu_s, float nu, bool hits_ground) {
   float u_sun = texture_from_unit(unit_from_sun(mu_s, mu_s_min, bottom_km, thickness_km), scattering_size.x);
   float slot = unit_from_cosine(nu) * (scattering_size.y - 1.0);
-  float lower = min(floor(slot), scattering_size.y - 2.0);
+  float lower = clamp(floor(slot) - 1.0, 0.0, scattering_size.y - 4.0);
+  vec4 weight = cubic_weights(slot - lower);
   vec3 at = vec3((lower + u_sun) / scattering_size.y,
                  texture_from_view(h, mu, hits_ground, scattering_size.z, bottom_km, thickness_km),
                  height_coordinate(h, scattering_size.w));
-  vec3 next = at + vec3(1.0 / scattering_size.y, 0.0, 0.0);
-  float part = slot - lower;
+  vec4 rayleigh_like = vec4(0.0), single_mie = vec4(0.0);
+  for (int i = 0; i < 4; ++i) {
+    rayleigh_like += weight[i] * texture(rayleigh_like_table, at);
+    single_mie += weight[i] * texture(single_mie_table, at);
+    at.x += 1.0 / scattering_size.y;
+  }
   // The tables hold logarithms of the mean over the ray.
   float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, h, mu, 0.0)
                                 : distance_to_outer_sphere(bottom_km, h, mu, thickness_km);
-  return Scattering(
-      length_km * exp(mix(texture(rayleigh_like_table, at), texture(rayleigh_like_table, next), part)),
-      length_km * exp(mix(texture(single_mie_table, at), texture(single_mie_table, next), part)));
+  return Scattering(length_km * exp(rayleigh_like), length_km * exp(single_mie));
 }
 
 vec4 radiance(Scattering s, float nu) {
