@@ -272,11 +272,11 @@ class ModeSolver {
   std::vector<double> ground_;            // [slice][sun]
 };
 
-// The largest moment per [slice][sun].
-std::vector<double> largest_moments(const std::vector<double>& moments, std::size_t row) {
-  std::vector<double> top(row, 0.0);
-  for (std::size_t at = 0; at < moments.size(); at += row) {
-    for (std::size_t j = 0; j < row; ++j) top[j] = std::max(top[j], std::abs(moments[at + j]));
+// The largest moment per [level][slice][sun].
+std::vector<double> largest_moments(const std::vector<double>& moments, std::size_t size) {
+  std::vector<double> top(size, 0.0);
+  for (std::size_t at = 0; at < moments.size(); at += size) {
+    for (std::size_t j = 0; j < size; ++j) top[j] = std::max(top[j], std::abs(moments[at + j]));
   }
   return top;
 }
@@ -307,12 +307,12 @@ void solve_mode(ModeSolver<N> solver, const StreamBasis& basis, const DiffuseOpt
   std::vector<double> total(solver.moments().size(), 0.0), ground(row, 0.0);
   for (int order = 1;; ++order) {
     solver.advance();
-    const std::vector<double> step = largest_moments(solver.moments(), row);
+    const std::vector<double> step = largest_moments(solver.moments(), field.shape.size());
     kernels::add_scaled(1, solver.moments().data(), total.data(), total.size());
     kernels::add_scaled(1, solver.ground().data(), ground.data(), row);
     if (m == 0) {
       field.orders = order;
-      field.scale = largest_moments(total, row);
+      field.scale = largest_moments(total, field.shape.size());
     }
     if (largest_ratio(step, field.scale) < options.tolerance) {
       if (m > 0 && order == 1) return;

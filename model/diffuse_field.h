@@ -33,13 +33,14 @@ struct DiffuseField {
   // modes that do not matter.
   std::vector<std::vector<double>> moments;
   std::vector<double> ground_irradiance;  // diffuse, on the ground, [slice][sun]
-  std::vector<double> scale;              // largest moment of mode 0, [slice][sun]
+  std::vector<double> scale;              // largest moment of mode 0, [level][slice][sun]
   int orders = 0;                         // of scattering and reflection that were summed
 };
 
 struct DiffuseOptions {
   // An order of a mode ends the sum, and a mode is left out, when it changes no moment by more than
-  // this share of the largest moment of mode 0 for the same sun (and the same derivative).
+  // this share of the largest moment of mode 0 at the same level for the same sun (and the same
+  // derivative).
   double tolerance = 3e-6;
   int max_orders = 2000;  // beyond: std::runtime_error
 };

@@ -16,7 +16,7 @@ struct ReferenceOptions {
   int moments = 24;  // of the aerosol's phase function, <= 2 streams
   int levels = 32;   // of the diffuse field
   int threads = 1;
-  double tolerance = 3e-7;  // of the sum over orders of scattering
+  double tolerance = 1e-7;  // of the sum over orders of scattering
 };
 
 class ReferenceModel final : public SkyModel {
