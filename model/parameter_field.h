@@ -11,8 +11,9 @@
 
 namespace skyfit {
 
-template <class T>
-T& parameter_field(Atmosphere<T>& a, Parameter parameter) {
+// A is Atmosphere of any scalar, const or not.
+template <class A>
+auto& parameter_field(A& a, Parameter parameter) {
   switch (parameter) {
     case Parameter::kRayleighScattering:
       return a.rayleigh.scattering_per_m.value;

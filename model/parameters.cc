@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/parameter_field.h"
+
 namespace skyfit {
 namespace {
 
@@ -49,40 +51,6 @@ constexpr std::array<ParameterInfo, kParameterCount> kTable = {{
      "Lambertian albedo of the ground"},
 }};
 
-// One place for reading and writing; A is Atmosphere<double>, const or not.
-template <class A>
-auto& slot(A& atmosphere, Parameter parameter) {
-  auto& mie = atmosphere.mie;
-  switch (parameter) {
-    case kRayleighScattering:
-      return atmosphere.rayleigh.scattering_per_m.value;
-    case kRayleighScaleHeight:
-      return atmosphere.rayleigh.scale_height_m;
-    case kMieScattering:
-      return mie.scattering_per_m.value;
-    case kMieAngstromExponent:
-      return mie.scattering_per_m.exponent;
-    case kMieSingleScatteringAlbedo:
-      return mie.single_scattering_albedo;
-    case kMieScaleHeight:
-      return mie.scale_height_m;
-    case kMiePhaseG:
-      return mie.phase.g;
-    case kMiePhaseG1:
-      return mie.phase.g1;
-    case kMiePhaseG2:
-      return mie.phase.g2;
-    case kMiePhaseWeight:
-      return mie.phase.weight;
-    case kOzoneColumn:
-      return atmosphere.ozone.column_du;
-    case kGroundAlbedo:
-      return atmosphere.ground_albedo;
-  }
-  throw std::invalid_argument(
-      fmt::format("parameter number {}: expected one of the table's", static_cast<int>(parameter)));
-}
-
 }  // namespace
 
 std::span<const ParameterInfo, kParameterCount> parameter_table() { return kTable; }
@@ -116,11 +84,11 @@ bool has_parameter(const Atmosphere<double>& atmosphere, Parameter parameter) {
 }
 
 double get_parameter(const Atmosphere<double>& atmosphere, Parameter parameter) {
-  return slot(atmosphere, parameter);
+  return parameter_field(atmosphere, parameter);
 }
 
 void set_parameter(Atmosphere<double>& atmosphere, Parameter parameter, double value) {
-  slot(atmosphere, parameter) = value;
+  parameter_field(atmosphere, parameter) = value;
 }
 
 }  // namespace skyfit

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formulas that C++ and the shaders share. Shared<T>{}.rayleigh_phase(nu) is the C++ side for any scalar T: double,
-// Dual<N>, ceres::Jet. A shader reads the same files after `#define Number float` and `#define OUT(T) out T`.
+// The formulas that C++ and the shaders share. Shared<T>{}.rayleigh_phase(nu) is the C++ side for
+// any scalar T: double, Dual<N>, ceres::Jet. A shader reads the same files after `#define Number
+// float` and `#define OUT(T) out T`.
 #pragma once
 
 #include <cmath>
