@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A joint fit of CIE type 12 over nine suns, two lobes and four starts, against one evaluation of the model.
+// A joint fit of CIE type 12 over nine suns, two lobes and four starts, against one evaluation of
+// the model.
 #include <benchmark/benchmark.h>
 
 #include <numbers>
