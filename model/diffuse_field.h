@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The diffuse field of the atmosphere for a list of local sun angles: successive orders of
-// scattering until they no longer matter, in a plane-parallel column under a spherical direct beam
-// (pseudo-spherical). Its Legendre moments are the source of multiple scattering; the caller
-// integrates that source along spherical view rays, at the local sun. Azimuth is a Fourier series,
-// zenith a double-Gauss rule, the source linear in optical depth within a layer.
+// The diffuse field of the atmosphere for a list of local sun angles, in spherical shells: rays are
+// straight lines through them, the horizon dips with height, the sun's beam is that of each level.
+// The sun turns with the local zenith, as if the sky were the same everywhere on the planet: what
+// neighbouring places lend each other by having another sun is left out here (within 0.15 % for
+// suns to 80 deg). Azimuth is a Fourier series, zenith a fan of rays (model/ray_fan.h), each mode
+// is solved directly (model/mode_pack.h). The field's Legendre moments are the source of multiple
+// scattering; the caller integrates it along view rays at the local sun.
 #pragma once
 
 #include <span>
@@ -11,48 +13,50 @@
 
 #include "model/optics.h"
 #include "model/ray.h"
-#include "model/stream_basis.h"
+#include "model/ray_fan.h"
 
 namespace skyfit {
 
 // Heights of the levels, ascending from 0 to top, h_i = top (i / (count - 1))^2.
 std::vector<double> level_heights(double top, int count);
 
-// Layout of a field: for a mode m and a moment l, [level][slice][sun], sun fastest; slice 0 is the
+// Layout of a field: for each mode m, [level][l - m][sun][slice], slice fastest; slice 0 is the
 // value, slice 1 + p the derivative by parameter p.
 struct FieldShape {
-  int levels = 0, slices = 0, suns = 0;
+  int levels = 0, moments = 0, suns = 0, slices = 0;
   std::size_t row() const { return static_cast<std::size_t>(slices) * suns; }
-  std::size_t size() const { return row() * levels; }
+  std::size_t level(int m) const { return row() * static_cast<std::size_t>(moments - m); }
 };
 
 struct DiffuseField {
   FieldShape shape;
-  // moments[m][(l - m) * shape.size() + ...] = 2 pi integral Lambda_lm I_m dmu, I = sum_m (2 -
-  // delta_m0) I_m cos m phi, mu and phi those of the direction in which one looks. Empty for the
-  // modes that do not matter.
+  // moments[m] holds 2 pi integral Lambda_lm I_m dmu, I = sum_m (2 - delta_m0) I_m cos m phi, mu
+  // and phi those of the direction in which one looks; one entry per mode that matters.
   std::vector<std::vector<double>> moments;
-  std::vector<double> ground_irradiance;  // diffuse, on the ground, [slice][sun]
-  std::vector<double> scale;              // largest moment of mode 0, [level][slice][sun]
-  int orders = 0;                         // of scattering and reflection that were summed
+  std::vector<double> ground_irradiance;  // diffuse, on the ground, [sun][slice]
 };
 
 struct DiffuseOptions {
-  // An order of a mode ends the sum, and a mode is left out, when it changes no moment by more than
-  // this share of the largest moment of mode 0 at the same level for the same sun (and the same
-  // derivative).
-  double tolerance = 3e-6;
-  int max_orders = 2000;  // beyond: std::runtime_error
+  int moments = 16;  // of the phase functions, as many as the optics keep
+  // A mode is left out when a bound on what it adds to the field is below this share of mode 0.
+  double tolerance = 1e-4;
+  // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
+  int order = 0;
 };
 
 // The fields of several wavelengths, in parallel over wavelengths and modes on the calling arena's
-// threads. All optics must keep the same number of moments as the basis.
+// threads; results do not depend on their number.
 template <int N>
 std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
                                                std::span<const Optics<N>> optics, int slices,
                                                const std::vector<double>& heights,
                                                const std::vector<double>& sun_mu,
-                                               const StreamBasis& basis,
-                                               const DiffuseOptions& options);
+                                               const RayFan& fan, const DiffuseOptions& options);
+
+// Lambda_lm = sqrt((2 l + 1) / (4 pi) (l - m)! / (l + m)!) P_lm for l = m .. count - 1, written to
+// out[0 .. count - m), so that a phase function with moments chi_l is
+//   P(v . w) = sum_m (2 - delta_m0) cos m(phi_v - phi_w) sum_l chi_l Lambda_lm(mu_v)
+//   Lambda_lm(mu_w).
+void normalised_legendre(int m, int count, double mu, double* out);
 
 }  // namespace skyfit

@@ -24,8 +24,8 @@ void add_mode(const DiffuseField& field, int level, int m, const std::vector<dou
   for (std::size_t row = 0; row < lambda_chi.size(); ++row) {
     if (lambda_chi[row] == 0) continue;
     const double* from = field.moments[static_cast<std::size_t>(m)].data() +
-                         row * field.shape.size() +
-                         static_cast<std::size_t>(level) * field.shape.row();
+                         static_cast<std::size_t>(level) * field.shape.level(m) +
+                         row * field.shape.row();
     for (std::size_t j = 0; j < suns; ++j) series[j] += lambda_chi[row] * from[j];
   }
   for (int a = 0; a < kAzimuths; ++a) {
@@ -64,12 +64,10 @@ int cubic_stencil(const std::vector<double>& nodes, double x, std::array<float, 
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics)
     : shells_(shells), sun_mu_(sun_cosines()) {
-  const StreamBasis basis(kStreams, kSourceMoments);
   const std::vector<double> heights = level_heights(shells.top, kLevels);
-  DiffuseOptions options;
-  options.tolerance = 1e-5;  // a hundredth of what the tables resolve
+  const RayFan fan(shells.bottom_radius, heights, kStreams, kSourceMoments);
   const std::vector<DiffuseField> fields =
-      solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, basis, options);
+      solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, fan, {kSourceMoments});
   const std::size_t size = index(kLevels, 0);
   air_.resize(size);
   aerosol_.resize(size);
@@ -95,7 +93,7 @@ void DiffuseSource::tabulate(const Optics<0>& optics, const DiffuseField& field,
     for (int i = 0; i < kMu; ++i) {
       std::vector<double> air(count, 0.0), aerosol(count, 0.0);
       for (int m = 0; m < kSourceMoments; ++m) {
-        if (field.moments[static_cast<std::size_t>(m)].empty()) continue;
+        if (static_cast<std::size_t>(m) >= field.moments.size()) break;
         normalised_legendre(m, kSourceMoments, 2.0 * i / (kMu - 1) - 1, lambda.data());
         std::vector<double> of_air, of_aerosol;
         for (int l = m; l < kSourceMoments; ++l) {

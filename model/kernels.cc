@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/kernels.h"
 
-// Sanitizers instrument the functions that choose a clone before they can run.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define SKYFIT_CLONES \
-  __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
-#else
-#define SKYFIT_CLONES
-#endif
+#include "model/clones.h"
 
 namespace skyfit::kernels {
 
@@ -52,29 +46,23 @@ void multiply(const double* __restrict a, const double* __restrict b, double* __
 }
 
 SKYFIT_CLONES
-void butterfly(double* __restrict x, double* __restrict y, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double sum = x[i] + y[i];
-    y[i] = x[i] - y[i];
-    x[i] = sum;
-  }
-}
-
-SKYFIT_CLONES
-void blend(double t, const double* __restrict in, double a, const double* __restrict near, double b,
-           const double* __restrict far, double* __restrict out, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) out[i] = t * in[i] + a * near[i] + b * far[i];
-}
-
-SKYFIT_CLONES
-void add_blend(double t, const double* __restrict in, double a, const double* __restrict near,
-               double b, const double* __restrict far, double* __restrict out, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) out[i] += t * in[i] + a * near[i] + b * far[i];
-}
-
-SKYFIT_CLONES
 void add_scaled(double x, const double* __restrict in, double* __restrict out, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out[i] += x * in[i];
+}
+
+SKYFIT_CLONES
+void accumulate_suns(const double* __restrict rows, std::size_t slices,
+                     const int* __restrict index, const double* __restrict weight,
+                     const double* __restrict factor, std::size_t points,
+                     double* __restrict out) {
+  for (std::size_t k = 0; k < points; ++k, index += 4, weight += 4, out += slices) {
+    const double *a = rows + index[0] * slices, *b = rows + index[1] * slices,
+                 *c = rows + index[2] * slices, *d = rows + index[3] * slices;
+    const double wa = factor[k] * weight[0], wb = factor[k] * weight[1],
+                 wc = factor[k] * weight[2], wd = factor[k] * weight[3];
+    for (std::size_t p = 0; p < slices; ++p)
+      out[p] += wa * a[p] + wb * b[p] + wc * c[p] + wd * d[p];
+  }
 }
 
 }  // namespace skyfit::kernels

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hot loops of the multiple-scattering solver on plain arrays. They are compiled for several
+// The hot loops of the integration along view rays on plain arrays. They are compiled for several
 // instruction sets; the one that the processor has is chosen when the program is loaded, so that
 // one binary runs everywhere.
 #pragma once
@@ -12,18 +12,11 @@ namespace skyfit::kernels {
 void multiply(const double* a, const double* b, double* c, std::size_t rows, std::size_t inner,
               std::size_t columns);
 
-// (x, y) -> (x + y, x - y) element by element.
-void butterfly(double* x, double* y, std::size_t count);
-
-// out[i] = t in[i] + a near[i] + b far[i]
-void blend(double t, const double* in, double a, const double* near, double b, const double* far,
-           double* out, std::size_t count);
-
-// out[i] += t in[i] + a near[i] + b far[i]
-void add_blend(double t, const double* in, double a, const double* near, double b,
-               const double* far, double* out, std::size_t count);
-
 // out[i] += x in[i]
 void add_scaled(double x, const double* in, double* out, std::size_t count);
+
+// For points k: out[k][p] += factor[k] sum_j weight[k][j] rows[index[k][j]][p], j = 0 .. 3.
+void accumulate_suns(const double* rows, std::size_t slices, const int* index,
+                     const double* weight, const double* factor, std::size_t points, double* out);
 
 }  // namespace skyfit::kernels

@@ -13,6 +13,7 @@
 
 #include "model/gauss.h"
 #include "model/parameter_field.h"
+#include "model/single_scattering.h"
 #include "model/sky_solution.h"
 
 namespace skyfit {
@@ -71,25 +72,42 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
 
   const int n_points = static_cast<int>(points.size()),
             n_waves = static_cast<int>(wavelengths.size());
-  std::vector<PathSource<N>> sources(rays.paths.size() * n_waves);
-  tbb::parallel_for(0, static_cast<int>(sources.size()), [&](int i) {
-    sources[i] = solution.source(rays.paths[i / n_waves], i % n_waves);
+  const std::size_t slices = 1 + derivatives.size();
+  std::vector<double> multiple(points.size() * wavelengths.size() * slices, 0.0);
+  std::vector<PathWithSuns> bundles;
+  for (const ViewPath& path : rays.paths) bundles.push_back({&path, {}});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bundles[rays.path_of_point[i]].suns.push_back(
+        {&suns[i], &multiple[i * wavelengths.size() * slices]});
+  }
+  const MultipleScattering<N> scattering = solution.multiple_scattering();
+  constexpr int kAtOnce = MultipleScattering<N>::kPathsAtOnce;
+  const int n_paths = static_cast<int>(bundles.size());
+  tbb::parallel_for(0, (n_paths + kAtOnce - 1) / kAtOnce, [&](int i) {
+    const std::size_t first = static_cast<std::size_t>(i) * kAtOnce;
+    scattering.add(std::span(bundles).subspan(
+        first, std::min<std::size_t>(kAtOnce, bundles.size() - first)));
   });
   SkyValues values{n_points, n_waves, static_cast<int>(derivatives.size()), {}, {}};
   values.value.resize(static_cast<std::size_t>(n_points) * n_waves);
   values.derivative.resize(values.value.size() * derivatives.size());
+  Shared<double> shared;
   tbb::parallel_for(0, n_points, [&](int i) {
-    const int ray = rays.path_of_point[i];
-    const ViewPath& path = rays.paths[ray];
+    const ViewPath& path = rays.paths[rays.path_of_point[i]];
     if (path.nodes.empty()) return;
     const auto samples = single_scattering_samples(shells, path.ray, suns[i]);
     for (int w = 0; w < n_waves; ++w) {
-      const auto parts = solution.radiance(path, sources[ray * n_waves + w], suns[i], samples, w);
-      const Dual<N> sum = solution.sum(parts, suns[i].nu(), w);
-      values.value[static_cast<std::size_t>(i) * n_waves + w] = sum.v;
+      const SingleScattering<N> single = single_scattering(solution.optics(w), samples);
+      const double nu = suns[i].nu();
+      const Dual<N> sum = single.air * shared.rayleigh_phase(nu) +
+                          single.aerosol * aerosol_phase(solution.optics(w).phase, nu) +
+                          solution.ground(path, suns[i], w);
+      const std::size_t cell = static_cast<std::size_t>(i) * n_waves + w;
+      values.value[cell] = sum.v + multiple[cell * slices];
       if constexpr (N > 0) {
         for (std::size_t p = 0; p < derivatives.size(); ++p) {
-          values.derivative[(p * n_points + i) * n_waves + w] = sum.d[p];
+          values.derivative[(p * n_points + i) * n_waves + w] =
+              sum.d[p] + multiple[cell * slices + 1 + p];
         }
       }
     }

@@ -12,11 +12,13 @@
 namespace skyfit {
 
 struct ReferenceOptions {
-  int streams = 12;  // per hemisphere
-  int moments = 24;  // of the aerosol's phase function, <= 2 streams
+  int streams = 8;   // rays to the ground of the diffuse field, per hemisphere
+  int moments = 16;  // of the aerosol's phase function, <= 2 streams
   int levels = 32;   // of the diffuse field
   int threads = 1;
-  double tolerance = 1e-7;  // of the sum over orders of scattering
+  double tolerance = 1e-4;  // of the azimuth modes that are left out
+  // 0: all light. k > 0: only what met air or ground k times (no derivatives).
+  int order = 0;
 };
 
 class ReferenceModel final : public SkyModel {

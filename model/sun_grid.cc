@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace skyfit {
@@ -24,20 +23,29 @@ SunGrid::SunGrid() {
     double end, step;
   };
   double zenith = 0;
-  for (const Range range : {Range{60, 6}, Range{80, 4}, Range{108, 2}}) {
+  for (const Range range : {Range{60, 10}, Range{75, 5}, Range{90, 2.5}, Range{108, 1.5}}) {
     for (; zenith < range.end - 1e-9; zenith += range.step)
-      mu_.push_back(std::cos(zenith * std::numbers::pi / 180));
+      zenith_.push_back(zenith * std::numbers::pi / 180);
   }
-  mu_.push_back(std::cos(zenith * std::numbers::pi / 180));
+  zenith_.push_back(zenith * std::numbers::pi / 180);
 }
 
+double SunGrid::mu(int i) const { return std::cos(zenith_[i]); }
+
 SunStencil SunGrid::stencil(double mu_s) const {
-  const double x = std::clamp(mu_s, mu_.back(), mu_.front());
-  const auto below = std::lower_bound(mu_.begin(), mu_.end(), x, std::greater<>());
-  const int first = std::clamp(static_cast<int>(below - mu_.begin()) - 2, 0, size() - 4);
+  const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
+  const int above =
+      static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
+  const int first = std::min(above - 2, size() - 4);  // -1: one node beyond the zenith
+  std::array<double, 4> node;
   SunStencil s;
-  for (int i = 0; i < 4; ++i) s.index[i] = first + i;
-  lagrange_weights(&mu_[first], 4, x, s.weight.data());
+  for (int i = 0; i < 4; ++i) {
+    s.index[i] = std::abs(first + i);
+    node[i] = first + i < 0 ? -zenith_[1] : zenith_[first + i];
+  }
+  lagrange_weights(node.data(), 4, x, s.even.data());
+  s.odd = s.even;
+  if (first < 0) s.odd[0] = -s.odd[0];
   return s;
 }
 

@@ -8,22 +8,23 @@
 
 namespace skyfit {
 
+// Through the zenith the field goes on at the opposite azimuth, where odd modes change sign.
 struct SunStencil {
   std::array<int, 4> index{};
-  std::array<double, 4> weight{};
+  std::array<double, 4> even{}, odd{};  // weights for modes of even and of odd order
 };
 
 class SunGrid {
  public:
   SunGrid();
-  int size() const { return static_cast<int>(mu_.size()); }
-  double mu(int i) const { return mu_[i]; }
-  // Lagrange's cubic in the cosine through the four nearest nodes; the last node's value below the
-  // grid.
+  int size() const { return static_cast<int>(zenith_.size()); }
+  double mu(int i) const;
+  // Lagrange's cubic in the zenith angle through the four nearest nodes; the last node's value
+  // below the grid.
   SunStencil stencil(double mu_s) const;
 
  private:
-  std::vector<double> mu_;  // descending, from the zenith to below the twilight
+  std::vector<double> zenith_;  // radians, ascending, from 0 to below the twilight
 };
 
 // Lagrange's weights at x for the four (or fewer) nodes.

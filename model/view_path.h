@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One view ray prepared for any number of suns: its nodes at the solver's levels, the weights with
-// which the source of multiple scattering at the nodes adds up to radiance, and that source as a
-// Fourier series for every sun of the grid.
+// One view ray prepared for any number of suns: its nodes at the solver's levels and the weights
+// with which the source of multiple scattering at the nodes adds up to radiance.
 #pragma once
 
 #include <vector>
 
-#include "model/diffuse_field.h"
 #include "model/ray.h"
-#include "model/sun_grid.h"
 
 namespace skyfit {
 
@@ -29,20 +26,12 @@ struct ViewPath {
 ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
                    double mu);
 
-// Per wavelength. Layout of series: [node][mode][sun][slice].
+// Per node, sr^0: radiance = sum over nodes of weight times source per scattering coefficient.
 template <int N>
-struct PathSource {
-  std::vector<Dual<N>> air_weight,
-      aerosol_weight;  // per node, sr^0: radiance = sum weight * source
-  int air_modes = 0, aerosol_modes = 0;
-  std::vector<double> air_series, aerosol_series;
+struct NodeWeights {
+  std::vector<Dual<N>> air, aerosol;
 };
-
-// One row of a field, [slice][sun], turned into [sun][slice].
-std::vector<double> suns_first(const double* row, const FieldShape& shape);
-
 template <int N>
-PathSource<N> path_source(const Shells& shells, const Optics<N>& optics, const ViewPath& path,
-                          const DiffuseField& field, int moments);
+NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path);
 
 }  // namespace skyfit

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/multiple_scattering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "model/kernels.h"
+#include "model/parameters.h"
+
+namespace skyfit {
+
+// A node of a path, with what its points need in every mode.
+template <int N>
+struct MultipleScattering<N>::Node {
+  int path, node;
+  std::vector<std::vector<double>> lambda;       // [mode][l - m]
+  std::vector<int> index;                        // [point][4]
+  std::vector<double> even, odd;                 // [point][4]
+  std::vector<std::vector<double>> wave_factor;  // [mode][point]: (2 - delta_m0) cos m phi
+};
+
+// Nodes at one height: on a level, or between levels, where the moments are Lagrange's cubic in the
+// levels' own coordinate.
+template <int N>
+struct MultipleScattering<N>::Group {
+  int first_level;
+  std::vector<double> share;  // of the levels first_level ..; {1} on a level
+  std::vector<Node> nodes;
+};
+
+template <int N>
+struct MultipleScattering<N>::Bundle {
+  std::span<const PathWithSuns> paths;
+  std::vector<Group> groups;
+  std::vector<std::vector<double>> sums;  // per path [point][slice], of one wavelength
+};
+
+namespace {
+
+double derivative_of(const Dual<0>&, std::size_t) { return 0; }
+template <int N>
+double derivative_of(const Dual<N>& x, std::size_t p) {
+  return x.d[p];
+}
+
+}  // namespace
+
+template <int N>
+typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
+    std::span<const PathWithSuns> paths) const {
+  int modes = 0;
+  for (const DiffuseField& field : fields_)
+    modes = std::max(modes, static_cast<int>(field.moments.size()));
+  const int moments = fields_.front().shape.moments,
+            levels = static_cast<int>(heights_.size());
+  Bundle bundle{paths, {}, {}};
+  std::map<double, std::size_t> groups;
+  for (std::size_t path = 0; path < paths.size(); ++path) {
+    const std::vector<RayPoint>& nodes = paths[path].path->nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const RayPoint& point = nodes[i];
+      double x = std::sqrt(std::max(point.height, 0.0) / heights_.back()) * (levels - 1);
+      constexpr double kOnLevel = 1e-6;  // of the distance of two levels
+      const bool on_level = std::abs(x - std::round(x)) < kOnLevel;
+      if (on_level) x = std::round(x);
+      const auto [at, added] = groups.try_emplace(x, bundle.groups.size());
+      if (added) {
+        Group group{static_cast<int>(x), {1.0}, {}};
+        if (!on_level) {
+          group.first_level = std::clamp(group.first_level - 1, 0, levels - 4);
+          const double node_x[4] = {0, 1, 2, 3};
+          group.share.resize(4);
+          lagrange_weights(node_x, 4, x - group.first_level, group.share.data());
+        }
+        bundle.groups.push_back(std::move(group));
+      }
+      Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, {}};
+      node.lambda.resize(modes);
+      node.wave_factor.resize(modes);
+      for (int m = 0; m < modes; ++m) {
+        node.lambda[m].resize(moments - m);
+        normalised_legendre(m, moments, point.mu, node.lambda[m].data());
+      }
+      for (const SunOfPath& point_sun : paths[path].suns) {
+        const double mu_s = point_sun.sun->mu_s(point);
+        const SunStencil stencil = grid_.stencil(mu_s);
+        for (const int k : stencil.index) node.index.push_back(solved_[k]);
+        node.even.insert(node.even.end(), stencil.even.begin(), stencil.even.end());
+        node.odd.insert(node.odd.end(), stencil.odd.begin(), stencil.odd.end());
+        const double azimuth = point_sun.sun->cos_azimuth(point, mu_s);
+        double cosine = 1, before = azimuth;  // cos m phi by Chebyshev's recursion
+        for (int m = 0; m < modes; ++m) {
+          node.wave_factor[m].push_back(m == 0 ? 1 : 2 * cosine);
+          const double next = 2 * azimuth * cosine - before;
+          before = cosine;
+          cosine = next;
+        }
+      }
+      bundle.groups[at->second].nodes.push_back(std::move(node));
+    }
+  }
+  return bundle;
+}
+
+// Moments of mode m at the group's height, [l - m][sun][slice].
+template <int N>
+const double* MultipleScattering<N>::block_at(const Group& group, const DiffuseField& field, int m,
+                                              std::vector<double>& scratch) const {
+  const std::size_t size = field.shape.level(m);
+  const double* first = field.moments[m].data() + group.first_level * size;
+  if (group.share.size() == 1) return first;
+  scratch.assign(size, 0.0);
+  for (std::size_t k = 0; k < group.share.size(); ++k)
+    kernels::add_scaled(group.share[k], first + k * size, scratch.data(), size);
+  return scratch.data();
+}
+
+template <int N>
+void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeWeights<N>> weights,
+                                     int wave, int m) const {
+  const DiffuseField& field = fields_[wave];
+  const Optics<N>& optics = optics_[wave];
+  const auto own = static_cast<std::size_t>(field.shape.moments - m),
+             suns = static_cast<std::size_t>(field.shape.suns),
+             slices = static_cast<std::size_t>(field.shape.slices), parameters = slices - 1;
+  std::vector<double> scratch, coefficient, tangent, series, by_sun, change;
+  for (const Group& group : bundle.groups) {
+    const std::size_t rows = group.nodes.size();
+    const double* block = block_at(group, field, m, scratch);
+    coefficient.resize(rows * own);
+    tangent.resize(own * rows * parameters);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const Node& node = group.nodes[r];
+      const Dual<N>&air = weights[node.path].air[node.node],
+             &aerosol = weights[node.path].aerosol[node.node];
+      for (std::size_t k = 0; k < own; ++k) {
+        const std::size_t l = k + static_cast<std::size_t>(m);
+        Dual<N> c = aerosol * optics.moments[l];
+        if (l < kRayleighMoments.size()) c += air * kRayleighMoments[l];
+        coefficient[r * own + k] = c.v * node.lambda[m][k];
+        for (std::size_t p = 0; p < parameters; ++p)
+          tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * node.lambda[m][k];
+      }
+    }
+    series.resize(rows * field.shape.row());
+    kernels::multiply(coefficient.data(), block, series.data(), rows, own, field.shape.row());
+    if (parameters > 0) {
+      by_sun.resize(suns * own);
+      for (std::size_t j = 0; j < suns; ++j) {
+        for (std::size_t k = 0; k < own; ++k)
+          by_sun[j * own + k] = block[(k * suns + j) * slices];
+      }
+      const std::size_t columns = rows * parameters;
+      change.resize(suns * columns);
+      kernels::multiply(by_sun.data(), tangent.data(), change.data(), suns, own, columns);
+      for (std::size_t r = 0; r < rows; ++r) {
+        for (std::size_t j = 0; j < suns; ++j) {
+          for (std::size_t p = 0; p < parameters; ++p)
+            series[(r * suns + j) * slices + 1 + p] += change[j * columns + r * parameters + p];
+        }
+      }
+    }
+    for (std::size_t r = 0; r < rows; ++r) {
+      const Node& node = group.nodes[r];
+      kernels::accumulate_suns(series.data() + r * field.shape.row(), slices, node.index.data(),
+                               m % 2 == 0 ? node.even.data() : node.odd.data(),
+                               node.wave_factor[m].data(), node.wave_factor[m].size(),
+                               const_cast<double*>(bundle.sums[node.path].data()));
+    }
+  }
+}
+
+template <int N>
+void MultipleScattering<N>::add(std::span<const PathWithSuns> paths) const {
+  Bundle bundle = bundle_of(paths);
+  std::vector<NodeWeights<N>> weights(paths.size());
+  for (std::size_t wave = 0; wave < fields_.size(); ++wave) {
+    const auto slices = static_cast<std::size_t>(fields_[wave].shape.slices);
+    bundle.sums.clear();
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      weights[i] = node_weights(optics_[wave], *paths[i].path);
+      bundle.sums.emplace_back(paths[i].suns.size() * slices, 0.0);
+    }
+    for (std::size_t m = 0; m < fields_[wave].moments.size(); ++m)
+      add_mode(bundle, weights, static_cast<int>(wave), static_cast<int>(m));
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      for (std::size_t k = 0; k < paths[i].suns.size(); ++k) {
+        for (std::size_t p = 0; p < slices; ++p)
+          paths[i].suns[k].out[wave * slices + p] += bundle.sums[i][k * slices + p];
+      }
+    }
+  }
+}
+
+template class MultipleScattering<0>;
+template class MultipleScattering<kParameterCount>;
+
+}  // namespace skyfit

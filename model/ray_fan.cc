@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/ray_fan.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "model/gauss.h"
+
+namespace skyfit {
+namespace {
+
+// Shares of the levels at which a limb ray begins; few are enough, for the light of the limb fills
+// a narrow band of directions.
+constexpr double kLimbLevels[] = {0.1, 0.22, 0.38, 0.55, 0.75};
+
+// P_l(mu), l = 0 .. count - 1.
+Eigen::VectorXd legendre(double mu, int count) {
+  Eigen::VectorXd p(count);
+  double before = 0, current = 1;
+  for (int l = 0; l < count; ++l) {
+    p[l] = current;
+    const double next = ((2 * l + 1) * mu * current - l * before) / (l + 1);
+    before = current;
+    current = next;
+  }
+  return p;
+}
+
+}  // namespace
+
+RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int ground_rays,
+               int moments) {
+  const int levels = static_cast<int>(heights.size());
+  std::vector<int> touched;
+  for (const double share : kLimbLevels) {
+    const int level = static_cast<int>(std::lround(share * (levels - 1)));
+    if (level > 0 && (touched.empty() || level > touched.back())) touched.push_back(level);
+  }
+  for (int i = 0; i < levels; ++i) {
+    count_.push_back(ground_rays + static_cast<int>(std::upper_bound(touched.begin(),
+                                                                     touched.end(), i) -
+                                                    touched.begin()));
+  }
+  mu_.resize(static_cast<std::size_t>(levels) * most());
+  weight_.resize(mu_.size());
+  const GaussRule gauss = gauss_legendre(ground_rays);
+  for (int i = 0; i < levels; ++i) {
+    const double h = heights[i], r = bottom_radius + h;
+    const double to_ground = h * (2 * bottom_radius + h);  // r^2 - R^2
+    const double horizon_mu = std::sqrt(to_ground) / r;
+    for (int k = 0; k < count_[i]; ++k) {
+      double& mu = mu_[static_cast<std::size_t>(i) * most() + k];
+      double& weight = weight_[static_cast<std::size_t>(i) * most() + k];
+      if (k < ground_rays) {
+        const double x = gauss.node[k];
+        mu = std::sqrt(x * x * bottom_radius * bottom_radius + to_ground) / r;
+        weight = gauss.weight[k] * (bottom_radius / r) * (bottom_radius / r) * x / mu;
+      } else {
+        const double low = heights[touched[k - ground_rays]];
+        mu = std::sqrt((h - low) * (2 * bottom_radius + h + low)) / r;
+      }
+    }
+    // A limb ray stands for the directions that are nearest to it, between 0 and the horizon.
+    for (int k = ground_rays; k < count_[i]; ++k) {
+      const double above = k == ground_rays ? horizon_mu : 0.5 * (mu(i, k - 1) + mu(i, k));
+      const double below = k + 1 == count_[i] ? 0 : 0.5 * (mu(i, k) + mu(i, k + 1));
+      weight_[static_cast<std::size_t>(i) * most() + k] = above - below;
+    }
+    if (i > 0) set_weights(i, horizon_mu, moments);
+  }
+}
+
+// The weights nearest to those set, relative to them, under which the even Legendre polynomials
+// integrate to 0 and 1 does to 1, so that scattering loses nothing; and mu does to 1/2 where there
+// are rays enough.
+void RayFan::set_weights(int level, double, int moments) {
+  const int rays = count_[level], even = (moments + 1) / 2;
+  const bool flux = rays > even;
+  Eigen::MatrixXd constraint(even + (flux ? 1 : 0), rays);
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(constraint.rows());
+  wanted[0] = 1;
+  if (flux) wanted[even] = 0.5;
+  for (int k = 0; k < rays; ++k) {
+    const Eigen::VectorXd p = legendre(mu(level, k), 2 * even);
+    for (int l = 0; l < even; ++l) constraint(l, k) = p[2 * l];
+    if (flux) constraint(even, k) = mu(level, k);
+  }
+  Eigen::Map<Eigen::VectorXd> weight(&weight_[static_cast<std::size_t>(level) * most()], rays);
+  const Eigen::MatrixXd scaled = constraint * weight.asDiagonal();
+  const Eigen::VectorXd multiplier =
+      (scaled * constraint.transpose()).ldlt().solve(wanted - constraint * weight);
+  weight += weight.asDiagonal() * (constraint.transpose() * multiplier);
+}
+
+}  // namespace skyfit
