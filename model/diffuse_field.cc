@@ -101,24 +101,17 @@ class ModeSolver {
   void set_albedos() {
     albedo_.resize(static_cast<std::size_t>(shape_.levels) * rows_);
     for (int i = 0; i < shape_.levels; ++i) {
-      const double h = heights_[i];
-      auto density = [h](const Dual<N>& scale) {
-        const double rho = shared.exponential_density(h, scale.v);
-        return scale.chain(rho, rho * h / (scale.v * scale.v));
-      };
-      const Dual<N> air = optics_.air * density(optics_.air_scale_height);
-      const Dual<N> rho_aerosol = density(optics_.aerosol_scale_height);
-      const Dual<N> ozone =
-          optics_.ozone_follows_air
-              ? optics_.ozone * density(optics_.air_scale_height)
-              : optics_.ozone * shared.tent_density(h, kTentBottom, kTentPeak, kTentTop);
-      const Dual<N> extinction = air + optics_.aerosol_extinction * rho_aerosol + ozone;
+      const Densities<N> rho = optics_.densities(heights_[i]);
+      const Dual<N> air = optics_.air * rho.air;
+      const Dual<N> extinction =
+          air + optics_.aerosol_extinction * rho.aerosol + optics_.ozone * rho.ozone;
       if (!(extinction.v > 0)) continue;
-      const Dual<N> aerosol = optics_.aerosol_scattering_cut * rho_aerosol / extinction;
+      const Dual<N> aerosol = optics_.aerosol_scattering_cut * rho.aerosol / extinction;
       const Dual<N> air_share = air / extinction;
       for (int l = m_; l < basis_.moments(); ++l) {
         Dual<N> omega = aerosol * optics_.moments[l];
-        if (l < static_cast<int>(kRayleighMoments.size())) omega += air_share * kRayleighMoments[l];
+        if (l < static_cast<int>(optics_.air_moments.size()))
+          omega += air_share * optics_.air_moments[l];
         albedo_[i * rows_ + row_of(l)] = omega;
       }
     }

@@ -56,7 +56,7 @@ template <int N>
 SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
                 std::span<const SkyPoint> points, std::span<const Parameter> derivatives,
                 const ReferenceOptions& options) {
-  Shells shells = SkySolution<N>::shells_of(atmosphere);
+  Shells shells = shells_of(atmosphere);
   for (const Parameter p : derivatives) shells.ozone |= p == Parameter::kOzoneColumn;
   const ViewRays rays =
       distinct_view_rays(shells, level_heights(shells.top, options.levels), points);
@@ -156,7 +156,7 @@ SkyIrradiance ReferenceModel::irradiance(const Atmosphere<double>& atmosphere,
     }
   }
   const SkyValues sky = radiance(atmosphere, wavelengths, points, {});
-  const Shells shells = SkySolution<0>::shells_of(atmosphere);
+  const Shells shells = shells_of(atmosphere);
   const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, cs);
   const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
   SkyIrradiance result;

@@ -5,12 +5,9 @@
 #include <cmath>
 
 #include "model/parameters.h"
-#include "model/shared/shared.h"
 
 namespace skyfit {
 namespace {
-
-Shared<double> shared;  // stateless
 
 // Heights between which every profile and its extinction are smooth enough for the rule: dense
 // where an aerosol of the least scale height lives, with the corners of the ozone tent.
@@ -42,25 +39,15 @@ std::vector<SingleScatteringSample> single_scattering_samples(const Shells& shel
 template <int N>
 SingleScattering<N> single_scattering(const Optics<N>& optics,
                                       const std::vector<SingleScatteringSample>& samples) {
-  // Sums over the ray of rho T ds, by the derivative of tau and by the scale height of rho.
-  Dual<N> air, aerosol;
-  double air_by_height = 0, aerosol_by_height = 0;
+  Dual<N> air, aerosol;  // sums over the ray of rho T ds
   for (const SingleScatteringSample& s : samples) {
     const Dual<N> tau = optics.optical_depth(s.columns);
     const double t = std::exp(-tau.v) * s.weight;
-    const double ta = t * shared.exponential_density(s.height, optics.air_scale_height.v);
-    const double tm = t * shared.exponential_density(s.height, optics.aerosol_scale_height.v);
-    air += tau.chain(ta, -ta);
-    aerosol += tau.chain(tm, -tm);
-    air_by_height += ta * s.height;
-    aerosol_by_height += tm * s.height;
+    const Dual<N> transmitted = tau.chain(t, -t);
+    const Densities<N> rho = optics.densities(s.height);
+    air += transmitted * rho.air;
+    aerosol += transmitted * rho.aerosol;
   }
-  auto add_height = [](Dual<N>& sum, double moment, const Dual<N>& scale) {
-    const double slope = moment / (scale.v * scale.v);
-    for (std::size_t p = 0; p < N; ++p) sum.d[p] += slope * scale.d[p];
-  };
-  add_height(air, air_by_height, optics.air_scale_height);
-  add_height(aerosol, aerosol_by_height, optics.aerosol_scale_height);
   return {optics.air * air, optics.aerosol_scattering * aerosol};
 }
 

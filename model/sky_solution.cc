@@ -37,13 +37,6 @@ Dual<N> series_sum(const double* series, int modes, const FieldShape& shape, dou
 }  // namespace
 
 template <int N>
-Shells SkySolution<N>::shells_of(const Atmosphere<double>& a) {
-  return {a.bottom_radius_m,         a.top_radius_m - a.bottom_radius_m,
-          a.rayleigh.scale_height_m, a.mie.scale_height_m,
-          a.ozone.column_du > 0,     a.ozone.profile == OzoneProfile::kExponential};
-}
-
-template <int N>
 SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
                             std::span<const WavelengthNode> wavelengths,
                             std::span<const Parameter> derivatives,
@@ -136,7 +129,7 @@ RadianceParts<N> SkySolution<N>::radiance(const ViewPath& path, const PathSource
 
 template <int N>
 Dual<N> SkySolution<N>::sum(const RadianceParts<N>& parts, double nu, int wavelength) const {
-  return parts.single.air * shared.rayleigh_phase(nu) +
+  return parts.single.air * shared.rayleigh_phase(optics_[wavelength].depolarisation, nu) +
          parts.single.aerosol * aerosol_phase(optics_[wavelength].phase, nu) + parts.multiple +
          parts.ground;
 }

@@ -30,7 +30,6 @@ class SkySolution {
               std::span<const Parameter> derivatives, std::span<const double> mu_s_needed,
               const ReferenceOptions& options);
 
-  static Shells shells_of(const Atmosphere<double>& atmosphere);
   const Shells& shells() const { return shells_; }
   const std::vector<double>& heights() const { return heights_; }
   int wavelengths() const { return static_cast<int>(optics_.size()); }

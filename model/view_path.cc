@@ -10,8 +10,6 @@
 namespace skyfit {
 namespace {
 
-Shared<double> shared;  // stateless
-
 void set_interpolation(const std::vector<double>& node_s, ViewPath::Sample& sample) {
   const int size = static_cast<int>(node_s.size());
   sample.count = std::min(4, size);
@@ -92,9 +90,9 @@ void set_series(const Shells& shells, const Optics<N>& optics, const ViewPath& p
                         &source.aerosol_series[(i * source.aerosol_modes + m) * row]);
       if (m >= source.air_modes) continue;
       std::fill(sum.begin(), sum.end(), 0.0);
-      for (int l = m; l < static_cast<int>(kRayleighMoments.size()); ++l) {
-        if (kRayleighMoments[l] != 0)
-          at.add(m, l - m, lambda[l - m] * kRayleighMoments[l], sum.data(), row);
+      for (int l = m; l < static_cast<int>(optics.air_moments.size()); ++l) {
+        if (optics.air_moments[l] != 0)
+          at.add(m, l - m, lambda[l - m] * optics.air_moments[l], sum.data(), row);
       }
       std::ranges::copy(suns_first(sum.data(), field.shape),
                         &source.air_series[(i * source.air_modes + m) * row]);
@@ -141,13 +139,9 @@ PathSource<N> path_source(const Shells& shells, const Optics<N>& optics, const V
     const Dual<N> tau = optics.optical_depth(sample.columns);
     const double t = std::exp(-tau.v);
     const Dual<N> transmitted = tau.chain(t * sample.weight, -t * sample.weight);
-    auto density = [&](const Dual<N>& scale) {
-      const double rho = shared.exponential_density(sample.point.height, scale.v);
-      return scale.chain(rho, rho * sample.point.height / (scale.v * scale.v));
-    };
-    const Dual<N> air = transmitted * optics.air * density(optics.air_scale_height);
-    const Dual<N> aerosol =
-        transmitted * optics.aerosol_scattering_cut * density(optics.aerosol_scale_height);
+    const Densities<N> rho = optics.densities(sample.point.height);
+    const Dual<N> air = transmitted * optics.air * rho.air;
+    const Dual<N> aerosol = transmitted * optics.aerosol_scattering_cut * rho.aerosol;
     for (int k = 0; k < sample.count; ++k) {
       source.air_weight[sample.first + k] += air * sample.share[k];
       source.aerosol_weight[sample.first + k] += aerosol * sample.share[k];
@@ -157,7 +151,7 @@ PathSource<N> path_source(const Shells& shells, const Optics<N>& optics, const V
          !field.moments[source.aerosol_modes].empty()) {
     ++source.aerosol_modes;
   }
-  source.air_modes = std::min(source.aerosol_modes, static_cast<int>(kRayleighMoments.size()));
+  source.air_modes = std::min(source.aerosol_modes, static_cast<int>(optics.air_moments.size()));
   source.air_series.assign(nodes * source.air_modes * field.shape.row(), 0.0);
   source.aerosol_series.assign(nodes * source.aerosol_modes * field.shape.row(), 0.0);
   set_series(shells, optics, path, field, moments, source);
