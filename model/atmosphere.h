@@ -28,6 +28,7 @@ template <class T>
 struct Rayleigh {
   PowerLaw<T> scattering_per_m{550, T(1.216e-5), T(4.08)};
   T scale_height_m{8000.0};
+  double depolarisation = 0;  // of natural light scattered at a right angle; 0.0279 for dry air
 };
 
 // The aerosol's phase function; all forms integrate to 1 over the sphere, g > 0 scatters forward.

@@ -95,31 +95,23 @@ Dual<N> transmittance(const Dual<N>& tau) {
 }
 
 template <int N>
-WaveMedium<N> medium_of(const Shells& shells, const Optics<N>& optics,
-                        const std::vector<double>& heights, const FieldColumns& columns,
-                        const RayFan& fan, int moments) {
-  (void)shells;
+WaveMedium<N> medium_of(const Optics<N>& optics, const std::vector<double>& heights,
+                        const FieldColumns& columns, const RayFan& fan, int moments) {
   WaveMedium<N> medium;
   medium.ground_albedo = optics.ground_albedo;
   for (const double h : heights) {
-    auto density = [h](const Dual<N>& scale) {
-      const double rho = shared.exponential_density(h, scale.v);
-      return scale.chain(rho, rho * h / (scale.v * scale.v));
-    };
-    const Dual<N> air = optics.air * density(optics.air_scale_height);
-    const Dual<N> rho_aerosol = density(optics.aerosol_scale_height);
-    const Dual<N> ozone =
-        optics.ozone_follows_air
-            ? optics.ozone * density(optics.air_scale_height)
-            : optics.ozone * shared.tent_density(h, kTentBottom, kTentPeak, kTentTop);
-    const Dual<N> extinction = air + optics.aerosol_extinction * rho_aerosol + ozone;
+    const Densities<N> rho = optics.densities(h);
+    const Dual<N> air = optics.air * rho.air;
+    const Dual<N> extinction =
+        air + optics.aerosol_extinction * rho.aerosol + optics.ozone * rho.ozone;
     const bool empty = !(extinction.v > 0);
     const Dual<N> aerosol =
-        empty ? Dual<N>() : optics.aerosol_scattering_cut * rho_aerosol / extinction;
+        empty ? Dual<N>() : optics.aerosol_scattering_cut * rho.aerosol / extinction;
     const Dual<N> air_share = empty ? Dual<N>() : air / extinction;
     for (int l = 0; l < moments; ++l) {
       Dual<N> omega = aerosol * optics.moments[l];
-      if (l < static_cast<int>(kRayleighMoments.size())) omega += air_share * kRayleighMoments[l];
+      if (l < static_cast<int>(optics.air_moments.size()))
+        omega += air_share * optics.air_moments[l];
       medium.omega.push_back(omega);
     }
   }
@@ -159,7 +151,7 @@ ModeBasis mode_basis(const RayFan& fan, const std::vector<double>& sun_mu, int m
 // the aerosol has scattered once, scattered again, as a share of all light.
 template <int N>
 int mode_count(const Optics<N>& optics, int moments, double tolerance) {
-  const int least = std::min<int>(moments, kRayleighMoments.size());
+  const int least = std::min(moments, static_cast<int>(optics.air_moments.size()));
   const double aerosol = optics.aerosol_scattering_cut.v,
                share = aerosol / std::max(optics.air.v + aerosol, 1e-300);
   for (int m = least; m < moments; ++m) {
@@ -204,7 +196,7 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
   const FieldColumns columns = field_columns(shells, heights, sun_mu, fan);
   std::vector<WaveMedium<N>> media(waves);
   tbb::parallel_for(0, waves, [&](int w) {
-    media[w] = medium_of(shells, optics[w], heights, columns, fan, moments);
+    media[w] = medium_of(optics[w], heights, columns, fan, moments);
   });
   std::vector<DiffuseField> fields(waves);
   std::vector<ModeTask> tasks;

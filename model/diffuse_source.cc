@@ -100,7 +100,7 @@ void DiffuseSource::tabulate(const Optics<0>& optics, const DiffuseField& field,
           const auto at = static_cast<std::size_t>(l);
           const double value = lambda[at - static_cast<std::size_t>(m)];
           of_aerosol.push_back(value * optics.moments[at].v);
-          if (at < kRayleighMoments.size()) of_air.push_back(value * kRayleighMoments[at]);
+          if (at < optics.air_moments.size()) of_air.push_back(value * optics.air_moments[at]);
         }
         add_mode(field, level, m, of_air, air);
         add_mode(field, level, m, of_aerosol, aerosol);

@@ -69,4 +69,10 @@ struct Dual {
   }
 };
 
+inline double value_of(double x) { return x; }
+template <int N>
+double value_of(const Dual<N>& x) {
+  return x.v;
+}
+
 }  // namespace skyfit

@@ -137,7 +137,7 @@ void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeW
       for (std::size_t k = 0; k < own; ++k) {
         const std::size_t l = k + static_cast<std::size_t>(m);
         Dual<N> c = aerosol * optics.moments[l];
-        if (l < kRayleighMoments.size()) c += air * kRayleighMoments[l];
+        if (l < optics.air_moments.size()) c += air * optics.air_moments[l];
         coefficient[r * own + k] = c.v * node.lambda[m][k];
         for (std::size_t p = 0; p < parameters; ++p)
           tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * node.lambda[m][k];

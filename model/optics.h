@@ -6,19 +6,20 @@
 // (TMS, Nakajima & Tanaka 1988).
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "model/dual.h"
 #include "model/phase_moments.h"
 #include "model/photometry.h"
-#include "model/slant_column.h"
+#include "model/profile.h"
 
 namespace skyfit {
 
 // Columns from one point to another of air, aerosol and ozone, metres of their reference density.
 struct PathColumns {
-  Column air, aerosol, ozone;  // ozone by the scale height of the air, 0 for the tent
+  Column air, aerosol, ozone;  // ozone by the scale height of the air, see Profiles
 
   PathColumns& operator+=(const PathColumns& o) {
     auto add = [](Column& a, const Column& b) {
@@ -37,8 +38,15 @@ struct PathColumns {
   }
 };
 
+// Relative densities of the three at one height.
+template <int N>
+struct Densities {
+  Dual<N> air, aerosol, ozone;
+};
+
 template <int N>
 struct Optics {
+  Profiles profiles;
   Dual<N> air;                      // Rayleigh scattering = extinction at h = 0, 1/m
   Dual<N> air_scale_height;         // m
   Dual<N> aerosol_extinction;       // cut, at h = 0, 1/m
@@ -47,10 +55,21 @@ struct Optics {
   Dual<N> aerosol_scattering_cut;
   Dual<N> aerosol_scale_height;
   Dual<N> ozone;  // absorption where the profile is 1, 1/m
-  bool ozone_follows_air = false;
   Dual<N> ground_albedo;
+  double depolarisation = 0;
+  std::array<double, 3> air_moments{};  // the others are 0
   AerosolPhase<Dual<N>> phase;
   std::vector<Dual<N>> moments;  // of the cut phase function
+
+  Densities<N> densities(double height) const {
+    auto at = [&](const Profile& profile, const Dual<N>& scale_height) {
+      const Density rho = profile.density(height);
+      return scale_height.chain(rho.value, rho.by_scale_height);
+    };
+    const Dual<N> air_density = at(profiles.air, air_scale_height);
+    return {air_density, at(profiles.aerosol, aerosol_scale_height),
+            profiles.ozone == profiles.air ? air_density : at(profiles.ozone, air_scale_height)};
+  }
 
   Dual<N> optical_depth(const PathColumns& c) const {
     Dual<N> tau(air.v * c.air.value + aerosol_extinction.v * c.aerosol.value +
@@ -73,8 +92,11 @@ Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, in
     return law.value * exp(law.exponent * -std::log(node.wavelength_nm / law.wavelength_nm));
   };
   Optics<N> o;
+  o.profiles = profiles_of(a);
   o.air = at(a.rayleigh.scattering_per_m);
   o.air_scale_height = a.rayleigh.scale_height_m;
+  o.depolarisation = a.rayleigh.depolarisation;
+  o.air_moments = rayleigh_moments(o.depolarisation);
   o.phase = a.mie.phase;
   o.moments = aerosol_phase_moments(a.mie.phase, moment_count + 1);
   const Dual<N> cut = o.moments.back();
@@ -85,11 +107,9 @@ Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, in
   o.aerosol_extinction_true = o.aerosol_scattering / a.mie.single_scattering_albedo;
   o.aerosol_extinction = o.aerosol_extinction_true - o.aerosol_scattering * cut;
   o.aerosol_scale_height = a.mie.scale_height_m;
-  o.ozone_follows_air = a.ozone.profile == OzoneProfile::kExponential;
   const Dual<N> column = a.ozone.column_du * (kMoleculesPerDobson * node.ozone_cross_section_m2);
-  // The vertical integral of the profile: the scale height of the air, or half the tent's base.
-  o.ozone = o.ozone_follows_air ? column / a.rayleigh.scale_height_m
-                                : column * (2 / (kTentTop - kTentBottom));
+  const Column unit = o.profiles.ozone.vertical_column();
+  o.ozone = column / a.rayleigh.scale_height_m.chain(unit.value, unit.by_scale_height);
   o.ground_albedo = a.ground_albedo;
   return o;
 }

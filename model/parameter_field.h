@@ -51,7 +51,8 @@ Atmosphere<Dual<N>> seeded(const Atmosphere<double>& a, std::span<const Paramete
   s.top_radius_m = a.top_radius_m;
   s.rayleigh = {{a.rayleigh.scattering_per_m.wavelength_nm, a.rayleigh.scattering_per_m.value,
                  a.rayleigh.scattering_per_m.exponent},
-                a.rayleigh.scale_height_m};
+                a.rayleigh.scale_height_m,
+                a.rayleigh.depolarisation};
   s.mie.scattering_per_m = {a.mie.scattering_per_m.wavelength_nm, a.mie.scattering_per_m.value,
                             a.mie.scattering_per_m.exponent};
   s.mie.single_scattering_albedo = a.mie.single_scattering_albedo;

@@ -74,7 +74,9 @@ std::vector<T> aerosol_phase_moments(const AerosolPhase<T>& phase, int count) {
   return chi;
 }
 
-// Rayleigh's moments: chi_0 = 1, chi_2 = 1/10, the others 0.
-inline constexpr std::array<double, 3> kRayleighMoments = {1.0, 0.0, 0.1};
+// Of the air: chi_0 .. chi_2, the others are 0.
+inline std::array<double, 3> rayleigh_moments(double depolarisation) {
+  return {1.0, 0.0, Shared<double>{}.rayleigh_second_moment(depolarisation)};
+}
 
 }  // namespace skyfit

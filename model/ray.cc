@@ -14,11 +14,18 @@ Shared<double> shared;  // stateless
 
 PathColumns Shells::columns_to_top(double height, double mu) const {
   PathColumns c;
-  c.air = exponential_column(bottom_radius, height, mu, top, air_scale_height);
-  c.aerosol = exponential_column(bottom_radius, height, mu, top, aerosol_scale_height);
-  if (ozone)
-    c.ozone = ozone_follows_air ? c.air : Column{tent_column(bottom_radius, height, mu, top), 0};
+  auto column = [&](const Profile& profile) {
+    return profile.column_to_top(bottom_radius, height, mu, top);
+  };
+  c.air = column(profiles.air);
+  c.aerosol = column(profiles.aerosol);
+  if (ozone) c.ozone = profiles.ozone == profiles.air ? c.air : column(profiles.ozone);
   return c;
+}
+
+Shells shells_of(const Atmosphere<double>& a) {
+  return {a.bottom_radius_m, a.top_radius_m - a.bottom_radius_m, profiles_of(a),
+          a.ozone.column_du > 0};
 }
 
 ViewRay view_ray(double bottom_radius, double top, double altitude, double mu) {

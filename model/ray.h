@@ -12,12 +12,13 @@ namespace skyfit {
 // The geometry and the profiles: what columns need, without coefficients.
 struct Shells {
   double bottom_radius, top;  // top is a height
-  double air_scale_height, aerosol_scale_height;
-  bool ozone, ozone_follows_air;  // ozone == false: there is none
+  Profiles profiles;
+  bool ozone;  // false: there is none
 
   // From a point at height h upward to the top; mu < 0 passes the tangent point.
   PathColumns columns_to_top(double height, double mu) const;
 };
+Shells shells_of(const Atmosphere<double>& atmosphere);
 
 // One look: the part of a ray that lies inside the atmosphere. s is the distance from the ray's
 // entry.

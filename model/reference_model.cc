@@ -57,7 +57,7 @@ template <int N>
 SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
                 std::span<const SkyPoint> points, std::span<const Parameter> derivatives,
                 const ReferenceOptions& options) {
-  Shells shells = SkySolution<N>::shells_of(atmosphere);
+  Shells shells = shells_of(atmosphere);
   for (const Parameter p : derivatives) shells.ozone |= p == Parameter::kOzoneColumn;
   const ViewRays rays =
       distinct_view_rays(shells, level_heights(shells.top, options.levels), points);
@@ -92,14 +92,21 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
   values.value.resize(static_cast<std::size_t>(n_points) * n_waves);
   values.derivative.resize(values.value.size() * derivatives.size());
   Shared<double> shared;
+  std::vector<RayNodes> nodes(rays.paths.size());
+  tbb::parallel_for(0, n_paths,
+                    [&](int i) { nodes[i] = ray_nodes(shells, rays.paths[i].ray, {}); });
   tbb::parallel_for(0, n_points, [&](int i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
     if (path.nodes.empty()) return;
-    const auto samples = single_scattering_samples(shells, path.ray, suns[i]);
+    const std::vector<double> edges = suns[i].shadow_edges();
+    RayNodes own;
+    if (!edges.empty()) own = ray_nodes(shells, path.ray, edges);
+    const RayNodes& along = edges.empty() ? nodes[rays.path_of_point[i]] : own;
+    const SunlitNodes sunlit = sunlit_nodes(shells, along, suns[i]);
     for (int w = 0; w < n_waves; ++w) {
-      const SingleScattering<N> single = single_scattering(solution.optics(w), samples);
+      const SingleScattering<N> single = single_scattering(solution.optics(w), along, sunlit);
       const double nu = suns[i].nu();
-      const Dual<N> sum = single.air * shared.rayleigh_phase(nu) +
+      const Dual<N> sum = single.air * shared.rayleigh_phase(solution.optics(w).depolarisation, nu) +
                           single.aerosol * aerosol_phase(solution.optics(w).phase, nu) +
                           solution.ground(path, suns[i], w);
       const std::size_t cell = static_cast<std::size_t>(i) * n_waves + w;
@@ -174,7 +181,7 @@ SkyIrradiance ReferenceModel::irradiance(const Atmosphere<double>& atmosphere,
     }
   }
   const SkyValues sky = radiance(atmosphere, wavelengths, points, {});
-  const Shells shells = SkySolution<0>::shells_of(atmosphere);
+  const Shells shells = shells_of(atmosphere);
   const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, cs);
   const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
   SkyIrradiance result;

@@ -9,13 +9,6 @@
 namespace skyfit {
 
 template <int N>
-Shells SkySolution<N>::shells_of(const Atmosphere<double>& a) {
-  return {a.bottom_radius_m,         a.top_radius_m - a.bottom_radius_m,
-          a.rayleigh.scale_height_m, a.mie.scale_height_m,
-          a.ozone.column_du > 0,     a.ozone.profile == OzoneProfile::kExponential};
-}
-
-template <int N>
 SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
                             std::span<const WavelengthNode> wavelengths,
                             std::span<const Parameter> derivatives,

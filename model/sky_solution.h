@@ -21,7 +21,6 @@ class SkySolution {
               std::span<const Parameter> derivatives, std::span<const double> mu_s_needed,
               const ReferenceOptions& options);
 
-  static Shells shells_of(const Atmosphere<double>& atmosphere);
   const Optics<N>& optics(int wavelength) const { return optics_[wavelength]; }
   MultipleScattering<N> multiple_scattering() const {
     return {heights_, grid_, solved_, optics_, fields_};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slant columns: the integral of a relative density along a straight ray from a point to the top of
-// the atmosphere, in metres, in spherical geometry and closed form.
+// the atmosphere, in metres, in spherical geometry.
 #pragma once
+
+#include "model/linear_profile.h"
 
 namespace skyfit {
 
@@ -18,10 +20,9 @@ struct Column {
 Column exponential_column(double bottom_radius, double height, double mu, double top,
                           double scale_height);
 
-// The ozone tent (0 at 10 km, 1 at 25 km, 0 at 40 km) from height h upward, mu >= 0 or tangent as
-// above; by Gauss's rule in each linear piece, relative error below 1e-9.
-double tent_column(double bottom_radius, double height, double mu, double top);
-
-inline constexpr double kTentBottom = 10e3, kTentPeak = 25e3, kTentTop = 40e3;
+// A profile that is linear between heights, from height h upward, mu >= 0 or tangent as above; by
+// Gauss's rule in each linear piece, relative error below 1e-8.
+double linear_column(const LinearProfile& profile, double bottom_radius, double height, double mu,
+                     double top);
 
 }  // namespace skyfit

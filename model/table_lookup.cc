@@ -119,7 +119,8 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
     accumulate(tables.rayleigh_like, u, v, w, weight[i], rayleigh);
     accumulate(tables.single_mie, u, v, w, weight[i], mie);
   }
-  const double rayleigh_phase = shared.rayleigh_phase(nu);
+  const double rayleigh_phase =
+      shared.rayleigh_phase(tables.atmosphere.rayleigh.depolarisation, nu);
   const double mie_phase = aerosol_phase(tables.atmosphere.mie.phase, nu);
   const double length_km =
       1e-3 * (hits_ground ? shared.distance_to_inner_sphere(p.bottom, height, mu, 0.0)

@@ -87,25 +87,16 @@ class TableBuilder {
   TableBuilder(const Atmosphere<double>& atmosphere, const ColorRule& color,
                const TableSizes& sizes)
       : bottom_(atmosphere.bottom_radius_m),
-        thickness_(atmosphere.top_radius_m - atmosphere.bottom_radius_m) {
+        thickness_(atmosphere.top_radius_m - atmosphere.bottom_radius_m),
+        shells_(shells_of(atmosphere)) {
     out_.atmosphere = atmosphere;
     out_.color = color;
     out_.sizes = sizes;
-    const auto& a = atmosphere;
-    shells_ = {bottom_,
-               thickness_,
-               a.rayleigh.scale_height_m,
-               a.mie.scale_height_m,
-               a.ozone.column_du > 0,
-               a.ozone.profile == OzoneProfile::kExponential};
     const NodeOptics optics = optics_of(atmosphere, color);
-    coefficients_ = coefficients_of(optics, a.mie.single_scattering_albedo);
+    coefficients_ = coefficients_of(optics, atmosphere.mie.single_scattering_albedo);
     source_ = std::make_unique<DiffuseSource>(shells_, optics);
-    for (const double part : {0.0, 0.25, 0.6, 1.0, 1.7, 2.5, 4.0}) {
-      add_break(part * a.mie.scale_height_m);
-      add_break(part * a.rayleigh.scale_height_m);
-    }
-    add_break(7 * a.rayleigh.scale_height_m);
+    for (const double height : shells_.profiles.air.quadrature_heights()) add_break(height);
+    for (const double height : shells_.profiles.aerosol.quadrature_heights()) add_break(height);
     add_break(thickness_);
     std::sort(breaks_.begin(), breaks_.end());
   }
@@ -188,8 +179,8 @@ class TableBuilder {
       const RayPoint point = ray_point(ray, bottom_, node.s);
       const NodeValues tau = optical_depth(coefficients_, coefficients_.aerosol_extinction_cut,
                                            columns_along(shells_, ray, point));
-      const double air = std::exp(-point.height / shells_.air_scale_height);
-      const double aerosol = std::exp(-point.height / shells_.aerosol_scale_height);
+      const double air = shells_.profiles.air.density(point.height).value;
+      const double aerosol = shells_.profiles.aerosol.density(point.height).value;
       Step step{node.s, std::min(point.height, thickness_), point.mu, {}, {}, {}};
       for (std::size_t k = 0; k < 4; ++k) {
         const double reaches_eye = node.weight * std::exp(-tau[k]);
@@ -255,9 +246,11 @@ class TableBuilder {
     const double per_kilometre = 1e3 / texel.ray.length;
     for (std::size_t x = 0; x < cells.size(); ++x) {
       Cell& cell = cells[x];
+      const double rayleigh_phase =
+          shared.rayleigh_phase(out_.atmosphere.rayleigh.depolarisation, cell.table_nu);
       for (std::size_t k = 0; k < 4; ++k) {
         // The series of the diffuse field may swing below 0 where the field is dark.
-        cell.rayleigh[k] += std::max(cell.multiple[k], 0.0f) / shared.rayleigh_phase(cell.table_nu);
+        cell.rayleigh[k] += std::max(cell.multiple[k], 0.0f) / rayleigh_phase;
         cell.rayleigh[k] = std::log(std::max(cell.rayleigh[k] * per_kilometre, kDarkestScattering));
         cell.mie[k] = std::log(std::max(cell.mie[k] * per_kilometre, kDarkestScattering));
       }
@@ -296,9 +289,9 @@ class TableBuilder {
   }
 
   double bottom_, thickness_;
+  Shells shells_;
   Coefficients coefficients_{};
   std::unique_ptr<DiffuseSource> source_;
-  Shells shells_{};
   std::vector<double> breaks_;  // heights between which the quadrature has its nodes
   AtmosphereTables out_;
 };

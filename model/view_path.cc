@@ -10,8 +10,6 @@
 namespace skyfit {
 namespace {
 
-Shared<double> shared;  // stateless
-
 void set_interpolation(const std::vector<double>& node_s, ViewPath::Sample& sample) {
   const int size = static_cast<int>(node_s.size());
   sample.count = std::min(4, size);
@@ -66,13 +64,9 @@ NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path) {
     const Dual<N> tau = optics.optical_depth(sample.columns);
     const double t = std::exp(-tau.v);
     const Dual<N> transmitted = tau.chain(t * sample.weight, -t * sample.weight);
-    auto density = [&](const Dual<N>& scale) {
-      const double rho = shared.exponential_density(sample.point.height, scale.v);
-      return scale.chain(rho, rho * sample.point.height / (scale.v * scale.v));
-    };
-    const Dual<N> air = transmitted * optics.air * density(optics.air_scale_height);
-    const Dual<N> aerosol =
-        transmitted * optics.aerosol_scattering_cut * density(optics.aerosol_scale_height);
+    const Densities<N> rho = optics.densities(sample.point.height);
+    const Dual<N> air = transmitted * optics.air * rho.air;
+    const Dual<N> aerosol = transmitted * optics.aerosol_scattering_cut * rho.aerosol;
     for (int k = 0; k < sample.count; ++k) {
       weights.air[sample.first + k] += air * sample.share[k];
       weights.aerosol[sample.first + k] += aerosol * sample.share[k];

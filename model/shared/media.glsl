@@ -4,10 +4,3 @@
 
 // rho(h) = exp(-h / H), 1 at h = 0.
 Number exponential_density(Number height, Number scale_height) { return exp(-height / scale_height); }
-
-// Ozone: 0 at bottom, 1 at peak, 0 at top, linear in between.
-Number tent_density(Number height, Number bottom, Number peak, Number top) {
-  Number rising = (height - bottom) / (peak - bottom);
-  Number falling = (top - height) / (top - peak);
-  return max(min(rising, falling), Number(0.0));
-}

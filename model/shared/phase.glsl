@@ -2,7 +2,17 @@
 // Phase functions, 1/sr: they integrate to 1 over the sphere; nu is the cosine of the scattering angle, g > 0 scatters
 // forward. Compiled as double, as dual numbers and as GLSL, see model/shared/shared.h.
 
-Number rayleigh_phase(Number nu) { return 0.0596831036594607509 * (1.0 + nu * nu); }  // 3 / (16 pi)
+// Rayleigh scattering by molecules that depolarise natural light by the ratio rho at a right angle; 0 for spheres.
+// Source: Chandrasekhar's formula as given by Bucholtz 1995, Appl. Opt. 34, 2765, with his gamma = rho / (2 - rho).
+Number rayleigh_phase(Number depolarisation, Number nu) {
+  return 0.119366207318921502 / (2.0 + depolarisation) *
+         (1.0 + depolarisation + (1.0 - depolarisation) * nu * nu);  // 3 / (8 pi)
+}
+
+// Its second Legendre moment; the zeroth is 1, the others are 0.
+Number rayleigh_second_moment(Number depolarisation) {
+  return (1.0 - depolarisation) / (5.0 * (2.0 + depolarisation));
+}
 
 // Henyey & Greenstein 1941; its mean cosine is g.
 Number henyey_greenstein_phase(Number g, Number nu) {

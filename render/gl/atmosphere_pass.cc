@@ -34,6 +34,7 @@ void set_atmosphere(const AtmosphereTables& tables, GLuint program) {
   uniforms.set("mu_s_min", kTableLowestSun);
   uniforms.set("scattering_size", glm::vec4(sizes.scattering_mu_s, sizes.scattering_nu,
                                             sizes.scattering_mu, sizes.scattering_r));
+  uniforms.set("depolarisation", a.rayleigh.depolarisation);
   uniforms.set("phase_type", static_cast<int>(phase.type));
   uniforms.set("phase_parameters", glm::vec4(phase.g, phase.g1, phase.g2, phase.weight));
 }

@@ -14,6 +14,7 @@ uniform float bottom_km;
 uniform float thickness_km;
 uniform float mu_s_min;
 uniform vec4 scattering_size;   // mu_s, nu, mu, r
+uniform float depolarisation;   // of the air
 uniform int phase_type;         // PhaseType of model/atmosphere.h
 uniform vec4 phase_parameters;  // g, g1, g2, weight
 
@@ -89,5 +90,5 @@ Scattering scattering(float h, float mu, float mu_s, float nu, bool hits_ground)
 }
 
 vec4 radiance(Scattering s, float nu) {
-  return s.rayleigh_like * rayleigh_phase(nu) + s.single_mie * aerosol_phase(nu);
+  return s.rayleigh_like * rayleigh_phase(depolarisation, nu) + s.single_mie * aerosol_phase(nu);
 }
