@@ -17,8 +17,10 @@
 
 namespace skyfit {
 
-// Heights of the levels, ascending from 0 to top, h_i = top (i / (count - 1))^2.
+// Heights of the levels, ascending from 0 to top, h_i = top (i / (count - 1))^3.
 std::vector<double> level_heights(double top, int count);
+// The inverse: the level, or a place between two levels, of a height.
+double level_coordinate(double height, double top, int count);
 
 // Layout of a field: for each mode m, [level][l - m][sun][slice], slice fastest; slice 0 is the
 // value, slice 1 + p the derivative by parameter p.
@@ -39,7 +41,7 @@ struct DiffuseField {
 struct DiffuseOptions {
   int moments = 16;  // of the phase functions, as many as the optics keep
   // A mode is left out when a bound on what it adds to the field is below this share of mode 0.
-  double tolerance = 1e-4;
+  double tolerance = 1e-3;
   // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
   int order = 0;
 };

@@ -65,7 +65,7 @@ int cubic_stencil(const std::vector<double>& nodes, double x, std::array<float, 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics)
     : shells_(shells), sun_mu_(sun_cosines()) {
   const std::vector<double> heights = level_heights(shells.top, kLevels);
-  const RayFan fan(shells.bottom_radius, heights, kStreams, kSourceMoments);
+  const RayFan fan(shells.bottom_radius, heights, kStreams);
   const std::vector<DiffuseField> fields =
       solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, fan, {kSourceMoments});
   const std::size_t size = index(kLevels, 0);
@@ -119,7 +119,7 @@ void DiffuseSource::slice(double height, double mu, const std::array<double, 4>&
   out.source_ = this;
   out.value_.assign(index(0, 1), 0.0f);
   // The levels' own coordinate, in which the source is nearly linear.
-  const double y = std::sqrt(std::clamp(height / shells_.top, 0.0, 1.0)) * (kLevels - 1);
+  const double y = level_coordinate(height, shells_.top, kLevels);
   const double x = std::clamp(0.5 * mu + 0.5, 0.0, 1.0) * (kMu - 1);
   const int level = std::min(static_cast<int>(y), kLevels - 2),
             column = std::min(static_cast<int>(x), kMu - 2);

@@ -92,57 +92,64 @@ void butterfly(double* __restrict x, double* __restrict y, std::size_t count) {
 }
 
 SKYFIT_CLONES
-void layer_source(const double* __restrict near, const double* __restrict q_near,
-                  const double* __restrict far, const double* __restrict q_far,
-                  double* __restrict out, std::size_t rows, std::size_t columns) {
+void blend(const double* __restrict near, const double* __restrict q_near,
+           const double* __restrict far, const double* __restrict q_far, double* __restrict out,
+           std::size_t count) {
+  for (std::size_t i = 0; i < count * kLanes; ++i)
+    out[i] = near[i] * q_near[i] + far[i] * q_far[i];
+}
+
+SKYFIT_CLONES
+void add_blend(const double* __restrict near, const double* __restrict q_near,
+               const double* __restrict far, const double* __restrict q_far,
+               double* __restrict out, std::size_t rows, std::size_t columns) {
   const Vector* const n = reinterpret_cast<const Vector*>(near);
   const Vector* const f = reinterpret_cast<const Vector*>(far);
   const Vector* const qn = reinterpret_cast<const Vector*>(q_near);
   const Vector* const qf = reinterpret_cast<const Vector*>(q_far);
   Vector* const o = reinterpret_cast<Vector*>(out);
   for (std::size_t r = 0; r < rows; ++r) {
-    for (std::size_t j = r * columns; j < (r + 1) * columns; ++j) o[j] = n[r] * qn[j] + f[r] * qf[j];
+    for (std::size_t j = r * columns; j < (r + 1) * columns; ++j)
+      o[j] += n[r] * qn[j] + f[r] * qf[j];
   }
 }
 
 SKYFIT_CLONES
-void add_layer_tangent(const double* __restrict dt, const double* __restrict x,
-                       const double* __restrict dnear, const double* __restrict q_near,
-                       const double* __restrict dfar, const double* __restrict q_far,
-                       double* __restrict out, std::size_t rows, std::size_t suns,
-                       std::size_t parameters) {
-  const Vector* const t = reinterpret_cast<const Vector*>(dt);
-  const Vector* const n = reinterpret_cast<const Vector*>(dnear);
-  const Vector* const f = reinterpret_cast<const Vector*>(dfar);
-  const Vector* const vx = reinterpret_cast<const Vector*>(x);
-  const Vector* const qn = reinterpret_cast<const Vector*>(q_near);
-  const Vector* const qf = reinterpret_cast<const Vector*>(q_far);
+void layer_tangent(const LayerTangent& in, double* __restrict out, std::size_t rows,
+                   std::size_t suns, std::size_t parameters) {
+  const auto at = [](const double* p) __attribute__((always_inline)) {
+    return reinterpret_cast<const Vector*>(p);
+  };
   Vector* o = reinterpret_cast<Vector*>(out);
+  const Vector *dqn = at(in.dq_near), *dqf = at(in.dq_far);
   for (std::size_t r = 0; r < rows; ++r) {
-    for (std::size_t j = r * suns; j < (r + 1) * suns; ++j) {
-      const Vector a = vx[j], b = qn[j], c = qf[j];
-      for (std::size_t p = r * parameters; p < (r + 1) * parameters; ++p)
-        *o++ += t[p] * a + n[p] * b + f[p] * c;
+    const Vector* const depth = at(in.depth) + r * parameters;
+    for (std::size_t j = 0; j < suns; ++j) {
+      const std::size_t k = r * suns + j;
+      const Vector qn = at(in.q_near)[k], qf = at(in.q_far)[k];
+      const Vector g = at(in.near_slopes[0])[k] * qn + at(in.far_slopes[0])[k] * qf +
+                       at(in.near_slope)[r] * at(in.j_near)[k] +
+                       at(in.far_slope)[r] * at(in.j_far)[k] - at(in.t)[r] * at(in.x)[k];
+      const Vector g_near = at(in.near_slopes[1])[k] * qn + at(in.far_slopes[1])[k] * qf;
+      const Vector g_far = at(in.near_slopes[2])[k] * qn + at(in.far_slopes[2])[k] * qf;
+      const Vector bn = at(in.beam_near)[k], bf = at(in.beam_far)[k];
+      const Vector *sn = at(in.sun_near) + j * parameters, *sf = at(in.sun_far) + j * parameters;
+      for (std::size_t p = 0; p < parameters; ++p)
+        *o++ = g * depth[p] + g_near * sn[p] + g_far * sf[p] + bn * *dqn++ + bf * *dqf++;
     }
   }
 }
 
 SKYFIT_CLONES
-void moment_tangent(const double* __restrict domega, const double* __restrict m,
-                    const double* __restrict omega, const double* __restrict lambda,
-                    const double* __restrict dbeam, double* __restrict out, std::size_t rows,
-                    std::size_t suns, std::size_t parameters) {
+void outer(const double* __restrict domega, const double* __restrict m, double* __restrict out,
+           std::size_t rows, std::size_t suns, std::size_t parameters) {
   const Vector* const dw = reinterpret_cast<const Vector*>(domega);
   const Vector* const vm = reinterpret_cast<const Vector*>(m);
-  const Vector* const w = reinterpret_cast<const Vector*>(omega);
-  const Vector* const y = reinterpret_cast<const Vector*>(lambda);
-  const Vector* const db = reinterpret_cast<const Vector*>(dbeam);
   Vector* o = reinterpret_cast<Vector*>(out);
   for (std::size_t l = 0; l < rows; ++l) {
     for (std::size_t j = 0; j < suns; ++j) {
-      const Vector moment = vm[l * suns + j], direct = w[l] * y[l * suns + j];
       for (std::size_t p = 0; p < parameters; ++p)
-        *o++ = dw[l * parameters + p] * moment + direct * db[j * parameters + p];
+        *o++ = dw[l * parameters + p] * vm[l * suns + j];
     }
   }
 }

@@ -3,19 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
-
-#include "model/parameters.h"
 
 namespace skyfit {
 namespace {
-
-double derivative(const Dual<0>&, std::size_t) { return 0; }
-template <int N>
-double derivative(const Dual<N>& x, std::size_t p) {
-  return x.d[p];
-}
 
 // Element (i, j) of a matrix of lanes.
 double* at(std::vector<double>& m, std::size_t columns, std::size_t i, std::size_t j) {
@@ -63,150 +54,78 @@ void append(std::vector<double>& to, const std::vector<double>& from, std::size_
 
 }  // namespace
 
-template <int N>
-ModePack<N>::ModePack(const Inputs& inputs, const Tasks& tasks) : in_(inputs), tasks_(tasks) {
-  int lowest = tasks[0].mode;
-  for (const ModeTask& task : tasks) lowest = std::min(lowest, task.mode);
-  rows_ = {static_cast<std::size_t>((in_.moments - lowest + 1) / 2),
-           static_cast<std::size_t>((in_.moments - lowest) / 2)};
-  set_basis();
-  set_layers();
-  set_direct_beam();
+ModePack::ModePack(const RayFan& fan, const LayerMedium& medium,
+                   const std::vector<ModeBasis>& bases, const Modes& modes)
+    : fan_(fan), medium_(medium), modes_(modes) {
+  const int most = medium.moments - *std::min_element(modes.begin(), modes.end());
+  rows_ = {static_cast<std::size_t>((most + 1) / 2), static_cast<std::size_t>(most / 2)};
+  set_basis(bases);
+  const auto over_pi = [&](const Lanes& albedo) {
+    Lanes r = albedo;
+    for (std::size_t i = 0; i < r.size(); ++i)
+      r[i] *= modes_[i % kLanes] == 0 ? 1 / std::numbers::pi : 0.0;
+    return r;
+  };
+  albedo_ = over_pi(medium.ground_albedo);
+  albedo_tangent_ = over_pi(medium.ground_albedo_tangent);
 }
 
 // Rows of moments that a lane's mode does not have stay 0.
-template <int N>
-void ModePack<N>::set_basis() {
-  const auto p_count = static_cast<std::size_t>(in_.parameters);
-  synthesis_.resize(levels());
-  analysis_.resize(levels());
-  omega_.resize(levels());
-  omega_tangent_.resize(levels());
-  for (int parity = 0; parity < 2; ++parity) {
-    const std::size_t count = rows(parity);
+void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
+  const std::size_t p_count = medium_.parameters;
+  for (auto* v : {&synthesis_, &analysis_, &omega_, &omega_tangent_}) v->resize(levels());
+  for (std::size_t parity = 0; parity < 2; ++parity) {
+    const std::size_t count = rows_[parity];
+    sun_basis_[parity].assign(count * suns() * kLanes, 0.0);
     for (int i = 0; i < levels(); ++i) {
-      const std::size_t n = rays(i);
-      Lanes &synthesis = synthesis_[i][parity], &analysis = analysis_[i][parity];
-      Lanes &omega = omega_[i][parity], &tangent = omega_tangent_[i][parity];
-      synthesis.assign(n * count * kLanes, 0.0);
-      analysis.assign(n * count * kLanes, 0.0);
-      omega.assign(count * kLanes, 0.0);
-      tangent.assign(count * p_count * kLanes, 0.0);
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const auto [wave, mode] = tasks_[lane];
-        const ModeBasis& basis = in_.bases[mode];
-        const int own = in_.moments - mode;  // moments of this mode
-        for (std::size_t row = 0; row < count; ++row) {
-          const int l = static_cast<int>(2 * row) + parity;  // l - m
-          if (l >= own) break;
-          for (std::size_t k = 0; k < n; ++k) {
-            const double value = basis.at_rays[(i * in_.fan.most() + k) * own + l];
-            at(synthesis, count, k, row)[lane] = value;
-            at(analysis, n, row, k)[lane] =
-                2 * std::numbers::pi * in_.fan.weight(i, static_cast<int>(k)) * value;
-          }
-          const Dual<N>& w = in_.media[wave].omega[i * in_.moments + mode + l];
-          at(omega, 1, row, 0)[lane] = w.v;
-          for (std::size_t p = 0; p < p_count; ++p)
-            at(tangent, p_count, row, p)[lane] = derivative(w, p);
-        }
-      }
+      synthesis_[i][parity].assign(rays(i) * count * kLanes, 0.0);
+      analysis_[i][parity].assign(rays(i) * count * kLanes, 0.0);
+      omega_[i][parity].assign(count * kLanes, 0.0);
+      omega_tangent_[i][parity].assign(count * p_count * kLanes, 0.0);
     }
-    Lanes& sun_basis = sun_basis_[parity];
-    sun_basis.assign(count * suns() * kLanes, 0.0);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const int own = in_.moments - tasks_[lane].mode;
-      for (std::size_t row = 0; row < count; ++row) {
-        const int l = static_cast<int>(2 * row) + parity;
-        for (std::size_t j = 0; l < own && j < suns(); ++j) {
-          at(sun_basis, suns(), row, j)[lane] =
-              in_.bases[tasks_[lane].mode].at_suns[j * own + l];
+      const ModeBasis& basis = bases[modes_[lane]];
+      const auto m = static_cast<std::size_t>(modes_[lane]),
+                 own = static_cast<std::size_t>(medium_.moments) - m;
+      for (std::size_t row = 0; 2 * row + parity < own; ++row) {
+        const std::size_t offset = 2 * row + parity, l = m + offset;  // offset = l - m
+        for (std::size_t j = 0; j < suns(); ++j)
+          at(sun_basis_[parity], suns(), row, j)[lane] = basis.at_suns[j * own + offset];
+        for (int i = 0; i < levels(); ++i) {
+          for (std::size_t k = 0; k < rays(i); ++k) {
+            const double value = basis.at_rays[(i * fan_.most() + k) * own + offset];
+            at(synthesis_[i][parity], count, k, row)[lane] = value;
+            at(analysis_[i][parity], rays(i), row, k)[lane] =
+                2 * std::numbers::pi * fan_.weight(i, static_cast<int>(k)) * value;
+          }
+          at(omega_[i][parity], 1, row, 0)[lane] = at(medium_.omega[i], 1, l, 0)[lane];
+          for (std::size_t p = 0; p < p_count; ++p)
+            at(omega_tangent_[i][parity], p_count, row, p)[lane] =
+                at(medium_.omega_tangent[i], p_count, l, p)[lane];
         }
       }
     }
   }
-}
-
-template <int N>
-void ModePack<N>::set_layers() {
-  const auto p_count = static_cast<std::size_t>(in_.parameters);
-  layers_.resize(levels() - 1);
-  for (int i = 0; i + 1 < levels(); ++i) {
-    Layer& layer = layers_[i];
-    const std::size_t n = rays(i);
-    for (Lanes* v : {&layer.t, &layer.near, &layer.far}) v->resize(n * kLanes);
-    for (Lanes* v : {&layer.t_tangent, &layer.near_tangent, &layer.far_tangent})
-      v->resize(n * p_count * kLanes);
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto weights = [&](const ModeTask& task) -> const LayerWeights<N>& {
-        return in_.media[task.wave].layers[static_cast<std::size_t>(i) * in_.fan.most() + k];
-      };
-      pack(at(layer.t, 1, k, 0), [&](const ModeTask& t) { return weights(t).t.v; });
-      pack(at(layer.near, 1, k, 0), [&](const ModeTask& t) { return weights(t).near.v; });
-      pack(at(layer.far, 1, k, 0), [&](const ModeTask& t) { return weights(t).far.v; });
-      for (std::size_t p = 0; p < p_count; ++p) {
-        pack(at(layer.t_tangent, p_count, k, p),
-             [&](const ModeTask& t) { return derivative(weights(t).t, p); });
-        pack(at(layer.near_tangent, p_count, k, p),
-             [&](const ModeTask& t) { return derivative(weights(t).near, p); });
-        pack(at(layer.far_tangent, p_count, k, p),
-             [&](const ModeTask& t) { return derivative(weights(t).far, p); });
-      }
-    }
-  }
-}
-
-template <int N>
-void ModePack<N>::set_direct_beam() {
-  const auto p_count = static_cast<std::size_t>(in_.parameters);
-  beam_.resize(levels());
-  beam_tangent_.resize(levels());
-  for (int i = 0; i < levels(); ++i) {
-    beam_[i].resize(suns() * kLanes);
-    beam_tangent_[i].resize(suns() * p_count * kLanes);
-    for (std::size_t j = 0; j < suns(); ++j) {
-      const auto beam = [&](const ModeTask& t) -> const Dual<N>& {
-        return in_.media[t.wave].beam[i * suns() + j];
-      };
-      pack(at(beam_[i], 1, j, 0), [&](const ModeTask& t) { return beam(t).v; });
-      for (std::size_t p = 0; p < p_count; ++p)
-        pack(at(beam_tangent_[i], p_count, j, p),
-             [&](const ModeTask& t) { return derivative(beam(t), p); });
-    }
-  }
-  albedo_.resize(kLanes);
-  albedo_tangent_.resize(p_count * kLanes);
-  const auto over_pi = [](const ModeTask& t, double x) {
-    return t.mode == 0 ? x / std::numbers::pi : 0.0;
-  };
-  pack(albedo_.data(),
-       [&](const ModeTask& t) { return over_pi(t, in_.media[t.wave].ground_albedo.v); });
-  for (std::size_t p = 0; p < p_count; ++p)
-    pack(at(albedo_tangent_, 1, p, 0), [&](const ModeTask& t) {
-      return over_pi(t, derivative(in_.media[t.wave].ground_albedo, p));
-    });
 }
 
 // Matrices of the source that radiance makes: of rays that look the same way, and the other way.
-template <int N>
-void ModePack<N>::scattering(int level, Lanes& same, Lanes& other) const {
+void ModePack::scattering(int level, Lanes& same, Lanes& other) const {
   const std::size_t n = rays(level);
   same.resize(n * n * kLanes);
   other.resize(n * n * kLanes);
-  Lanes weighted(analysis_[level][0].size());
+  Lanes weighted;
   Lanes* const result[2] = {&same, &other};
-  for (int parity = 0; parity < 2; ++parity) {
+  for (std::size_t parity = 0; parity < 2; ++parity) {
     weighted.resize(analysis_[level][parity].size());
     lanes::scale_rows(omega_[level][parity].data(), analysis_[level][parity].data(),
-                      weighted.data(), rows(parity), n);
+                      weighted.data(), rows_[parity], n);
     lanes::multiply(synthesis_[level][parity].data(), weighted.data(), nullptr,
-                    result[parity]->data(), n, rows(parity), n);
+                    result[parity]->data(), n, rows_[parity], n);
   }
   lanes::butterfly(same.data(), other.data(), n * n);
 }
 
-template <int N>
-void ModePack<N>::eliminate() {
+void ModePack::eliminate() {
   reflection_.resize(levels());
   forward_.resize(levels() - 1);
   backward_.resize(levels() - 1);
@@ -217,7 +136,7 @@ void ModePack<N>::eliminate() {
       const int ray = static_cast<int>(j);
       for (std::size_t k = 0; k < kLanes; ++k)
         at(reflection_[0], n, i, j)[k] = 2 * std::numbers::pi * albedo_[k] *
-                                         in_.fan.weight(0, ray) * in_.fan.mu(0, ray);
+                                         fan_.weight(0, ray) * fan_.mu(0, ray);
     }
   }
   Lanes same, other, same_above, other_above;
@@ -232,12 +151,11 @@ void ModePack<N>::eliminate() {
 
 // From R_i to R_{i+1}, and the matrices of both sweeps. A limb ray that begins at level i + 1 has
 // U = D there.
-template <int N>
-void ModePack<N>::eliminate_layer(int layer, const Lanes& same, const Lanes& other,
+void ModePack::eliminate_layer(int layer, const Lanes& same, const Lanes& other,
                                   const Lanes& same_above, const Lanes& other_above) {
   const std::size_t n = rays(layer), above = rays(layer + 1);
-  const double *t = layers_[layer].t.data(), *near = layers_[layer].near.data(),
-               *far = layers_[layer].far.data();
+  const LayerMedium::Layer& weights = medium_.layers[layer];
+  const double *t = weights.t.data(), *near = weights.near.data(), *far = weights.far.data();
   const Lanes& reflection = reflection_[layer];
   Lanes down(n * n * kLanes), up(n * n * kLanes);  // sources per D once U = R D
   lanes::multiply(other.data(), reflection.data(), same.data(), down.data(), n, n, n);
@@ -291,38 +209,67 @@ void ModePack<N>::eliminate_layer(int layer, const Lanes& same, const Lanes& oth
   forward_[layer] = columns_of(upward, width, above, n, 3 * n);
 }
 
-template <int N>
-void ModePack<N>::to_rays(int level, const std::array<Lanes, 2>& moments, std::size_t columns,
-                          Lanes& down, Lanes& up) const {
-  const std::size_t n = rays(level);
-  Lanes* const result[2] = {&down, &up};
-  for (int parity = 0; parity < 2; ++parity) {
-    result[parity]->resize(n * columns * kLanes);
-    lanes::multiply(synthesis_[level][parity].data(), moments[parity].data(), nullptr,
-                    result[parity]->data(), n, rows(parity), columns);
+// Values at the rays from moments: first those of the rays that look up.
+ModePack::Columns ModePack::at_rays(const std::vector<Parities>& moments,
+                                    std::size_t columns) const {
+  Columns r{columns, std::vector<Lanes>(levels()), std::vector<Lanes>(levels())};
+  for (int i = 0; i < levels(); ++i) {
+    const std::size_t n = rays(i);
+    Lanes* const result[2] = {&r.down[i], &r.up[i]};
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+      result[parity]->resize(n * columns * kLanes);
+      lanes::multiply(synthesis_[i][parity].data(), moments[i][parity].data(), nullptr,
+                      result[parity]->data(), n, rows_[parity], columns);
+    }
+    lanes::butterfly(r.down[i].data(), r.up[i].data(), n * columns);
   }
-  lanes::butterfly(down.data(), up.data(), n * columns);
+  return r;
 }
 
-// e_D = near q_i + far q_{i+1} of the rays that look up; e_U = near q_{i+1} + far q_i of the others.
-template <int N>
-void ModePack<N>::layer_sources(const std::vector<Lanes>& down, const std::vector<Lanes>& up,
-                                std::size_t columns) {
-  down_source_.resize(layers_.size());
-  up_source_.resize(layers_.size());
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
+// Source moments of light's moments.
+std::vector<ModePack::Parities> ModePack::scattered(const std::vector<Parities>& moments) const {
+  std::vector<Parities> r(moments.size());
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+      r[i][parity].resize(moments[i][parity].size());
+      lanes::scale_rows(omega_[i][parity].data(), moments[i][parity].data(), r[i][parity].data(),
+                        rows_[parity], suns());
+    }
+  }
+  return r;
+}
+
+// What the beam's light, scattered once in a layer, adds to the rays that leave it.
+void ModePack::beam_sources() {
+  const std::vector<Parities> unit(levels(), sun_basis_);
+  unit_beam_ = at_rays(scattered(unit), suns());
+  down_source_.resize(medium_.layers.size());
+  up_source_.resize(medium_.layers.size());
+  for (std::size_t i = 0; i < medium_.layers.size(); ++i) {
+    const LayerMedium::Layer& w = medium_.layers[i];
+    const std::size_t count = w.down.near.size() / kLanes;
+    down_source_[i].resize(count * kLanes);
+    up_source_[i].resize(count * kLanes);
+    lanes::blend(w.down.near.data(), unit_beam_.down[i].data(), w.down.far.data(),
+                 unit_beam_.down[i + 1].data(), down_source_[i].data(), count);
+    lanes::blend(w.up.near.data(), unit_beam_.up[i + 1].data(), w.up.far.data(),
+                 unit_beam_.up[i].data(), up_source_[i].data(), count);
+  }
+}
+
+// Adds near J_i + far J_{i+1} to the rays that look up, near J_{i+1} + far J_i to the others.
+void ModePack::add_diffuse_sources(const Columns& source, std::size_t columns) {
+  for (std::size_t i = 0; i < medium_.layers.size(); ++i) {
+    const LayerMedium::Layer& w = medium_.layers[i];
     const std::size_t n = rays(static_cast<int>(i));
-    down_source_[i].resize(n * columns * kLanes);
-    up_source_[i].resize(n * columns * kLanes);
-    lanes::layer_source(layers_[i].near.data(), down[i].data(), layers_[i].far.data(),
-                        down[i + 1].data(), down_source_[i].data(), n, columns);
-    lanes::layer_source(layers_[i].near.data(), up[i + 1].data(), layers_[i].far.data(),
-                        up[i].data(), up_source_[i].data(), n, columns);
+    lanes::add_blend(w.near.data(), source.down[i].data(), w.far.data(),
+                     source.down[i + 1].data(), down_source_[i].data(), n, columns);
+    lanes::add_blend(w.near.data(), source.up[i + 1].data(), w.far.data(), source.up[i].data(),
+                     up_source_[i].data(), n, columns);
   }
 }
 
-template <int N>
-typename ModePack<N>::Columns ModePack<N>::substitute(const Lanes& ground,
+ModePack::Columns ModePack::substitute(const Lanes& ground,
                                                       std::size_t columns) const {
   const std::size_t width = columns * kLanes;
   std::vector<Lanes> s(levels());
@@ -360,197 +307,160 @@ typename ModePack<N>::Columns ModePack<N>::substitute(const Lanes& ground,
   return result;
 }
 
-template <int N>
-void ModePack<N>::analyse(const Columns& columns, std::vector<Lanes>& even,
-                          std::vector<Lanes>& odd) const {
-  even.resize(levels());
-  odd.resize(levels());
+std::vector<ModePack::Parities> ModePack::analyse(const Columns& columns) const {
+  std::vector<Parities> moments(levels());
   for (int i = 0; i < levels(); ++i) {
     const std::size_t n = rays(i);
-    Lanes sum = columns.down[i], difference = columns.up[i];
-    lanes::butterfly(sum.data(), difference.data(), n * columns.count);
-    even[i].resize(rows(0) * columns.count * kLanes);
-    odd[i].resize(rows(1) * columns.count * kLanes);
-    lanes::multiply(analysis_[i][0].data(), sum.data(), nullptr, even[i].data(), rows(0), n,
-                    columns.count);
-    lanes::multiply(analysis_[i][1].data(), difference.data(), nullptr, odd[i].data(), rows(1), n,
-                    columns.count);
+    std::array<Lanes, 2> light = {columns.down[i], columns.up[i]};  // then sum and difference
+    lanes::butterfly(light[0].data(), light[1].data(), n * columns.count);
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+      moments[i][parity].resize(rows_[parity] * columns.count * kLanes);
+      lanes::multiply(analysis_[i][parity].data(), light[parity].data(), nullptr,
+                      moments[i][parity].data(), rows_[parity], n, columns.count);
+    }
   }
+  return moments;
 }
 
-template <int N>
-typename ModePack<N>::Lanes ModePack<N>::irradiance(const Lanes& down, std::size_t columns) const {
+Lanes ModePack::irradiance(const Lanes& down, std::size_t columns) const {
   Lanes sum(columns * kLanes, 0.0);
-  for (int k = 0; k < in_.fan.count(0); ++k) {
-    const double weight = 2 * std::numbers::pi * in_.fan.weight(0, k) * in_.fan.mu(0, k);
+  for (int k = 0; k < fan_.count(0); ++k) {
+    const double weight = 2 * std::numbers::pi * fan_.weight(0, k) * fan_.mu(0, k);
     const double* row = at(down, columns, static_cast<std::size_t>(k), 0);
     for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += weight * row[j];
   }
   return sum;
 }
 
-template <int N>
-typename ModePack<N>::Lanes ModePack<N>::at_every_ground_ray(const Lanes& radiance) const {
+Lanes ModePack::at_every_ground_ray(const Lanes& radiance) const {
   Lanes r;
   for (std::size_t k = 0; k < rays(0); ++k) append(r, radiance, radiance.size());
   return r;
 }
 
 // albedo / pi times an irradiance per sun.
-template <int N>
-typename ModePack<N>::Lanes ModePack<N>::reflected(Lanes irradiance) const {
+Lanes ModePack::reflected(Lanes irradiance) const {
   for (std::size_t i = 0; i < irradiance.size(); ++i) irradiance[i] *= albedo_[i % kLanes];
   return at_every_ground_ray(irradiance);
 }
 
-// Moments of one parity: of the sun's beam, of the diffuse field, or of both.
-template <int N>
-typename ModePack<N>::Lanes ModePack<N>::light(int level, int parity, Light which) const {
-  const Lanes& diffuse = parity == 0 ? even_[level] : odd_[level];
-  if (which == Light::kDiffuse) return diffuse;
-  Lanes m(sun_basis_[parity].size());
-  for (std::size_t i = 0; i < m.size(); ++i)
-    m[i] = sun_basis_[parity][i] * beam_[level][i % (suns() * kLanes)];
-  if (which == Light::kAll) {
-    for (std::size_t i = 0; i < m.size(); ++i) m[i] += diffuse[i];
-  }
-  return m;
-}
-
-// Source functions at the rays of all levels.
-template <int N>
-void ModePack<N>::sources(Light which, std::vector<Lanes>& down, std::vector<Lanes>& up) const {
-  down.resize(levels());
-  up.resize(levels());
-  for (int i = 0; i < levels(); ++i) {
-    std::array<Lanes, 2> q;
-    for (int parity = 0; parity < 2; ++parity) {
-      const Lanes m = light(i, parity, which);
-      q[parity].resize(m.size());
-      lanes::scale_rows(omega_[i][parity].data(), m.data(), q[parity].data(), rows(parity), suns());
-    }
-    to_rays(i, q, suns(), down[i], up[i]);
-  }
-}
-
-template <int N>
-typename ModePack<N>::Lanes ModePack<N>::beam_on_ground() const {
-  Lanes r(suns() * kLanes);
-  for (std::size_t i = 0; i < r.size(); ++i)
-    r[i] = std::max(in_.sun_mu[i / kLanes], 0.0) * beam_[0][i];
+Lanes ModePack::beam_on_ground() const {
+  Lanes r = medium_.ground_beam;
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] *= std::max(medium_.sun_mu[i / kLanes], 0.0);
   return r;
 }
 
-template <int N>
-void ModePack<N>::solve_values() {
-  even_.resize(levels());
-  odd_.resize(levels());
-  std::vector<Lanes> down, up;
-  sources(Light::kBeam, down, up);
-  layer_sources(down, up, suns());
+void ModePack::solve_values() {
+  beam_sources();
   values_ = substitute(reflected(beam_on_ground()), suns());
-  analyse(values_, even_, odd_);
+  moments_ = analyse(values_);
   ground_ = irradiance(values_.down[0], suns());
 }
 
 // The same linear system for all derivatives: what depends on the parameters, applied to the
 // solution, is their source.
-template <int N>
-void ModePack<N>::solve_tangents() {
-  const auto p_count = static_cast<std::size_t>(in_.parameters);
-  const std::size_t columns = suns() * p_count;
-  std::vector<Lanes> down(levels()), up(levels());
-  for (int i = 0; i < levels(); ++i) {
-    std::array<Lanes, 2> q;
-    for (int parity = 0; parity < 2; ++parity) {
-      q[parity].resize(rows(parity) * columns * kLanes);
-      lanes::moment_tangent(omega_tangent_[i][parity].data(), light(i, parity, Light::kAll).data(),
-                            omega_[i][parity].data(), sun_basis_[parity].data(),
-                            beam_tangent_[i].data(), q[parity].data(), rows(parity), suns(),
-                            p_count);
+void ModePack::solve_tangents() {
+  const std::size_t p_count = medium_.parameters, columns = suns() * p_count;
+  const auto changed = [&](auto&& moments_at) {  // by the change of the scattering alone
+    std::vector<Parities> q(levels());
+    for (int i = 0; i < levels(); ++i) {
+      for (std::size_t parity = 0; parity < 2; ++parity) {
+        q[i][parity].resize(rows_[parity] * columns * kLanes);
+        lanes::outer(omega_tangent_[i][parity].data(), moments_at(i)[parity].data(),
+                     q[i][parity].data(), rows_[parity], suns(), p_count);
+      }
     }
-    to_rays(i, q, columns, down[i], up[i]);
-  }
-  layer_sources(down, up, columns);
-  sources(Light::kAll, down, up);
+    return at_rays(q, columns);
+  };
+  const Columns source = at_rays(scattered(moments_), suns());
+  const Columns beam_change = changed([&](int) -> const Parities& { return sun_basis_; });
   for (int i = 0; i + 1 < levels(); ++i) {
-    const Layer& w = layers_[i];
-    lanes::add_layer_tangent(w.t_tangent.data(), values_.down[i + 1].data(),
-                             w.near_tangent.data(), down[i].data(), w.far_tangent.data(),
-                             down[i + 1].data(), down_source_[i].data(), rays(i), suns(), p_count);
-    lanes::add_layer_tangent(w.t_tangent.data(), values_.up[i].data(), w.near_tangent.data(),
-                             up[i + 1].data(), w.far_tangent.data(), up[i].data(),
-                             up_source_[i].data(), rays(i), suns(), p_count);
+    const LayerMedium::Layer& w = medium_.layers[i];
+    const auto tangent = [&](const BeamWeights& beam, const Lanes& light,
+                             const std::vector<Lanes>& j, const std::vector<Lanes>& q,
+                             const std::vector<Lanes>& dq, int near, int far, Lanes& out) {
+      const auto slope = [&](std::size_t k) { return beam.near_slope[k].data(); };
+      const auto far_slope = [&](std::size_t k) { return beam.far_slope[k].data(); };
+      out.resize(rays(i) * columns * kLanes);
+      lanes::layer_tangent(
+          {w.t.data(), w.near_slope.data(), w.far_slope.data(), light.data(), j[near].data(),
+           j[far].data(), beam.near.data(), beam.far.data(), {slope(0), slope(1), slope(2)},
+           {far_slope(0), far_slope(1), far_slope(2)}, q[near].data(), q[far].data(),
+           dq[near].data(), dq[far].data(), w.depth_tangent.data(),
+           medium_.sun_depth_tangent[near].data(), medium_.sun_depth_tangent[far].data()},
+          out.data(), rays(i), suns(), p_count);
+    };
+    tangent(w.down, values_.down[i + 1], source.down, unit_beam_.down, beam_change.down, i, i + 1,
+            down_source_[i]);
+    tangent(w.up, values_.up[i], source.up, unit_beam_.up, beam_change.up, i + 1, i,
+            up_source_[i]);
   }
+  add_diffuse_sources(changed([&](int i) -> const Parities& { return moments_[i]; }), columns);
   Lanes on_ground(columns * kLanes);
   for (std::size_t j = 0; j < suns(); ++j) {
-    const double mu = std::max(in_.sun_mu[j], 0.0);
+    const double mu = std::max(medium_.sun_mu[j], 0.0);
     for (std::size_t p = 0; p < p_count; ++p) {
       for (std::size_t k = 0; k < kLanes; ++k) {
-        const double all = ground_[j * kLanes + k] + mu * beam_[0][j * kLanes + k];
-        on_ground[(j * p_count + p) * kLanes + k] =
-            albedo_tangent_[p * kLanes + k] * all +
-            albedo_[k] * mu * beam_tangent_[0][(j * p_count + p) * kLanes + k];
+        const std::size_t sun = j * kLanes + k, column = (j * p_count + p) * kLanes + k;
+        const double beam = mu * medium_.ground_beam[sun];
+        on_ground[column] = albedo_tangent_[p * kLanes + k] * (ground_[sun] + beam) -
+                            albedo_[k] * beam * medium_.sun_depth_tangent[0][column];
       }
     }
   }
   const Columns tangents = substitute(at_every_ground_ray(on_ground), columns);
-  analyse(tangents, even_tangent_, odd_tangent_);
+  moment_tangents_ = analyse(tangents);
   ground_tangent_ = irradiance(tangents.down[0], columns);
 }
 
-template <int N>
-void ModePack<N>::advance() {
-  const bool first = even_.empty();
-  std::vector<Lanes> down, up;
-  even_.resize(levels());
-  odd_.resize(levels());
-  sources(first ? Light::kBeam : Light::kDiffuse, down, up);
-  layer_sources(down, up, suns());
-  const Lanes ground = reflected(first ? beam_on_ground() : ground_);
-  values_ = {suns(), std::vector<Lanes>(levels()), std::vector<Lanes>(levels())};
+void ModePack::advance() {
+  Lanes ground;
+  if (moments_.empty()) {
+    beam_sources();
+    ground = reflected(beam_on_ground());
+  } else {
+    for (auto* sources : {&down_source_, &up_source_}) {
+      for (Lanes& source : *sources) std::ranges::fill(source, 0.0);
+    }
+    add_diffuse_sources(at_rays(scattered(moments_), suns()), suns());
+    ground = reflected(ground_);
+  }
   const std::size_t width = suns();
+  values_ = {width, std::vector<Lanes>(levels()), std::vector<Lanes>(levels())};
   values_.down.back().assign(rays(levels() - 1) * width * kLanes, 0.0);
   for (int i = levels() - 2; i >= 0; --i) {
     Lanes& d = values_.down[i] = down_source_[i];
-    add_block(layers_[i].t.data(), values_.down[i + 1], width, 0, d, width, 0, rays(i), width);
+    add_block(medium_.layers[i].t.data(), values_.down[i + 1], width, 0, d, width, 0, rays(i),
+              width);
   }
   values_.up[0] = ground;
   for (int i = 0; i + 1 < levels(); ++i) {
     // A ray that begins at level i + 1 comes from its other half.
     Lanes& u = values_.up[i + 1] = values_.down[i + 1];
     std::ranges::copy(up_source_[i], u.begin());
-    add_block(layers_[i].t.data(), values_.up[i], width, 0, u, width, 0, rays(i), width);
+    add_block(medium_.layers[i].t.data(), values_.up[i], width, 0, u, width, 0, rays(i), width);
   }
-  analyse(values_, even_, odd_);
-  ground_ = irradiance(values_.down[0], suns());
+  moments_ = analyse(values_);
+  ground_ = irradiance(values_.down[0], width);
 }
 
-template <int N>
-void ModePack<N>::solve() {
+void ModePack::solve() {
   eliminate();
   solve_values();
-  if (in_.parameters > 0) solve_tangents();
+  if (medium_.parameters > 0) solve_tangents();
 }
 
-template <int N>
-double ModePack<N>::moment(int lane, int level, int l, int sun, int slice) const {
-  const int offset = l - tasks_[lane].mode, parity = offset % 2;
-  const std::size_t row = static_cast<std::size_t>(offset / 2), j = static_cast<std::size_t>(sun);
-  if (slice == 0) return at(parity == 0 ? even_[level] : odd_[level], suns(), row, j)[lane];
-  const auto p_count = static_cast<std::size_t>(in_.parameters);
-  return at(parity == 0 ? even_tangent_[level] : odd_tangent_[level], suns() * p_count, row,
-            j * p_count + static_cast<std::size_t>(slice) - 1)[lane];
+double ModePack::moment(int lane, int level, int l, int sun, int slice) const {
+  const int offset = l - modes_[lane];
+  const std::size_t parity = offset % 2, row = offset / 2, j = sun;
+  if (slice == 0) return at(moments_[level][parity], suns(), row, j)[lane];
+  return at(moment_tangents_[level][parity], suns() * medium_.parameters, row,
+            j * medium_.parameters + slice - 1)[lane];
 }
 
-template <int N>
-double ModePack<N>::ground_irradiance(int lane, int sun, int slice) const {
-  const auto p_count = static_cast<std::size_t>(in_.parameters);
-  if (slice == 0) return ground_[static_cast<std::size_t>(sun) * kLanes + lane];
-  return ground_tangent_[(sun * p_count + static_cast<std::size_t>(slice) - 1) * kLanes + lane];
+double ModePack::ground_irradiance(int lane, int sun, int slice) const {
+  if (slice == 0) return ground_[sun * kLanes + lane];
+  return ground_tangent_[(sun * medium_.parameters + slice - 1) * kLanes + lane];
 }
-
-template class ModePack<0>;
-template class ModePack<kParameterCount>;
 
 }  // namespace skyfit

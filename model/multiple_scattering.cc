@@ -60,7 +60,7 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
     const std::vector<RayPoint>& nodes = paths[path].path->nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const RayPoint& point = nodes[i];
-      double x = std::sqrt(std::max(point.height, 0.0) / heights_.back()) * (levels - 1);
+      double x = level_coordinate(point.height, heights_.back(), levels);
       constexpr double kOnLevel = 1e-6;  // of the distance of two levels
       const bool on_level = std::abs(x - std::round(x)) < kOnLevel;
       if (on_level) x = std::round(x);

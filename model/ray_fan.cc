@@ -29,8 +29,7 @@ Eigen::VectorXd legendre(double mu, int count) {
 
 }  // namespace
 
-RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int ground_rays,
-               int moments) {
+RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int ground_rays) {
   const int levels = static_cast<int>(heights.size());
   std::vector<int> touched;
   for (const double share : kLimbLevels) {
@@ -67,30 +66,33 @@ RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int gro
       const double below = k + 1 == count_[i] ? 0 : 0.5 * (mu(i, k) + mu(i, k + 1));
       weight_[static_cast<std::size_t>(i) * most() + k] = above - below;
     }
-    if (i > 0) set_weights(i, horizon_mu, moments);
+    if (i > 0) correct_weights(i);
   }
 }
 
-// The weights nearest to those set, relative to them, under which the even Legendre polynomials
-// integrate to 0 and 1 does to 1, so that scattering loses nothing; and mu does to 1/2 where there
-// are rays enough.
-void RayFan::set_weights(int level, double, int moments) {
-  const int rays = count_[level], even = (moments + 1) / 2;
-  const bool flux = rays > even;
-  Eigen::MatrixXd constraint(even + (flux ? 1 : 0), rays);
+// Rays to the ground that do not resolve the band between them and the horizon stand for a part of
+// it already. The weights near the horizon are moved, as little as possible, so that 1, P_2, P_4 and
+// mu integrate to 1, 0, 0 and 1/2: scattering loses nothing.
+void RayFan::correct_weights(int level) {
+  const int rays = count_[level];
+  constexpr int kEven = 3;  // P_0, P_2 and P_4
+  Eigen::MatrixXd constraint(kEven + 1, rays);
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(constraint.rows());
   wanted[0] = 1;
-  if (flux) wanted[even] = 0.5;
+  wanted[kEven] = 0.5;
   for (int k = 0; k < rays; ++k) {
-    const Eigen::VectorXd p = legendre(mu(level, k), 2 * even);
-    for (int l = 0; l < even; ++l) constraint(l, k) = p[2 * l];
-    if (flux) constraint(even, k) = mu(level, k);
+    const Eigen::VectorXd p = legendre(mu(level, k), 2 * kEven);
+    for (int l = 0; l < kEven; ++l) constraint(l, k) = p[2 * l];
+    constraint(kEven, k) = mu(level, k);
   }
   Eigen::Map<Eigen::VectorXd> weight(&weight_[static_cast<std::size_t>(level) * most()], rays);
-  const Eigen::MatrixXd scaled = constraint * weight.asDiagonal();
+  constexpr double kNearHorizon = 0.05;  // cosine within which the weights may move
+  Eigen::VectorXd freedom = weight;
+  for (int k = 0; k < rays; ++k) freedom[k] *= std::exp(-mu(level, k) / kNearHorizon);
+  const Eigen::MatrixXd scaled = constraint * freedom.asDiagonal();
   const Eigen::VectorXd multiplier =
       (scaled * constraint.transpose()).ldlt().solve(wanted - constraint * weight);
-  weight += weight.asDiagonal() * (constraint.transpose() * multiplier);
+  weight += freedom.asDiagonal() * (constraint.transpose() * multiplier);
 }
 
 }  // namespace skyfit

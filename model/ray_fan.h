@@ -11,9 +11,8 @@ namespace skyfit {
 
 class RayFan {
  public:
-  // `ground_rays` per hemisphere; `moments` Legendre moments whose even ones the weights integrate
-  // exactly. heights ascend from 0.
-  RayFan(double bottom_radius, const std::vector<double>& heights, int ground_rays, int moments);
+  // `ground_rays` per hemisphere; heights ascend from 0.
+  RayFan(double bottom_radius, const std::vector<double>& heights, int ground_rays);
 
   int levels() const { return static_cast<int>(count_.size()); }
   // Rays at a level, in the order in which they come into being from the ground upward.
@@ -24,7 +23,7 @@ class RayFan {
   double weight(int level, int ray) const { return weight_[level * most() + ray]; }
 
  private:
-  void set_weights(int level, double horizon_mu, int moments);
+  void correct_weights(int level);
 
   std::vector<int> count_;
   std::vector<double> mu_, weight_;  // [level][ray]

@@ -14,9 +14,9 @@ namespace skyfit {
 struct ReferenceOptions {
   int streams = 8;   // rays to the ground of the diffuse field, per hemisphere
   int moments = 16;  // of the aerosol's phase function, <= 2 streams
-  int levels = 32;   // of the diffuse field
+  int levels = 28;   // of the diffuse field
   int threads = 1;
-  double tolerance = 1e-4;  // of the azimuth modes that are left out
+  double tolerance = 1e-3;  // of the azimuth modes that are left out
   // 0: all light. k > 0: only what met air or ground k times (no derivatives).
   int order = 0;
 };

@@ -30,7 +30,7 @@ SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
   for (const WavelengthNode& node : wavelengths) {
     optics_.push_back(optics_at(seeded_atmosphere, node, options.moments));
   }
-  const RayFan fan(shells_.bottom_radius, heights_, options.streams, options.moments);
+  const RayFan fan(shells_.bottom_radius, heights_, options.streams);
   fields_ = solve_diffuse_fields<N>(shells_, optics_, 1 + static_cast<int>(derivatives.size()),
                                     heights_, suns, fan,
                                     {options.moments, options.tolerance, options.order});
