@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diffuse field of the atmosphere for a list of local sun angles, in spherical shells: rays are
 // straight lines through them, the horizon dips with height, the sun's beam is that of each level.
-// The sun turns with the local zenith, as if the sky were the same everywhere on the planet: what
-// neighbouring places lend each other by having another sun is left out here (within 0.15 % for
-// suns to 80 deg). Azimuth is a Fourier series, zenith a fan of rays (model/ray_fan.h), each mode
-// is solved directly (model/mode_pack.h). The field's Legendre moments are the source of multiple
-// scattering; the caller integrates it along view rays at the local sun.
+// Azimuth is a Fourier series, zenith a fan of rays (model/ray_fan.h), each mode is solved directly
+// (model/mode_pack.h). At first the sun turns with the local zenith, as if the sky were the same
+// everywhere on the planet; what neighbouring places lend each other by having another sun then
+// couples modes and suns, in two steps of an iteration, for the suns for which it matters. The
+// field's Legendre moments are the source of multiple scattering; the caller integrates it along
+// view rays at the local sun.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "model/optics.h"
-#include "model/ray.h"
-#include "model/ray_fan.h"
+#include "model/mode_pack.h"
+#include "model/sun_grid.h"
 
 namespace skyfit {
 
@@ -46,6 +46,11 @@ struct DiffuseOptions {
   int order = 0;
 };
 
+// The coupling of the suns of `grid` that are solved (solved[i] >= 0 is the place of grid node i among
+// them), from the node `first` on; it and those after it, and the two before it, must be solved.
+SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, const RayFan& fan,
+                         int first);
+
 // The fields of several wavelengths, in parallel over wavelengths and modes on the calling arena's
 // threads; results do not depend on their number.
 template <int N>
@@ -53,7 +58,8 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
                                                std::span<const Optics<N>> optics, int slices,
                                                const std::vector<double>& heights,
                                                const std::vector<double>& sun_mu,
-                                               const RayFan& fan, const DiffuseOptions& options);
+                                               const RayFan& fan, const SunCoupling& coupling,
+                                               const DiffuseOptions& options);
 
 // Lambda_lm = sqrt((2 l + 1) / (4 pi) (l - m)! / (l + m)!) P_lm for l = m .. count - 1, written to
 // out[0 .. count - m), so that a phase function with moments chi_l is

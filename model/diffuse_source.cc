@@ -66,8 +66,9 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics)
     : shells_(shells), sun_mu_(sun_cosines()) {
   const std::vector<double> heights = level_heights(shells.top, kLevels);
   const RayFan fan(shells.bottom_radius, heights, kStreams);
+  SunCoupling no_coupling;
   const std::vector<DiffuseField> fields =
-      solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, fan, {kSourceMoments});
+      solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, fan, no_coupling, {kSourceMoments});
   const std::size_t size = index(kLevels, 0);
   air_.resize(size);
   aerosol_.resize(size);

@@ -239,6 +239,21 @@ std::vector<ModePack::Parities> ModePack::scattered(const std::vector<Parities>&
   return r;
 }
 
+// Sources by the change of the scattering alone, of light with the moments given per level.
+template <class F>
+ModePack::Columns ModePack::changed(const F& moments_at) const {
+  const std::size_t columns = suns() * medium_.parameters;
+  std::vector<Parities> q(levels());
+  for (int i = 0; i < levels(); ++i) {
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+      q[i][parity].resize(rows_[parity] * columns * kLanes);
+      lanes::outer(omega_tangent_[i][parity].data(), moments_at(i)[parity].data(),
+                   q[i][parity].data(), rows_[parity], suns(), medium_.parameters);
+    }
+  }
+  return at_rays(q, columns);
+}
+
 // What the beam's light, scattered once in a layer, adds to the rays that leave it.
 void ModePack::beam_sources() {
   const std::vector<Parities> unit(levels(), sun_basis_);
@@ -351,51 +366,47 @@ Lanes ModePack::beam_on_ground() const {
 }
 
 void ModePack::solve_values() {
-  beam_sources();
   values_ = substitute(reflected(beam_on_ground()), suns());
   moments_ = analyse(values_);
   ground_ = irradiance(values_.down[0], suns());
 }
 
-// The same linear system for all derivatives: what depends on the parameters, applied to the
-// solution, is their source.
-void ModePack::solve_tangents() {
-  const std::size_t p_count = medium_.parameters, columns = suns() * p_count;
-  const auto changed = [&](auto&& moments_at) {  // by the change of the scattering alone
-    std::vector<Parities> q(levels());
-    for (int i = 0; i < levels(); ++i) {
-      for (std::size_t parity = 0; parity < 2; ++parity) {
-        q[i][parity].resize(rows_[parity] * columns * kLanes);
-        lanes::outer(omega_tangent_[i][parity].data(), moments_at(i)[parity].data(),
-                     q[i][parity].data(), rows_[parity], suns(), p_count);
-      }
-    }
-    return at_rays(q, columns);
-  };
+// What depends on the parameters, applied to the solution, is the source of the derivatives.
+void ModePack::set_tangent_sources() {
+  const std::size_t columns = suns() * medium_.parameters;
   const Columns source = at_rays(scattered(moments_), suns());
   const Columns beam_change = changed([&](int) -> const Parities& { return sun_basis_; });
   for (int i = 0; i + 1 < levels(); ++i) {
-    const LayerMedium::Layer& w = medium_.layers[i];
-    const auto tangent = [&](const BeamWeights& beam, const Lanes& light,
-                             const std::vector<Lanes>& j, const std::vector<Lanes>& q,
-                             const std::vector<Lanes>& dq, int near, int far, Lanes& out) {
-      const auto slope = [&](std::size_t k) { return beam.near_slope[k].data(); };
-      const auto far_slope = [&](std::size_t k) { return beam.far_slope[k].data(); };
-      out.resize(rays(i) * columns * kLanes);
-      lanes::layer_tangent(
-          {w.t.data(), w.near_slope.data(), w.far_slope.data(), light.data(), j[near].data(),
-           j[far].data(), beam.near.data(), beam.far.data(), {slope(0), slope(1), slope(2)},
-           {far_slope(0), far_slope(1), far_slope(2)}, q[near].data(), q[far].data(),
-           dq[near].data(), dq[far].data(), w.depth_tangent.data(),
-           medium_.sun_depth_tangent[near].data(), medium_.sun_depth_tangent[far].data()},
-          out.data(), rays(i), suns(), p_count);
-    };
-    tangent(w.down, values_.down[i + 1], source.down, unit_beam_.down, beam_change.down, i, i + 1,
-            down_source_[i]);
-    tangent(w.up, values_.up[i], source.up, unit_beam_.up, beam_change.up, i + 1, i,
-            up_source_[i]);
+    down_source_[i].resize(rays(i) * columns * kLanes);
+    up_source_[i].resize(rays(i) * columns * kLanes);
+    layer_tangent(i, true, source, unit_beam_, beam_change, down_source_[i]);
+    layer_tangent(i, false, source, unit_beam_, beam_change, up_source_[i]);
   }
   add_diffuse_sources(changed([&](int i) -> const Parities& { return moments_[i]; }), columns);
+}
+
+// Of the light that leaves a layer along the rays that look up, or down.
+void ModePack::layer_tangent(int layer, bool looks_up, const Columns& source, const Columns& beam,
+                             const Columns& beam_change, Lanes& out) const {
+  const LayerMedium::Layer& w = medium_.layers[layer];
+  const int near = looks_up ? layer : layer + 1, far = looks_up ? layer + 1 : layer;
+  const BeamWeights& b = looks_up ? w.down : w.up;
+  const auto of = [&](const Columns& c) -> const std::vector<Lanes>& {
+    return looks_up ? c.down : c.up;
+  };
+  lanes::layer_tangent(
+      {w.t.data(), w.near_slope.data(), w.far_slope.data(), of(values_)[far].data(),
+       of(source)[near].data(), of(source)[far].data(), b.near.data(), b.far.data(),
+       {b.near_slope[0].data(), b.near_slope[1].data(), b.near_slope[2].data()},
+       {b.far_slope[0].data(), b.far_slope[1].data(), b.far_slope[2].data()},
+       of(beam)[near].data(), of(beam)[far].data(), of(beam_change)[near].data(),
+       of(beam_change)[far].data(), w.depth_tangent.data(),
+       medium_.sun_depth_tangent[near].data(), medium_.sun_depth_tangent[far].data()},
+      out.data(), rays(layer), suns(), medium_.parameters);
+}
+
+void ModePack::solve_tangents() {
+  const std::size_t p_count = medium_.parameters, columns = suns() * p_count;
   Lanes on_ground(columns * kLanes);
   for (std::size_t j = 0; j < suns(); ++j) {
     const double mu = std::max(medium_.sun_mu[j], 0.0);
@@ -408,9 +419,9 @@ void ModePack::solve_tangents() {
       }
     }
   }
-  const Columns tangents = substitute(at_every_ground_ray(on_ground), columns);
-  moment_tangents_ = analyse(tangents);
-  ground_tangent_ = irradiance(tangents.down[0], columns);
+  tangents_ = substitute(at_every_ground_ray(on_ground), columns);
+  moment_tangents_ = analyse(tangents_);
+  ground_tangent_ = irradiance(tangents_.down[0], columns);
 }
 
 void ModePack::advance() {
@@ -446,8 +457,147 @@ void ModePack::advance() {
 
 void ModePack::solve() {
   eliminate();
+  beam_sources();
   solve_values();
-  if (medium_.parameters > 0) solve_tangents();
+  if (medium_.parameters == 0) return;
+  set_tangent_sources();
+  solve_tangents();
+}
+
+// P_m = df_m/dtheta - m cot f_m for the mode m + 1, Q_m = df_m/dtheta + m cot f_m for m - 1.
+void ModePack::set_neighbour(const SunCoupling& coupling, int layer, const Lanes& from_afar,
+                             std::size_t parameters, Lanes& to_next, Lanes& to_previous) const {
+  const std::size_t width = parameters * kLanes;
+  to_next.assign(from_afar.size(), 0.0);
+  to_previous.assign(from_afar.size(), 0.0);
+  for (std::size_t r = 0; r < rays(layer); ++r) {
+    for (std::size_t j = 0; j < suns(); ++j) {
+      if (!coupling.coupled[j]) continue;
+      const SunCoupling::Sun& sun = coupling.suns[j];
+      const double* const here = from_afar.data() + (r * suns() + j) * width;
+      double* const next = to_next.data() + (r * suns() + j) * width;
+      double* const previous = to_previous.data() + (r * suns() + j) * width;
+      for (std::size_t k = 0; k < 5; ++k) {
+        const double* from =
+            from_afar.data() + (r * suns() + static_cast<std::size_t>(sun.slope.index[k])) * width;
+        for (std::size_t e = 0; e < width; ++e) {
+          const double weight =
+              modes_[e % kLanes] % 2 == 0 ? sun.slope.even[k] : sun.slope.odd[k];
+          next[e] += weight * from[e];
+        }
+      }
+      for (std::size_t e = 0; e < width; ++e) {
+        const double m = modes_[e % kLanes];
+        const double turn = m * (sun.at_zenith ? next[e] : sun.cotangent * here[e]);
+        previous[e] = next[e] + turn;
+        next[e] -= turn;
+      }
+    }
+  }
+}
+
+// The light that enters a layer at its far end, as it is at the near end.
+void ModePack::prepare_coupling(const SunCoupling& coupling) {
+  const std::size_t p_count = medium_.parameters;
+  const Columns source = at_rays(scattered(moments_), suns());
+  Columns source_tangent, no_source, no_change, beam_change;
+  if (p_count > 0) {
+    std::vector<Parities> change(levels());
+    for (int i = 0; i < levels(); ++i) {
+      for (std::size_t parity = 0; parity < 2; ++parity) {
+        Lanes& q = change[i][parity];
+        q.resize(moment_tangents_[i][parity].size());
+        lanes::outer(omega_tangent_[i][parity].data(), moments_[i][parity].data(), q.data(),
+                     rows_[parity], suns(), p_count);
+        add_block(omega_[i][parity].data(), moment_tangents_[i][parity], suns() * p_count, 0, q,
+                  suns() * p_count, 0, rows_[parity], suns() * p_count);
+      }
+    }
+    source_tangent = at_rays(change, suns() * p_count);
+    beam_change = changed([&](int) -> const Parities& { return sun_basis_; });
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    const bool looks_up = side == 0;
+    for (auto* v : {&to_next_, &to_previous_}) {
+      for (auto& kind : *v) kind[side].resize(medium_.layers.size());
+    }
+    for (int i = 0; i + 1 < levels(); ++i) {
+      const LayerMedium::Layer& w = medium_.layers[i];
+      const int far = looks_up ? i + 1 : i;
+      const auto of = [&](const Columns& c) -> const Lanes& {
+        return looks_up ? c.down[far] : c.up[far];
+      };
+      const BeamWeights& b = looks_up ? w.down : w.up;
+      const std::size_t count = rays(i) * suns();
+      Lanes x(count * kLanes);
+      const Lanes none(x.size(), 0.0);
+      lanes::blend(b.far.data(), of(unit_beam_).data(), none.data(), none.data(), x.data(), count);
+      lanes::add_blend(w.t.data(), of(values_).data(), w.far.data(), of(source).data(), x.data(),
+                       rays(i), suns());
+      set_neighbour(coupling, i, x, 1, to_next_[0][side][i], to_previous_[0][side][i]);
+      if (p_count == 0) continue;
+      Lanes dx(count * p_count * kLanes);
+      const Lanes nothing(dx.size(), 0.0);
+      lanes::layer_tangent(
+          {w.t.data(), w.near_slope.data(), w.far_slope.data(), of(values_).data(), none.data(),
+           of(source).data(), b.near.data(), b.far.data(),
+           {b.near_slope[0].data(), b.near_slope[1].data(), b.near_slope[2].data()},
+           {b.far_slope[0].data(), b.far_slope[1].data(), b.far_slope[2].data()}, none.data(),
+           of(unit_beam_).data(), nothing.data(), of(beam_change).data(), w.depth_tangent.data(),
+           medium_.sun_depth_tangent[looks_up ? i : i + 1].data(),
+           medium_.sun_depth_tangent[far].data()},
+          dx.data(), rays(i), suns(), p_count);
+      lanes::add_blend(w.t.data(), of(tangents_).data(), w.far.data(), of(source_tangent).data(),
+                       dx.data(), rays(i), suns() * p_count);
+      set_neighbour(coupling, i, dx, p_count, to_next_[1][side][i], to_previous_[1][side][i]);
+    }
+  }
+}
+
+// Adds -psi / 2 (P_{m-1} + Q_{m+1}), in mode 0 -psi Q_1.
+void ModePack::add_coupling(const SunCoupling& coupling, const std::vector<ModePack>& packs,
+                            int at_once, int width, std::size_t columns, std::size_t kind) {
+  const int modes = static_cast<int>(packs.size()) * at_once;
+  for (int lane = 0; lane < static_cast<int>(kLanes); ++lane) {
+    const int m = modes_[lane];
+    const auto add = [&](int neighbour, double factor, bool next) {
+      if (neighbour >= modes) return;
+      const ModePack& pack = packs[neighbour / at_once];
+      const int from = neighbour % at_once * width + lane % width;
+      if (pack.modes_[from] != neighbour) return;  // a lane that repeats the last mode
+      const auto& light = (next ? pack.to_next_ : pack.to_previous_)[kind];
+      for (std::size_t side = 0; side < 2; ++side) {
+        std::vector<Lanes>& source = side == 0 ? down_source_ : up_source_;
+        for (std::size_t i = 0; i < source.size(); ++i) {
+          const std::size_t n = rays(static_cast<int>(i));
+          for (std::size_t r = 0; r < n; ++r) {
+            const double weight =
+                factor * coupling.step[i * static_cast<std::size_t>(fan_.most()) + r];
+            const double* x = light[side][i].data() + r * columns * kLanes + from;
+            double* y = source[i].data() + r * columns * kLanes + lane;
+            for (std::size_t c = 0; c < columns; ++c) y[c * kLanes] += weight * x[c * kLanes];
+          }
+        }
+      }
+    };
+    if (m == 0) {
+      add(1, -1, false);
+    } else {
+      add(m - 1, -0.5, true);
+      add(m + 1, -0.5, false);
+    }
+  }
+}
+
+void ModePack::couple(const SunCoupling& coupling, const std::vector<ModePack>& packs,
+                      int at_once, int width) {
+  beam_sources();
+  add_coupling(coupling, packs, at_once, width, suns(), 0);
+  solve_values();
+  if (medium_.parameters == 0) return;
+  set_tangent_sources();
+  add_coupling(coupling, packs, at_once, width, suns() * medium_.parameters, 1);
+  solve_tangents();
 }
 
 double ModePack::moment(int lane, int level, int l, int sun, int slice) const {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "model/layer_medium.h"
+#include "model/sun_grid.h"
 
 namespace skyfit {
 
@@ -25,6 +26,21 @@ struct ModeBasis {
   std::vector<double> at_suns;  // [sun][l - m]
 };
 
+// How the sun's place changes along a ray, for the coupling of suns and modes: a step by the angle
+// psi of the zenith toward the view turns light f into
+//   f + psi (-cos(phi) df/dtheta + cot(theta) sin(phi) df/dphi)
+// to first order, theta the sun's zenith and phi the azimuth between view and sun.
+struct SunCoupling {
+  struct Sun {
+    double cotangent = 0;  // of theta; 0 at the zenith, where f_m / theta is df_m / dtheta
+    bool at_zenith = false;
+    SunSlope slope;  // indices into the solved suns
+  };
+  std::vector<Sun> suns;         // of the solved suns
+  std::vector<char> coupled;     // [sun]: whether light from neighbouring places is taken as theirs
+  std::vector<double> step;      // [layer][ray]: psi of a layer, radians
+};
+
 class ModePack {
  public:
   // The mode of each lane; its wavelength is that of the medium's lane.
@@ -32,7 +48,14 @@ class ModePack {
   ModePack(const RayFan& fan, const LayerMedium& medium, const std::vector<ModeBasis>& bases,
            const Modes& modes);
 
+  // As if the sky were the same everywhere: the sun turns with the zenith.
   void solve();
+  // One step of an iteration that takes the light of neighbouring places under their own sun: first
+  // every pack of the same medium prepares, then each couples to all of them. `packs` hold `at_once`
+  // modes each, ascending, in lanes of `width` wavelengths.
+  void prepare_coupling(const SunCoupling& coupling);
+  void couple(const SunCoupling& coupling, const std::vector<ModePack>& packs, int at_once,
+              int width);
   // One more order of scattering or reflection, values only: what advance() was called k times for
   // is the field of light that met air or ground k times. Not to be mixed with solve().
   void advance();
@@ -70,8 +93,17 @@ class ModePack {
   Lanes at_every_ground_ray(const Lanes& radiance) const;
   Lanes reflected(Lanes irradiance) const;
   Lanes beam_on_ground() const;
+  void set_tangent_sources();
   void solve_values();
   void solve_tangents();
+  template <class F>
+  Columns changed(const F& moments_at) const;
+  void layer_tangent(int layer, bool looks_up, const Columns& source, const Columns& beam,
+                     const Columns& beam_change, Lanes& out) const;
+  void set_neighbour(const SunCoupling& coupling, int layer, const Lanes& from_afar,
+                     std::size_t parameters, Lanes& to_next, Lanes& to_previous) const;
+  void add_coupling(const SunCoupling& coupling, const std::vector<ModePack>& packs, int at_once,
+                    int width, std::size_t columns, std::size_t kind);
 
   const RayFan& fan_;
   const LayerMedium& medium_;
@@ -83,7 +115,10 @@ class ModePack {
   std::vector<Lanes> reflection_, forward_, backward_;
   std::vector<Lanes> down_source_, up_source_;  // per layer
   Columns unit_beam_;  // source per unit of the sun's beam at the rays
-  Columns values_;
+  Columns values_, tangents_;
+  // What the light that enters each layer from its far end becomes at the near end, derived by the
+  // sun's place as the next and as the previous mode need it: [values, tangents][down, up][layer].
+  std::array<std::array<std::vector<Lanes>, 2>, 2> to_next_, to_previous_;
   std::vector<Parities> moments_, moment_tangents_;  // diffuse, per level
   Lanes ground_, ground_tangent_;                    // diffuse irradiance
 };

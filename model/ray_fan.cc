@@ -10,9 +10,9 @@
 namespace skyfit {
 namespace {
 
-// Shares of the levels at which a limb ray begins; few are enough, for the light of the limb fills
-// a narrow band of directions.
-constexpr double kLimbLevels[] = {0.1, 0.22, 0.38, 0.55, 0.75};
+// Shares of the levels at which a limb ray begins. Three times as many change the multiple
+// scattering seen from 0 .. 20 km and along the limb by less than 1 %.
+constexpr double kLimbLevels[] = {0.2, 0.35, 0.47, 0.6, 0.7, 0.8};
 
 // P_l(mu), l = 0 .. count - 1.
 Eigen::VectorXd legendre(double mu, int count) {
@@ -60,12 +60,18 @@ RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int gro
         mu = std::sqrt((h - low) * (2 * bottom_radius + h + low)) / r;
       }
     }
-    // A limb ray stands for the directions that are nearest to it, between 0 and the horizon.
+    // Between 0 and the horizon radiance is taken as linear from ray to ray.
+    double* const weight = &weight_[static_cast<std::size_t>(i) * most()];
+    double upper = horizon_mu;
     for (int k = ground_rays; k < count_[i]; ++k) {
-      const double above = k == ground_rays ? horizon_mu : 0.5 * (mu(i, k - 1) + mu(i, k));
-      const double below = k + 1 == count_[i] ? 0 : 0.5 * (mu(i, k) + mu(i, k + 1));
-      weight_[static_cast<std::size_t>(i) * most() + k] = above - below;
+      const int above = k == ground_rays ? 0 : k - 1;
+      const double length = upper - mu(i, k);
+      const double share = 0.5 * length / (mu(i, above) - mu(i, k));
+      weight[above] += length * share;
+      weight[k] += length * (1 - share);
+      upper = mu(i, k);
     }
+    weight[count_[i] - 1] += count_[i] > ground_rays ? upper : 0;
     if (i > 0) correct_weights(i);
   }
 }

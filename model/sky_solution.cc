@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/sky_solution.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "model/parameter_field.h"
 
 namespace skyfit {
+namespace {
+
+// The first sun of the grid that has light from neighbouring places under their own sun. On a planet
+// whose atmosphere is thin against its radius, as the Earth's, that matters for low suns only (below
+// 0.15 % of the radiance to 80 deg, 0.7 % to 85 deg).
+int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
+  constexpr double kThin = 0.02;  // top height over radius
+  if (shells.top > kThin * shells.bottom_radius) return 0;
+  constexpr double kLow = 86 * std::numbers::pi / 180;
+  int i = 0;
+  while (grid.zenith(i) < kLow) ++i;
+  return i;
+}
+
+}  // namespace
 
 template <int N>
 SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
@@ -20,6 +36,11 @@ SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
   for (const double mu_s : mu_s_needed) {
     for (const int i : grid_.stencil(mu_s).index) solved_[i] = 0;
   }
+  // Suns that are coupled need their neighbours, down to the dark.
+  const int first = first_coupled_sun(grid_, shells_);
+  if (std::ranges::any_of(solved_.begin() + first, solved_.end(), [](int i) { return i >= 0; })) {
+    std::fill(solved_.begin() + std::max(first - 2, 0), solved_.end(), 0);
+  }
   std::vector<double> suns;
   for (int i = 0; i < grid_.size(); ++i) {
     if (solved_[i] < 0) continue;
@@ -32,7 +53,7 @@ SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
   }
   const RayFan fan(shells_.bottom_radius, heights_, options.streams);
   fields_ = solve_diffuse_fields<N>(shells_, optics_, 1 + static_cast<int>(derivatives.size()),
-                                    heights_, suns, fan,
+                                    heights_, suns, fan, sun_coupling(grid_, solved_, fan, first),
                                     {options.moments, options.tolerance, options.order});
 }
 

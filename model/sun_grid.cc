@@ -32,6 +32,32 @@ SunGrid::SunGrid() {
 
 double SunGrid::mu(int i) const { return std::cos(zenith_[i]); }
 
+SunSlope SunGrid::slope(int i) const {
+  const int first = std::min(i - 2, size() - 5);
+  std::array<double, 5> node;
+  SunSlope s;
+  for (int k = 0; k < 5; ++k) {
+    s.index[k] = std::abs(first + k);
+    node[k] = first + k < 0 ? -zenith_[-first - k] : zenith_[first + k];
+  }
+  const double x = zenith_[i];
+  for (int k = 0; k < 5; ++k) {
+    double denominator = 1, sum = 0;
+    for (int a = 0; a < 5; ++a) {
+      if (a == k) continue;
+      denominator *= node[k] - node[a];
+      double product = 1;
+      for (int b = 0; b < 5; ++b) {
+        if (b != k && b != a) product *= x - node[b];
+      }
+      sum += product;
+    }
+    s.even[k] = sum / denominator;
+    s.odd[k] = first + k < 0 ? -s.even[k] : s.even[k];
+  }
+  return s;
+}
+
 SunStencil SunGrid::stencil(double mu_s) const {
   const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
   const int above =

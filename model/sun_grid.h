@@ -14,11 +14,20 @@ struct SunStencil {
   std::array<double, 4> even{}, odd{};  // weights for modes of even and of odd order
 };
 
+// A derivative by the zenith angle at one node of the grid, as a sum over nodes.
+struct SunSlope {
+  std::array<int, 5> index{};
+  std::array<double, 5> even{}, odd{};  // 1/rad, for modes of even and of odd order
+};
+
 class SunGrid {
  public:
   SunGrid();
   int size() const { return static_cast<int>(zenith_.size()); }
   double mu(int i) const;
+  double zenith(int i) const { return zenith_[i]; }  // radians
+  // Of the quartic through the node and its neighbours.
+  SunSlope slope(int i) const;
   // Lagrange's cubic in the zenith angle through the four nearest nodes; the last node's value
   // below the grid.
   SunStencil stencil(double mu_s) const;
