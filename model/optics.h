@@ -93,7 +93,7 @@ Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, in
   };
   Optics<N> o;
   o.profiles = profiles_of(a);
-  o.air = at(a.rayleigh.scattering_per_m);
+  o.air = at(a.rayleigh.scattering_per_m) * (a.rayleigh.site_pressure_hpa / kStandardPressureHpa);
   o.air_scale_height = a.rayleigh.scale_height_m;
   o.depolarisation = a.rayleigh.depolarisation;
   o.air_moments = rayleigh_moments(o.depolarisation);

@@ -37,9 +37,9 @@ std::vector<double> Profile::quadrature_heights() const {
   return heights;
 }
 
-std::shared_ptr<const LinearProfile> ozone_tent() {
-  static const auto kTent = std::make_shared<const LinearProfile>(
-      std::vector<double>{0, 10e3, 25e3, 40e3}, std::vector<double>{0, 0, 1, 0});
+TabulatedProfile ozone_tent() {
+  static const auto kTent =
+      std::make_shared<const LinearProfile>(TwoColumns{{0, 10e3, 25e3, 40e3}, {0, 0, 1, 0}});
   return kTent;
 }
 

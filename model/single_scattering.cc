@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "model/parameters.h"
 
@@ -10,7 +11,8 @@ namespace skyfit {
 namespace {
 
 // Heights between which every profile and its extinction are smooth enough for the rule: dense
-// where an aerosol of the least scale height lives, with the corners of the ozone tent.
+// where an aerosol of the least scale height lives, with the corners of the ozone tent. Profiles
+// from tables bring their own besides.
 const std::vector<double> kShells = {60,    150,   300,   500,   800,   1200,  1700,  2400,
                                      3300,  4500,  6000,  8000,  10000, 13000, 17000, 21000,
                                      25000, 32000, 40000, 52000, 68000, 84000};
@@ -21,7 +23,13 @@ constexpr int kOrder = 3;  // nodes between shells
 std::vector<SingleScatteringSample> single_scattering_samples(const Shells& shells,
                                                               const ViewRay& ray,
                                                               const SunAlongRay& sun) {
-  std::vector<double> breaks = shell_crossings(ray, shells.bottom_radius, kShells);
+  std::vector<double> heights = kShells;
+  for (const Profile* profile : {&shells.profiles.air, &shells.profiles.aerosol}) {
+    if (!profile->is_exponential())
+      std::ranges::copy(profile->quadrature_heights(), std::back_inserter(heights));
+  }
+  std::sort(heights.begin(), heights.end());
+  std::vector<double> breaks = shell_crossings(ray, shells.bottom_radius, heights);
   for (const double s : sun.shadow_edges()) breaks.push_back(s);
   std::sort(breaks.begin(), breaks.end());
   std::vector<SingleScatteringSample> samples;

@@ -33,13 +33,13 @@ TEST_F(SharedFormulas, PhaseFunctions) {
   const auto outputs =
       run_glsl("#include \"model/shared/phase.glsl\"\n",
                "y = vec4(rayleigh_phase(x.w, x.y), cornette_shanks_phase(x.x, x.y), "
-               "henyey_greenstein_phase(x.x, x.y), two_lobe_phase(x.x, x.z, x.w, x.y));",
+               "henyey_greenstein_phase(x.x, x.y), two_lobe_phase(1, x.x, x.z, x.w, x.y));",
                inputs);
   for (std::size_t i = 0; i < inputs.size(); i += 4) {
     const double g = inputs[i], nu = inputs[i + 1], g2 = inputs[i + 2], weight = inputs[i + 3];
     const double expected[4] = {
         shared_.rayleigh_phase(weight, nu), shared_.cornette_shanks_phase(g, nu),
-        shared_.henyey_greenstein_phase(g, nu), shared_.two_lobe_phase(g, g2, weight, nu)};
+        shared_.henyey_greenstein_phase(g, nu), shared_.two_lobe_phase(1, g, g2, weight, nu)};
     // Near nu = 1 the phase functions amplify the rounding of 1 + g^2 - 2 g nu.
     const double tolerance = kFloat * 4 / std::pow(1 - std::abs(g), 2);
     for (std::size_t k = 0; k < 4; ++k) {
