@@ -41,7 +41,7 @@ struct Rayleigh {
   double depolarisation = 0;  // of natural light scattered at a right angle; 0.0279 for dry air
   // At h = 0; the coefficient is that of the standard pressure and goes as the pressure.
   double site_pressure_hpa = kStandardPressureHpa;
-  TabulatedProfile profile;
+  TabulatedProfile profile = nullptr;
 };
 
 // The aerosol's phase function; all forms integrate to 1 over the sphere, g > 0 scatters forward.
@@ -49,10 +49,10 @@ struct Rayleigh {
 template <class T>
 struct AerosolPhase {
   PhaseType type = PhaseType::kCornetteShanks;
-  T g{0.76};                                    // one lobe only
-  T g1{0.8}, g2{0.3}, weight{0.5};              // two lobes only; weight is that of g1
-  PhaseType lobe = PhaseType::kCornetteShanks;  // or kHenyeyGreenstein
-  std::shared_ptr<const TabulatedPhase> table;  // kTabulated only
+  T g{0.76};                                              // one lobe only
+  T g1{0.8}, g2{0.3}, weight{0.5};                        // two lobes only; weight is that of g1
+  PhaseType lobe = PhaseType::kCornetteShanks;            // or kHenyeyGreenstein
+  std::shared_ptr<const TabulatedPhase> table = nullptr;  // kTabulated only
 };
 
 template <class T>
@@ -61,14 +61,14 @@ struct Mie {
   T single_scattering_albedo{0.9};  // scattering / extinction
   T scale_height_m{1200.0};
   AerosolPhase<T> phase;
-  TabulatedProfile profile;
+  TabulatedProfile profile = nullptr;
 };
 
 template <class T>
 struct Ozone {
   T column_du{300.0};  // vertical column, Dobson units; 1 DU = 2.687e20 molecules / m^2
   OzoneProfile profile = OzoneProfile::kTent;
-  TabulatedProfile table;  // kTabulated only; its column is column_du
+  TabulatedProfile table = nullptr;  // kTabulated only; its column is column_du
 };
 
 template <class T>
