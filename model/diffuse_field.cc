@@ -101,7 +101,8 @@ class ModeSolver {
   void set_albedos() {
     albedo_.resize(static_cast<std::size_t>(shape_.levels) * rows_);
     for (int i = 0; i < shape_.levels; ++i) {
-      const Densities<N> rho = optics_.densities(heights_[i]);
+      const Densities<N> rho = optics_.densities_at_level(
+          heights_[std::max(i - 1, 0)], heights_[i], heights_[std::min(i + 1, shape_.levels - 1)]);
       const Dual<N> air = optics_.air * rho.air;
       const Dual<N> extinction =
           air + optics_.aerosol_extinction * rho.aerosol + optics_.ozone * rho.ozone;

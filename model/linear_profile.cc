@@ -40,6 +40,25 @@ double LinearProfile::density(double height) const {
   return i == 0 ? densities().front() : density_in(i - 1, height);
 }
 
+double LinearProfile::mean_density(double low, double height, double high) const {
+  static constexpr double kNode[2] = {0.2113248654051871, 0.7886751345948129};  // Gauss, on 0 .. 1
+  double sum = 0;
+  const auto add = [&](std::size_t piece, double zero, double one) {  // where the weight is so
+    const double from = std::max(heights()[piece], std::min(zero, one));
+    const double to = std::min(heights()[piece + 1], std::max(zero, one));
+    if (!(from < to)) return;
+    for (const double node : kNode) {  // exact for the product of two linear functions
+      const double h = from + node * (to - from);
+      sum += 0.5 * (to - from) * density_in(piece, h) * (h - zero) / (one - zero);
+    }
+  };
+  for (std::size_t i = 0; i + 1 < heights().size(); ++i) {
+    add(i, low, height);
+    add(i, high, height);
+  }
+  return sum / (0.5 * (high - low));
+}
+
 double LinearProfile::height_below(double share) const {
   const double below = (1 - share) * vertical_column();
   const auto last = column_below_.end() - 1;

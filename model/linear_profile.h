@@ -26,6 +26,9 @@ class LinearProfile {
     const double share = (height - table_.x[piece]) / length;
     return (1 - share) * table_.y[piece] + share * table_.y[piece + 1];
   }
+  // Mean under the weight that rises linearly from `low` to `height` and falls to `high`; either
+  // side may be empty. It misses no layer, however thin.
+  double mean_density(double low, double height, double high) const;
   double vertical_column() const { return column_below_.back(); }  // metres of density 1
 
   // The height above which `share` (0 .. 1) of the vertical column lies.

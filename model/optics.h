@@ -62,13 +62,12 @@ struct Optics {
   std::vector<Dual<N>> moments;  // of the cut phase function
 
   Densities<N> densities(double height) const {
-    auto at = [&](const Profile& profile, const Dual<N>& scale_height) {
-      const Density rho = profile.density(height);
-      return scale_height.chain(rho.value, rho.by_scale_height);
-    };
-    const Dual<N> air_density = at(profiles.air, air_scale_height);
-    return {air_density, at(profiles.aerosol, aerosol_scale_height),
-            profiles.ozone == profiles.air ? air_density : at(profiles.ozone, air_scale_height)};
+    return densities_by([height](const Profile& profile) { return profile.density(height); });
+  }
+  // At a level of a grid, see Profile::density_at_level().
+  Densities<N> densities_at_level(double low, double height, double high) const {
+    return densities_by(
+        [=](const Profile& profile) { return profile.density_at_level(low, height, high); });
   }
 
   Dual<N> optical_depth(const PathColumns& c) const {
@@ -82,6 +81,18 @@ struct Optics {
                  by_aerosol_height * aerosol_scale_height.d[p];
     }
     return tau;
+  }
+
+ private:
+  template <class DensityOf>
+  Densities<N> densities_by(DensityOf density_of) const {
+    auto at = [&](const Profile& profile, const Dual<N>& scale_height) {
+      const Density rho = density_of(profile);
+      return scale_height.chain(rho.value, rho.by_scale_height);
+    };
+    const Dual<N> air_density = at(profiles.air, air_scale_height);
+    return {air_density, at(profiles.aerosol, aerosol_scale_height),
+            profiles.ozone == profiles.air ? air_density : at(profiles.ozone, air_scale_height)};
   }
 };
 

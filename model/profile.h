@@ -28,6 +28,9 @@ class Profile {
 
   bool is_exponential() const { return table_ == nullptr; }
   Density density(double height) const;
+  // The same at a level of a grid between its neighbours `low` and `high`: the value of a table is
+  // its mean about the level, so that no layer falls between two levels.
+  Density density_at_level(double low, double height, double high) const;
   // From a point upward to height `top`; mu as for exponential_column().
   Column column_to_top(double bottom_radius, double height, double mu, double top) const;
   Column vertical_column() const;  // from the ground to infinity

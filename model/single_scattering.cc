@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "model/parameters.h"
 
@@ -23,17 +22,10 @@ constexpr int kOrder = 3;  // nodes between shells
 std::vector<SingleScatteringSample> single_scattering_samples(const Shells& shells,
                                                               const ViewRay& ray,
                                                               const SunAlongRay& sun) {
-  std::vector<double> heights = kShells;
-  for (const Profile* profile : {&shells.profiles.air, &shells.profiles.aerosol}) {
-    if (!profile->is_exponential())
-      std::ranges::copy(profile->quadrature_heights(), std::back_inserter(heights));
-  }
-  std::sort(heights.begin(), heights.end());
-  std::vector<double> breaks = shell_crossings(ray, shells.bottom_radius, heights);
+  std::vector<double> breaks = shell_crossings(ray, shells.bottom_radius, kShells);
   for (const double s : sun.shadow_edges()) breaks.push_back(s);
-  std::sort(breaks.begin(), breaks.end());
   std::vector<SingleScatteringSample> samples;
-  for (const QuadratureNode& q : composite_gauss(breaks, kOrder)) {
+  for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, ray, breaks), kOrder)) {
     const RayPoint p = ray_point(ray, shells.bottom_radius, q.s);
     const double mu_s = sun.mu_s(p);
     if (!sun.lit(p, mu_s)) continue;
