@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "data_refs/references.h"
+#include "data_refs/table_csv.h"
 #include "model/preset.h"
 
 namespace skyfit::cli {
@@ -29,7 +30,7 @@ bool looks_like_json(const std::filesystem::path& file) {
 }
 
 nlohmann::json summary_of_preset(const std::string& file) {
-  const Preset preset = load_preset(file);
+  const Preset preset = load_preset(file, refs::load_table_csv);
   return {
       {"file", file}, {"kind", "preset"}, {"name", preset.name}, {"fitted", !preset.fit.is_null()}};
 }

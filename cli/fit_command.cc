@@ -26,7 +26,7 @@ constexpr const char* kFigureFiles[] = {"comparison.svg", "comparison.png"};
 
 struct FitCommandOptions {
   std::string reference, sampling = "principal", sun_zenith = "0:80:10", model = "reference";
-  std::string free, preset, out, exclude_sun = "3";
+  std::string free, preset, site_pressure, out, exclude_sun = "3";
   std::vector<std::string> fix, prior;
   int lobes = 2, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads();
@@ -41,6 +41,7 @@ fit::FitOptions fit_options(const FitCommandOptions& options) {
   result.exclude_sun = radians(parse_number("--exclude-sun-deg", options.exclude_sun));
   result.threads = options.threads;
   if (!options.preset.empty()) result.start = preset_named(options.preset);
+  result.site_pressure_hpa = parse_site_pressure(options.site_pressure);
   if (!options.free.empty()) result.free = parse_parameters("--free", options.free);
   result.fix = parse_fixed("--fix", options.fix);
   result.priors = parse_priors("--prior", options.prior);
@@ -111,6 +112,7 @@ void add_problem_options(CLI::App& command, FitCommandOptions& options) {
       ->allow_extra_args(false);
   command.add_flag("--no-priors", options.no_priors, "Drop the default priors");
   command.add_option("--preset", options.preset, "Start from this preset")->type_name("FILE|NAME");
+  add_site_pressure_option(command, options.site_pressure);
   command
       .add_option("--exclude-sun-deg", options.exclude_sun, "Leave out samples closer to the sun")
       ->type_name("ANGLE")

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/arguments.h"
+#include "data_refs/table_csv.h"
 
 namespace skyfit::cli {
 
@@ -22,7 +23,23 @@ Preset preset_named(const std::string& name_or_file) {
         fmt::format("preset \"{}\": no such file, and none of the shipped presets {}", name_or_file,
                     fmt::join(shipped, ", ")));
   }
-  return load_preset(name_or_file);
+  return load_preset(name_or_file, refs::load_table_csv);
+}
+
+void add_site_pressure_option(CLI::App& command, std::string& site_pressure) {
+  command
+      .add_option("--site-pressure-hpa", site_pressure,
+                  "Air pressure at the ground, to which Rayleigh scattering is proportional; "
+                  "by default the preset's, 1013.25 when it names none")
+      ->type_name("HPA");
+}
+
+std::optional<double> parse_site_pressure(const std::string& text) {
+  constexpr std::string_view kOption = "--site-pressure-hpa";
+  if (text.empty()) return {};
+  const double pressure = parse_number(kOption, text);
+  if (pressure <= 0) throw UsageError(kOption, text, "expected a pressure > 0 hPa");
+  return pressure;
 }
 
 void add_sampling_options(CLI::App& command, std::string& sampling, std::string& sun_zenith) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ namespace skyfit::cli {
 // name (write ./name for the file). Throws std::invalid_argument or std::runtime_error with one
 // line, which lists the names for neither.
 Preset preset_named(const std::string& name_or_file);
+
+// The pressure that takes the place of the preset's; nothing when the option is not given. Throws
+// UsageError.
+void add_site_pressure_option(CLI::App& command, std::string& site_pressure);
+std::optional<double> parse_site_pressure(const std::string& text);
 
 // The options of the commands that read an analytic reference; their values are parsed by the two
 // functions below.

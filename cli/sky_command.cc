@@ -21,7 +21,7 @@ constexpr std::size_t kMaxRows = 20'000'000;  // some 3 GB of CSV
 constexpr double kMaxAltitude = 1e12;  // metres, beyond any atmosphere
 
 struct SkyOptions {
-  std::string preset, model = "reference";
+  std::string preset, site_pressure, model = "reference";
   std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength;
   bool luminance = false, irradiance = false;
   int threads = default_threads();
@@ -171,7 +171,9 @@ void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
 void run_sky(const SkyOptions& options) {
   const SkyGrid grid = parse_grid(options);
   const Wavelengths wavelengths = parse_wavelengths(options);
-  const Preset preset = preset_named(options.preset);
+  Preset preset = preset_named(options.preset);
+  if (const auto pressure = parse_site_pressure(options.site_pressure))
+    preset.atmosphere.rayleigh.site_pressure_hpa = *pressure;
   const auto model = make_sky_model(options.model, options.threads);
   if (options.irradiance) {
     print_irradiance(*model, preset.atmosphere, grid, wavelengths);
@@ -184,6 +186,7 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
   command.add_option("--preset", options.preset, "Shipped preset or preset file")
       ->required()
       ->type_name("FILE|NAME");
+  add_site_pressure_option(command, options.site_pressure);
   command.add_option("--model", options.model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();

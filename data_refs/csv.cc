@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -115,6 +119,18 @@ void CsvTable::fail_value(const CsvRecord& record, std::string_view column,
   std::string value = text(record, column);
   if (value.size() > kLongest) value = value.substr(0, kLongest) + "...";
   fail(source_, record.line, fmt::format("{} = \"{}\": expected {}", column, value, expectation));
+}
+
+std::string read_csv_file(const std::filesystem::path& file, std::string_view expectation) {
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  if (!stream && errno != 0) {
+    throw std::runtime_error(fmt::format("{}: cannot be read ({}), expected {}", file.string(),
+                                         std::strerror(errno), expectation));
+  }
+  return std::move(text).str();
 }
 
 }  // namespace skyfit::refs

@@ -5,6 +5,7 @@
 // is one std::invalid_argument of one line, `source:line: column = value: expected ...`.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -44,5 +45,9 @@ class CsvTable {
   std::vector<CsvRecord> records_;
   std::map<std::string, std::size_t, std::less<>> index_;
 };
+
+// The text of a file. Throws std::runtime_error, which names what was expected, when it cannot be
+// read.
+std::string read_csv_file(const std::filesystem::path& file, std::string_view expectation);
 
 }  // namespace skyfit::refs

@@ -6,13 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -142,15 +138,7 @@ Reference parse_sample_csv(std::string_view text, std::string_view source) {
 }
 
 Reference load_sample_csv(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (!stream && errno != 0) {
-    throw std::runtime_error(fmt::format("{}: cannot be read ({}), expected a CSV of samples",
-                                         file.string(), std::strerror(errno)));
-  }
-  return parse_sample_csv(text.view(), file.string());
+  return parse_sample_csv(read_csv_file(file, "a CSV of samples"), file.string());
 }
 
 }  // namespace skyfit::refs

@@ -1,34 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/derived.h"
 
+#include "model/phase_moments.h"
+#include "model/profile.h"
+
 namespace skyfit::fit {
-namespace {
-
-double cornette_shanks_mean_cosine(double g) { return g * 3 * (4 + g * g) / (5 * (2 + g * g)); }
-
-}  // namespace
 
 double aerosol_optical_depth(const Atmosphere<double>& atmosphere) {
   const Mie<double>& mie = atmosphere.mie;
-  return mie.scattering_per_m.value / mie.single_scattering_albedo * mie.scale_height_m;
+  return mie.scattering_per_m.value / mie.single_scattering_albedo *
+         profiles_of(atmosphere).aerosol.vertical_column().value;
 }
 
 double rayleigh_optical_depth(const Atmosphere<double>& atmosphere) {
-  return atmosphere.rayleigh.scattering_per_m.value * atmosphere.rayleigh.scale_height_m;
+  const Rayleigh<double>& air = atmosphere.rayleigh;
+  return air.scattering_per_m.value * air.site_pressure_hpa / kStandardPressureHpa *
+         profiles_of(atmosphere).air.vertical_column().value;
 }
 
 double aerosol_mean_cosine(const Atmosphere<double>& atmosphere) {
-  const AerosolPhase<double>& phase = atmosphere.mie.phase;
-  switch (phase.type) {
-    case PhaseType::kHenyeyGreenstein:
-      return phase.g;
-    case PhaseType::kCornetteShanks:
-      return cornette_shanks_mean_cosine(phase.g);
-    case PhaseType::kTwoLobe:
-      break;
-  }
-  return phase.weight * cornette_shanks_mean_cosine(phase.g1) +
-         (1 - phase.weight) * cornette_shanks_mean_cosine(phase.g2);
+  return aerosol_phase_moments(atmosphere.mie.phase, 2)[1];
 }
 
 }  // namespace skyfit::fit

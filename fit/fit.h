@@ -29,12 +29,13 @@
 namespace skyfit::fit {
 
 struct FitOptions {
-  int lobes = 2;                             // 1 or 2
+  int lobes = 2;                             // 1 or 2; a tabulated phase function stays
   int starts = 4;                            // >= 1; multi-start of the phase parameters
   int max_iterations = 100;                  // per start, >= 1
   double exclude_sun = 0.05235987755982988;  // radians (3 deg) around the sun that are left out
   int threads = 2;              // >= 1: starts solved at once; results do not depend on it
   std::optional<Preset> start;  // otherwise the table's defaults
+  std::optional<double> site_pressure_hpa;     // > 0; otherwise the start's
   std::optional<std::vector<Parameter>> free;  // --free: exactly these
   std::map<Parameter, double> fix;             // --fix
   std::map<Parameter, Prior> priors;           // --prior: in the place of the table's, or besides

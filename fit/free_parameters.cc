@@ -22,8 +22,9 @@ void move_to_bounds_wavelength(PowerLaw<double>& law) {
   law.wavelength_nm = kBoundsWavelengthNm;
 }
 
-std::string_view lobes_of(const Atmosphere<double>& atmosphere) {
-  return atmosphere.mie.phase.type == PhaseType::kTwoLobe ? "two lobes" : "one lobe";
+std::string_view kind_of(const Atmosphere<double>& atmosphere, Parameter id) {
+  const bool is_height = id == Parameter::kRayleighScaleHeight || id == Parameter::kMieScaleHeight;
+  return is_height ? "a tabulated profile" : phase_kind(atmosphere.mie.phase.type);
 }
 
 void require_parameter(const Atmosphere<double>& atmosphere, Parameter id,
@@ -31,7 +32,7 @@ void require_parameter(const Atmosphere<double>& atmosphere, Parameter id,
   if (!has_parameter(atmosphere, id)) {
     throw std::invalid_argument(
         fmt::format("fit.{}: {}: the atmosphere with {} has no such parameter", option,
-                    parameter_info(id).name, lobes_of(atmosphere)));
+                    parameter_info(id).name, kind_of(atmosphere, id)));
   }
 }
 
@@ -97,8 +98,9 @@ Atmosphere<double> with_lobes(const Atmosphere<double>& atmosphere, int lobes) {
   const bool two = phase.type == PhaseType::kTwoLobe;
   if (lobes == 1 && two) {
     phase.g = phase.weight * phase.g1 + (1 - phase.weight) * phase.g2;
-    phase.type = PhaseType::kCornetteShanks;
-  } else if (lobes == 2 && !two) {
+    phase.type = phase.lobe;
+  } else if (lobes == 2 && has_parameter(atmosphere, Parameter::kMiePhaseG)) {
+    phase.lobe = phase.type;
     phase.g1 = phase.g;
     phase.g2 = std::min(0.2, phase.g - 0.2);
     phase.weight = 0.9;
@@ -113,14 +115,15 @@ Atmosphere<double> start_atmosphere(const FitOptions& options) {
     atmosphere = options.start->atmosphere;
     move_to_bounds_wavelength(atmosphere.rayleigh.scattering_per_m);
     move_to_bounds_wavelength(atmosphere.mie.scattering_per_m);
-    return atmosphere;
-  }
-  if (options.lobes == 2) atmosphere.mie.phase.type = PhaseType::kTwoLobe;
-  for (const ParameterInfo& info : parameter_table()) {
-    if (has_parameter(atmosphere, info.id)) {
-      set_parameter(atmosphere, info.id, info.default_value);
+  } else {
+    if (options.lobes == 2) atmosphere.mie.phase.type = PhaseType::kTwoLobe;
+    for (const ParameterInfo& info : parameter_table()) {
+      if (has_parameter(atmosphere, info.id)) {
+        set_parameter(atmosphere, info.id, info.default_value);
+      }
     }
   }
+  if (options.site_pressure_hpa) atmosphere.rayleigh.site_pressure_hpa = *options.site_pressure_hpa;
   return atmosphere;
 }
 

@@ -34,7 +34,7 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
                                      const FitOptions& options);
 
 // The same with the phase function of `lobes`: of two lobes made one with their weighted mean g, of
-// one lobe made two with it as the stronger one.
+// one lobe made two with it as the stronger one. A tabulated phase function stays.
 Atmosphere<double> with_lobes(const Atmosphere<double>& atmosphere, int lobes);
 
 // Throws std::invalid_argument when nothing is free, when options name a parameter that the

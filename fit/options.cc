@@ -39,6 +39,10 @@ void validate(const FitOptions& options) {
   for (const auto& [id, value] : options.fix) {
     require(std::isfinite(value), fmt::format("fix.{}", parameter_info(id).name), value, "finite");
   }
+  if (options.site_pressure_hpa) {
+    const double pressure = *options.site_pressure_hpa;
+    require(std::isfinite(pressure) && pressure > 0, "site_pressure_hpa", pressure, "> 0 hPa");
+  }
   if (options.start) skyfit::validate(options.start->atmosphere);
 }
 

@@ -65,8 +65,7 @@ nlohmann::json matrix_json(const Eigen::MatrixXd& matrix) {
 Preset fitted_preset(const Atmosphere<double>& atmosphere, const refs::Reference& reference,
                      const SkyModel& model, const FitOptions& options, const FitResult& result) {
   Preset preset;
-  preset.name =
-      fmt::format("{}, {}", reference.name, options.lobes == 2 ? "two lobes" : "one lobe");
+  preset.name = fmt::format("{}, {}", reference.name, phase_kind(atmosphere.mie.phase.type));
   preset.atmosphere = atmosphere;
   preset.fit = {
       {"reference",

@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atmosphere that skyfit fits: a spherical planet under exponential layers of air and aerosol
-// and a layer of ozone. Lengths in metres, coefficients in 1/m, wavelengths in nm. Height h is
-// measured from the bottom radius; densities are relative to h = 0: rho(h) = exp(-h / H). Source:
-// Bruneton & Neyret 2008, section 2, with the aerosol's wavelength dependence of Angstrom and an
-// ozone layer.
+// The atmosphere that skyfit fits: a spherical planet under layers of air and aerosol, exponential
+// or from a table, and a layer of ozone. Lengths in metres, coefficients in 1/m, wavelengths in nm.
+// Height h is measured from the bottom radius; densities are relative to h = 0: rho(h) = exp(-h /
+// H) when exponential. Source: Bruneton & Neyret 2008, section 2, with the aerosol's wavelength
+// dependence of Angstrom and an ozone layer.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <string_view>
+
+#include "model/linear_profile.h"
+#include "model/tabulated_phase.h"
 
 namespace skyfit {
 
-enum class PhaseType { kCornetteShanks, kHenyeyGreenstein, kTwoLobe };
+enum class PhaseType { kCornetteShanks, kHenyeyGreenstein, kTwoLobe, kTabulated };
 enum class OzoneProfile {
-  kTent,        // 0 at 10 km, 1 at 25 km, 0 at 40 km
-  kExponential  // with the scale height of the air
+  kTent,         // 0 at 10 km, 1 at 25 km, 0 at 40 km
+  kExponential,  // with the scale height of the air
+  kTabulated
 };
+inline constexpr double kStandardPressureHpa = 1013.25;
+
+// A species' profile from a table; null: exponential, with the species' scale height.
+using TabulatedProfile = std::shared_ptr<const LinearProfile>;
 
 // Scattering coefficient at h = 0: value * (lambda / wavelength)^-exponent.
 template <class T>
@@ -29,15 +39,20 @@ struct Rayleigh {
   PowerLaw<T> scattering_per_m{550, T(1.216e-5), T(4.08)};
   T scale_height_m{8000.0};
   double depolarisation = 0;  // of natural light scattered at a right angle; 0.0279 for dry air
+  // At h = 0; the coefficient is that of the standard pressure and goes as the pressure.
+  double site_pressure_hpa = kStandardPressureHpa;
+  TabulatedProfile profile = nullptr;
 };
 
 // The aerosol's phase function; all forms integrate to 1 over the sphere, g > 0 scatters forward.
-// kTwoLobe: weight CS(g1) + (1 - weight) CS(g2) with CS Cornette & Shanks 1992.
+// kTwoLobe: weight P(g1) + (1 - weight) P(g2) with P of the type `lobe`.
 template <class T>
 struct AerosolPhase {
   PhaseType type = PhaseType::kCornetteShanks;
-  T g{0.76};                        // one lobe only
-  T g1{0.8}, g2{0.3}, weight{0.5};  // two lobes only; weight is that of g1
+  T g{0.76};                                              // one lobe only
+  T g1{0.8}, g2{0.3}, weight{0.5};                        // two lobes only; weight is that of g1
+  PhaseType lobe = PhaseType::kCornetteShanks;            // or kHenyeyGreenstein
+  std::shared_ptr<const TabulatedPhase> table = nullptr;  // kTabulated only
 };
 
 template <class T>
@@ -46,12 +61,14 @@ struct Mie {
   T single_scattering_albedo{0.9};  // scattering / extinction
   T scale_height_m{1200.0};
   AerosolPhase<T> phase;
+  TabulatedProfile profile = nullptr;
 };
 
 template <class T>
 struct Ozone {
   T column_du{300.0};  // vertical column, Dobson units; 1 DU = 2.687e20 molecules / m^2
   OzoneProfile profile = OzoneProfile::kTent;
+  TabulatedProfile table = nullptr;  // kTabulated only; its column is column_du
 };
 
 template <class T>
@@ -63,6 +80,9 @@ struct Atmosphere {
   Ozone<T> ozone;
   T ground_albedo{0.1};  // Lambertian
 };
+
+// "one lobe", "two lobes" or "a tabulated phase function".
+std::string_view phase_kind(PhaseType type);
 
 // Throws std::invalid_argument with one line that names the preset path, the value and what was
 // expected, when a parameter is not finite or not physical (negative coefficient, albedo outside

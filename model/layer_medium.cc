@@ -134,7 +134,9 @@ class LaneFiller {
       : optics_(optics), columns_(columns), fan_(fan), lane_(lane), medium_(medium) {}
 
   void fill(const std::vector<double>& heights) {
-    for (std::size_t i = 0; i < heights.size(); ++i) set_level(i, heights[i]);
+    for (std::size_t i = 0; i < heights.size(); ++i)
+      set_level(i, optics_.densities_at_level(heights[i > 0 ? i - 1 : 0], heights[i],
+                                              heights[std::min(i + 1, heights.size() - 1)]));
     for (int i = 0; i + 1 < fan_.levels(); ++i) set_layer(i);
     medium_.ground_albedo[lane_] = optics_.ground_albedo.v;
     put(medium_.ground_albedo_tangent, 0, optics_.ground_albedo);
@@ -150,8 +152,7 @@ class LaneFiller {
       tangent[(index * medium_.parameters + p) * kLanes + lane_] = derivative(x, p);
   }
 
-  void set_level(std::size_t level, double height) {
-    const Densities<N> rho = optics_.densities(height);
+  void set_level(std::size_t level, const Densities<N>& rho) {
     const Dual<N> air = optics_.air * rho.air;
     const Dual<N> extinction =
         air + optics_.aerosol_extinction * rho.aerosol + optics_.ozone * rho.ozone;

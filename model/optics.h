@@ -62,13 +62,12 @@ struct Optics {
   std::vector<Dual<N>> moments;  // of the cut phase function
 
   Densities<N> densities(double height) const {
-    auto at = [&](const Profile& profile, const Dual<N>& scale_height) {
-      const Density rho = profile.density(height);
-      return scale_height.chain(rho.value, rho.by_scale_height);
-    };
-    const Dual<N> air_density = at(profiles.air, air_scale_height);
-    return {air_density, at(profiles.aerosol, aerosol_scale_height),
-            profiles.ozone == profiles.air ? air_density : at(profiles.ozone, air_scale_height)};
+    return densities_by([height](const Profile& profile) { return profile.density(height); });
+  }
+  // At a level of a grid, see Profile::density_at_level().
+  Densities<N> densities_at_level(double low, double height, double high) const {
+    return densities_by(
+        [=](const Profile& profile) { return profile.density_at_level(low, height, high); });
   }
 
   Dual<N> optical_depth(const PathColumns& c) const {
@@ -83,6 +82,18 @@ struct Optics {
     }
     return tau;
   }
+
+ private:
+  template <class DensityOf>
+  Densities<N> densities_by(DensityOf density_of) const {
+    auto at = [&](const Profile& profile, const Dual<N>& scale_height) {
+      const Density rho = density_of(profile);
+      return scale_height.chain(rho.value, rho.by_scale_height);
+    };
+    const Dual<N> air_density = at(profiles.air, air_scale_height);
+    return {air_density, at(profiles.aerosol, aerosol_scale_height),
+            profiles.ozone == profiles.air ? air_density : at(profiles.ozone, air_scale_height)};
+  }
 };
 
 template <int N>
@@ -93,7 +104,7 @@ Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, in
   };
   Optics<N> o;
   o.profiles = profiles_of(a);
-  o.air = at(a.rayleigh.scattering_per_m);
+  o.air = at(a.rayleigh.scattering_per_m) * (a.rayleigh.site_pressure_hpa / kStandardPressureHpa);
   o.air_scale_height = a.rayleigh.scale_height_m;
   o.depolarisation = a.rayleigh.depolarisation;
   o.air_moments = rayleigh_moments(o.depolarisation);

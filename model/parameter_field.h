@@ -52,14 +52,17 @@ Atmosphere<Dual<N>> seeded(const Atmosphere<double>& a, std::span<const Paramete
   s.rayleigh = {{a.rayleigh.scattering_per_m.wavelength_nm, a.rayleigh.scattering_per_m.value,
                  a.rayleigh.scattering_per_m.exponent},
                 a.rayleigh.scale_height_m,
-                a.rayleigh.depolarisation};
+                a.rayleigh.depolarisation,
+                a.rayleigh.site_pressure_hpa,
+                a.rayleigh.profile};
   s.mie.scattering_per_m = {a.mie.scattering_per_m.wavelength_nm, a.mie.scattering_per_m.value,
                             a.mie.scattering_per_m.exponent};
   s.mie.single_scattering_albedo = a.mie.single_scattering_albedo;
   s.mie.scale_height_m = a.mie.scale_height_m;
-  s.mie.phase = {a.mie.phase.type, a.mie.phase.g, a.mie.phase.g1, a.mie.phase.g2,
-                 a.mie.phase.weight};
-  s.ozone = {a.ozone.column_du, a.ozone.profile};
+  s.mie.phase = {a.mie.phase.type,   a.mie.phase.g,    a.mie.phase.g1,   a.mie.phase.g2,
+                 a.mie.phase.weight, a.mie.phase.lobe, a.mie.phase.table};
+  s.mie.profile = a.mie.profile;
+  s.ozone = {a.ozone.column_du, a.ozone.profile, a.ozone.table};
   s.ground_albedo = a.ground_albedo;
   if (parameters.size() > static_cast<std::size_t>(N))
     throw std::logic_error("seeded: too many parameters");

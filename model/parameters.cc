@@ -70,14 +70,18 @@ Parameter parameter_from_name(std::string_view name) {
 }
 
 bool has_parameter(const Atmosphere<double>& atmosphere, Parameter parameter) {
-  const bool two_lobes = atmosphere.mie.phase.type == PhaseType::kTwoLobe;
+  const PhaseType phase = atmosphere.mie.phase.type;
   switch (parameter) {
+    case kRayleighScaleHeight:
+      return atmosphere.rayleigh.profile == nullptr;
+    case kMieScaleHeight:
+      return atmosphere.mie.profile == nullptr;
     case kMiePhaseG:
-      return !two_lobes;
+      return phase == PhaseType::kCornetteShanks || phase == PhaseType::kHenyeyGreenstein;
     case kMiePhaseG1:
     case kMiePhaseG2:
     case kMiePhaseWeight:
-      return two_lobes;
+      return phase == PhaseType::kTwoLobe;
     default:
       return true;
   }

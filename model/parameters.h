@@ -52,7 +52,8 @@ const ParameterInfo& parameter_info(Parameter parameter);
 // Throws std::invalid_argument that lists the known names when there is no such parameter.
 Parameter parameter_from_name(std::string_view name);
 
-// Whether the atmosphere has the parameter: g only with one lobe; g1, g2 and weight only with two.
+// Whether the atmosphere has the parameter: g only with one lobe; g1, g2 and weight only with two;
+// a scale height only of an exponential profile.
 bool has_parameter(const Atmosphere<double>& atmosphere, Parameter parameter);
 
 double get_parameter(const Atmosphere<double>& atmosphere, Parameter parameter);

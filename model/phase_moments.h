@@ -2,7 +2,9 @@
 // The aerosol's phase function and its Legendre moments, for any scalar.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "model/atmosphere.h"
@@ -15,14 +17,14 @@ template <class T>
 T aerosol_phase(const AerosolPhase<T>& phase, double nu) {
   Shared<T> shared;
   switch (phase.type) {
-    case PhaseType::kCornetteShanks:
-      return shared.cornette_shanks_phase(phase.g, T(nu));
-    case PhaseType::kHenyeyGreenstein:
-      return shared.henyey_greenstein_phase(phase.g, T(nu));
     case PhaseType::kTwoLobe:
-      return shared.two_lobe_phase(phase.g1, phase.g2, phase.weight, T(nu));
+      return shared.two_lobe_phase(static_cast<int>(phase.lobe), phase.g1, phase.g2, phase.weight,
+                                   T(nu));
+    case PhaseType::kTabulated:
+      return T(phase.table->phase(std::acos(std::clamp(nu, -1.0, 1.0))));
+    default:
+      return shared.lobe_phase(static_cast<int>(phase.type), phase.g, T(nu));
   }
-  return T(0.0);
 }
 
 // Moments chi_l, l = 0 .. count - 1: P(nu) = sum_l (2 l + 1) / (4 pi) chi_l P_l(nu), chi_0 = 1.
@@ -58,17 +60,20 @@ std::vector<T> cornette_shanks_moments(const T& g, int count) {
 }
 
 template <class T>
+std::vector<T> lobe_moments(PhaseType type, const T& g, int count) {
+  return type == PhaseType::kHenyeyGreenstein ? henyey_greenstein_moments(g, count)
+                                              : cornette_shanks_moments(g, count);
+}
+
+template <class T>
 std::vector<T> aerosol_phase_moments(const AerosolPhase<T>& phase, int count) {
-  switch (phase.type) {
-    case PhaseType::kCornetteShanks:
-      return cornette_shanks_moments(phase.g, count);
-    case PhaseType::kHenyeyGreenstein:
-      return henyey_greenstein_moments(phase.g, count);
-    case PhaseType::kTwoLobe:
-      break;
+  if (phase.type == PhaseType::kTabulated) {
+    const std::vector<double> chi = phase.table->moments(count);
+    return std::vector<T>(chi.begin(), chi.end());
   }
-  std::vector<T> chi = cornette_shanks_moments(phase.g1, count);
-  const std::vector<T> second = cornette_shanks_moments(phase.g2, count);
+  if (phase.type != PhaseType::kTwoLobe) return lobe_moments(phase.type, phase.g, count);
+  std::vector<T> chi = lobe_moments(phase.lobe, phase.g1, count);
+  const std::vector<T> second = lobe_moments(phase.lobe, phase.g2, count);
   for (int l = 0; l < count; ++l)
     chi[l] = phase.weight * chi[l] + (T(1.0) - phase.weight) * second[l];
   return chi;

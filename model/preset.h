@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "model/atmosphere.h"
+#include "model/table_format.h"
 
 namespace skyfit {
 
@@ -17,13 +18,14 @@ struct Preset {
   nlohmann::json fit;  // null, or what it was fitted to, version, RMS, sigmas, covariance
 };
 
-// Parse and write. Unknown names, missing names, wrong types and unphysical values throw
-// std::invalid_argument with one line `source: path.to.field = value: expected ...`; `source` is
-// the file name that the message shows.
-Preset parse_preset(std::string_view text, std::string_view source);
+// Parse and write. `reader` reads the CSVs that a preset names (refs::load_table_csv), relative to
+// the folder of `source`; without it they are refused. Unknown names, missing names, wrong types
+// and unphysical values throw std::invalid_argument with one line `source: path.to.field = value:
+// expected ...`; `source` is the file name that the message shows.
+Preset parse_preset(std::string_view text, std::string_view source, const TableReader& reader = {});
 std::string preset_to_json(const Preset& preset);
 
 // Throws std::runtime_error when the file cannot be read.
-Preset load_preset(const std::filesystem::path& file);
+Preset load_preset(const std::filesystem::path& file, const TableReader& reader = {});
 
 }  // namespace skyfit

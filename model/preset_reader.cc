@@ -185,6 +185,15 @@ double PresetReader::number(std::string_view field) const {
   return found.get<double>();
 }
 
+std::vector<double> PresetReader::numbers(std::string_view field) const {
+  const json& found = member(field, "an array of numbers");
+  const auto is_number = [](const json& value) { return value.is_number(); };
+  if (!found.is_array() || !std::all_of(found.begin(), found.end(), is_number)) {
+    fail_value(field, "an array of numbers");
+  }
+  return found.get<std::vector<double>>();
+}
+
 std::string PresetReader::text(std::string_view field) const {
   const json& found = member(field, "a text");
   if (!found.is_string()) fail_value(field, "a text");
@@ -195,6 +204,12 @@ void PresetReader::fail_value(std::string_view field, std::string_view expectati
   const std::string path = path_of(field);
   throw std::invalid_argument(fmt::format("{}: {} = {}: expected {}", document_.place(path), path,
                                           shown(value_.at(std::string(field))), expectation));
+}
+
+// A path ends before the first space, bracket or colon.
+void PresetReader::fail_inside(std::string_view message) const {
+  const std::string path = path_of(message.substr(0, message.find_first_of(" [:")));
+  throw std::invalid_argument(fmt::format("{}: {}", document_.place(path), path_of(message)));
 }
 
 std::string PresetReader::path_of(std::string_view field) const {

@@ -7,8 +7,10 @@
 #include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace skyfit {
 
@@ -42,12 +44,28 @@ class PresetReader {
   void expect_only(std::initializer_list<std::string_view> fields) const;
 
   PresetReader object(std::string_view field) const;
+  bool has_object(std::string_view field) const {
+    return has(field) && value_.at(std::string(field)).is_object();
+  }
   double number(std::string_view field) const;
+  std::vector<double> numbers(std::string_view field) const;
   std::string text(std::string_view field) const;
+
+  // The result of `make`, which may throw std::invalid_argument with a message that begins with a
+  // path inside this object: source, line and this object's path are put before it.
+  template <class Make>
+  auto complaining(Make make) const {
+    try {
+      return make();
+    } catch (const std::invalid_argument& error) {
+      fail_inside(error.what());
+    }
+  }
 
   [[noreturn]] void fail_value(std::string_view field, std::string_view expectation) const;
 
  private:
+  [[noreturn]] void fail_inside(std::string_view message) const;
   std::string path_of(std::string_view field) const;
   const nlohmann::json& member(std::string_view field, std::string_view expectation) const;
 

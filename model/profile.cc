@@ -15,6 +15,10 @@ Density Profile::density(double height) const {
   return {value, value * height / (scale_height_ * scale_height_)};
 }
 
+Density Profile::density_at_level(double low, double height, double high) const {
+  return table_ ? Density{table_->mean_density(low, height, high), 0} : density(height);
+}
+
 Column Profile::column_to_top(double bottom_radius, double height, double mu, double top) const {
   if (table_) return {linear_column(*table_, bottom_radius, height, mu, top), 0};
   return exponential_column(bottom_radius, height, mu, top, scale_height_);
@@ -37,9 +41,9 @@ std::vector<double> Profile::quadrature_heights() const {
   return heights;
 }
 
-std::shared_ptr<const LinearProfile> ozone_tent() {
-  static const auto kTent = std::make_shared<const LinearProfile>(
-      std::vector<double>{0, 10e3, 25e3, 40e3}, std::vector<double>{0, 0, 1, 0});
+TabulatedProfile ozone_tent() {
+  static const auto kTent =
+      std::make_shared<const LinearProfile>(TwoColumns{{0, 10e3, 25e3, 40e3}, {0, 0, 1, 0}});
   return kTent;
 }
 

@@ -3,12 +3,11 @@
 // derived by the scale height where there is one. Heights and columns in metres.
 #pragma once
 
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "model/atmosphere.h"
 #include "model/dual.h"
-#include "model/linear_profile.h"
 #include "model/slant_column.h"
 
 namespace skyfit {
@@ -25,16 +24,15 @@ class Profile {
   // exp(-h / H)
   explicit Profile(double scale_height) : scale_height_(scale_height) {}
   // Linear between corners.
-  explicit Profile(std::shared_ptr<const LinearProfile> table) : table_(std::move(table)) {}
+  explicit Profile(TabulatedProfile table) : table_(std::move(table)) {}
 
   bool is_exponential() const { return table_ == nullptr; }
   double scale_height() const { return scale_height_; }     // of an exponential profile
   const LinearProfile& table() const { return *table_; }    // of one that is not
-  // Heights at which the density has a corner; none in an exponential profile.
-  std::vector<double> corners() const {
-    return table_ ? table_->heights() : std::vector<double>{};
-  }
   Density density(double height) const;
+  // The same at a level of a grid between its neighbours `low` and `high`: the value of a table is
+  // its mean about the level, so that no layer falls between two levels.
+  Density density_at_level(double low, double height, double high) const;
   // From a point upward to height `top`; mu as for exponential_column().
   Column column_to_top(double bottom_radius, double height, double mu, double top) const;
   Column vertical_column() const;  // from the ground to infinity
@@ -47,7 +45,7 @@ class Profile {
 
  private:
   double scale_height_ = 1;
-  std::shared_ptr<const LinearProfile> table_;  // null: exponential
+  TabulatedProfile table_;
 };
 
 // Of all species. Ozone is either linear or has the profile of the air and its scale height.
@@ -56,13 +54,17 @@ struct Profiles {
 };
 
 // 0 at 10 km, 1 at 25 km, 0 at 40 km.
-std::shared_ptr<const LinearProfile> ozone_tent();
+TabulatedProfile ozone_tent();
 
 template <class T>
 Profiles profiles_of(const Atmosphere<T>& a) {
-  const Profile air(value_of(a.rayleigh.scale_height_m));
-  return {air, Profile(value_of(a.mie.scale_height_m)),
-          a.ozone.profile == OzoneProfile::kExponential ? air : Profile(ozone_tent())};
+  const auto profile = [](const auto& species) {
+    return species.profile ? Profile(species.profile) : Profile(value_of(species.scale_height_m));
+  };
+  const Profile air = profile(a.rayleigh);
+  const bool follows_air = a.ozone.profile == OzoneProfile::kExponential;
+  return {air, profile(a.mie),
+          follows_air ? air : Profile(a.ozone.table ? a.ozone.table : ozone_tent())};
 }
 
 }  // namespace skyfit

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "model/gauss.h"
 #include "model/shared/shared.h"
@@ -109,11 +110,23 @@ std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
   return s;
 }
 
+std::vector<double> with_table_breaks(const Shells& shells, const ViewRay& ray,
+                                      std::vector<double> breaks) {
+  for (const Profile* profile : {&shells.profiles.air, &shells.profiles.aerosol}) {
+    if (profile->is_exponential()) continue;
+    std::ranges::copy(shell_crossings(ray, shells.bottom_radius, profile->quadrature_heights()),
+                      std::back_inserter(breaks));
+  }
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
 std::vector<QuadratureNode> composite_gauss(const std::vector<double>& breaks, int order) {
   const GaussRule rule = gauss_legendre(order);
   std::vector<QuadratureNode> nodes;
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double length = breaks[i + 1] - breaks[i];
+    if (length == 0) continue;
     for (int k = 0; k < order; ++k)
       nodes.push_back({breaks[i] + length * rule.node[k], length * rule.weight[k]});
   }

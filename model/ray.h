@@ -49,10 +49,16 @@ PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoi
 std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
                                     const std::vector<double>& heights);
 
+// The breaks of a quadrature along the ray and besides those that tabulated air or aerosol wants,
+// see Profile::quadrature_heights(); ascending.
+std::vector<double> with_table_breaks(const Shells& shells, const ViewRay& ray,
+                                      std::vector<double> breaks);
+
 struct QuadratureNode {
   double s, weight;
 };
-// Gauss's rule of `order` nodes between each two neighbours of `breaks` (ascending).
+// Gauss's rule of `order` nodes between each two neighbours of `breaks` (ascending; equal ones
+// count once).
 std::vector<QuadratureNode> composite_gauss(const std::vector<double>& breaks, int order);
 
 }  // namespace skyfit

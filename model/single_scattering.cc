@@ -13,20 +13,14 @@ namespace {
 constexpr int kOrder = 3;  // nodes between shells
 
 // Heights between which every profile and its extinction are smooth enough for the rule: dense
-// where an aerosol of the least scale height lives, with the corners of linear profiles.
-std::vector<double> shell_heights(const Shells& shells) {
+// where an aerosol of the least scale height lives, with the corners of the ozone tent. Profiles
+// from tables bring their own besides.
+std::vector<double> shell_heights(double top) {
   std::vector<double> heights = {60,    150,   300,   500,   800,   1200,  1700,  2400,
                                  3300,  4500,  6000,  8000,  10000, 13000, 17000, 21000,
                                  25000, 32000, 40000, 52000, 68000, 84000};
   constexpr double kStep = 1.25;
-  while (heights.back() * kStep < shells.top) heights.push_back(heights.back() * kStep);
-  for (const Profile* profile :
-       {&shells.profiles.air, &shells.profiles.aerosol, &shells.profiles.ozone}) {
-    const std::vector<double> corners = profile->corners();
-    heights.insert(heights.end(), corners.begin(), corners.end());
-  }
-  std::sort(heights.begin(), heights.end());
-  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  while (heights.back() * kStep < top) heights.push_back(heights.back() * kStep);
   return heights;
 }
 
@@ -112,11 +106,10 @@ std::vector<double> densities(const Profile& profile, const std::vector<double>&
 }  // namespace
 
 RayNodes ray_nodes(const Shells& shells, const ViewRay& ray, const std::vector<double>& edges) {
-  std::vector<double> breaks = shell_crossings(ray, shells.bottom_radius, shell_heights(shells));
+  std::vector<double> breaks = shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top));
   breaks.insert(breaks.end(), edges.begin(), edges.end());
-  std::sort(breaks.begin(), breaks.end());
   RayNodes nodes;
-  for (const QuadratureNode& q : composite_gauss(breaks, kOrder)) {
+  for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, ray, breaks), kOrder)) {
     nodes.points.push_back(ray_point(ray, shells.bottom_radius, q.s));
     nodes.weight.push_back(q.weight);
     nodes.height.push_back(nodes.points.back().height);

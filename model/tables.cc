@@ -30,6 +30,18 @@ void store(Table& table, int x, int y, int z, const NodeValues& value) {
   for (std::size_t k = 0; k < 4; ++k) table.rgba[4 * texel + k] = static_cast<float>(value[k]);
 }
 
+// Even steps of the angle, in which the logarithm is piecewise linear.
+Table phase_table(const AerosolPhase<double>& phase) {
+  constexpr int kSteps = 4095;  // of 0.044 degrees
+  if (phase.type != PhaseType::kTabulated) return make_table(1, 1, 1);
+  Table table = make_table(kSteps + 1, 1, 1);
+  for (int i = 0; i <= kSteps; ++i) {
+    const double value = std::log(phase.table->phase(std::numbers::pi * i / kSteps));
+    store(table, i, 0, 0, {value, value, value, value});
+  }
+  return table;
+}
+
 // Coefficients at the four nodes, 1/m.
 struct Coefficients {
   NodeValues air, aerosol_scattering, aerosol_scattering_cut, aerosol_extinction,
@@ -92,6 +104,7 @@ class TableBuilder {
     out_.atmosphere = atmosphere;
     out_.color = color;
     out_.sizes = sizes;
+    out_.phase = phase_table(atmosphere.mie.phase);
     const NodeOptics optics = optics_of(atmosphere, color);
     coefficients_ = coefficients_of(optics, atmosphere.mie.single_scattering_albedo);
     source_ = std::make_unique<DiffuseSource>(shells_, optics);

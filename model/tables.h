@@ -53,6 +53,8 @@ struct AtmosphereTables {
                         // (sr^0); light that comes straight from the ground to the eye is not in
                         // it: the renderer draws the ground
   Table single_mie;     // single aerosol scattering / aerosol phase function (pure number)
+  Table phase;  // x: scattering angle, from 0 to pi; logarithm of a tabulated phase function of
+                // the aerosol (1/sr). One texel, which is not read, for the other kinds
 };
 
 // Progress in 0..1; may be empty.

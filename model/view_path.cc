@@ -45,7 +45,7 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
   const std::vector<double> s = without_near_pairs(
       shell_crossings(path.ray, shells.bottom_radius, heights), path.ray.tangent_s);
   for (const double x : s) path.nodes.push_back(ray_point(path.ray, shells.bottom_radius, x));
-  for (const QuadratureNode& q : composite_gauss(s, 3)) {
+  for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, path.ray, s), 3)) {
     ViewPath::Sample sample{ray_point(path.ray, shells.bottom_radius, q.s), q.weight, {}};
     sample.columns = columns_along(shells, path.ray, sample.point);
     set_interpolation(s, sample);

@@ -26,7 +26,12 @@ Number cornette_shanks_phase(Number g, Number nu) {
   return 0.119366207318921502 * (1.0 - g * g) * (1.0 + nu * nu) / ((2.0 + g * g) * d * sqrt(d));  // 3 / (8 pi)
 }
 
-// Two Cornette-Shanks lobes; weight is that of the first.
-Number two_lobe_phase(Number g1, Number g2, Number weight, Number nu) {
-  return weight * cornette_shanks_phase(g1, nu) + (1.0 - weight) * cornette_shanks_phase(g2, nu);
+// One lobe; `type` is a PhaseType of model/atmosphere.h: 0 Cornette-Shanks, 1 Henyey-Greenstein.
+Number lobe_phase(int type, Number g, Number nu) {
+  return type == 1 ? henyey_greenstein_phase(g, nu) : cornette_shanks_phase(g, nu);
+}
+
+// Two lobes of one type; weight is that of the first.
+Number two_lobe_phase(int type, Number g1, Number g2, Number weight, Number nu) {
+  return weight * lobe_phase(type, g1, nu) + (1.0 - weight) * lobe_phase(type, g2, nu);
 }

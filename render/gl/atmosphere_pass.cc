@@ -22,6 +22,7 @@ void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
   add("irradiance", tables.irradiance, graph);
   add("rayleigh_like", tables.rayleigh_like, graph);
   add("single_mie", tables.single_mie, graph);
+  add("phase", tables.phase, graph);
 }
 
 void set_atmosphere(const AtmosphereTables& tables, GLuint program) {
@@ -36,6 +37,7 @@ void set_atmosphere(const AtmosphereTables& tables, GLuint program) {
                                             sizes.scattering_mu, sizes.scattering_r));
   uniforms.set("depolarisation", a.rayleigh.depolarisation);
   uniforms.set("phase_type", static_cast<int>(phase.type));
+  uniforms.set("lobe_type", static_cast<int>(phase.lobe));
   uniforms.set("phase_parameters", glm::vec4(phase.g, phase.g1, phase.g2, phase.weight));
 }
 

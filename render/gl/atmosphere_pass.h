@@ -15,8 +15,8 @@ namespace skyfit {
 
 // The texture units of render/shaders/atmosphere.glsl and atmosphere.frag.
 inline const std::vector<std::string> kAtmosphereReads = {
-    "optical_depth", "irradiance",         "rayleigh_like", "single_mie",
-    "color",         "normal_reflectance", "depth"};
+    "optical_depth", "irradiance", "rayleigh_like",      "single_mie",
+    "phase",         "color",      "normal_reflectance", "depth"};
 
 // Makes the textures of the tables, named as in kAtmosphereReads.
 void add_tables(const AtmosphereTables& tables, FrameGraph& graph);

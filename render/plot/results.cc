@@ -73,8 +73,7 @@ std::vector<ComparedSample> hemisphere_samples(const FitOutcome& fit, const FitR
 std::string label_of(std::span<const FitOutcome> fits, std::size_t index) {
   const Preset& preset = fits[index].preset;
   if (fits.size() == 1)
-    return preset.atmosphere.mie.phase.type == PhaseType::kTwoLobe ? "fitted, two lobes"
-                                                                   : "fitted, one lobe";
+    return fmt::format("fitted, {}", phase_kind(preset.atmosphere.mie.phase.type));
   const auto same_name = [&](const FitOutcome& other) { return other.preset.name == preset.name; };
   if (std::ranges::count_if(fits, same_name) == 1) return preset.name;
   return fmt::format("{} ({})", preset.name, fits[index].folder);

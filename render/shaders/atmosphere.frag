@@ -3,9 +3,9 @@
 // air scatters into the path (Sperlhofer 2011, 4.6.2), or sky and sun where there is no ground.
 #include "render/shaders/atmosphere.glsl"
 
-layout(binding = 4) uniform sampler2D color;
-layout(binding = 5) uniform sampler2D normal_reflectance;
-layout(binding = 6) uniform sampler2D depth;
+layout(binding = 5) uniform sampler2D color;
+layout(binding = 6) uniform sampler2D normal_reflectance;
+layout(binding = 7) uniform sampler2D depth;
 
 uniform mat3 site_from_view;
 uniform vec2 tangent;
@@ -21,7 +21,6 @@ in vec2 screen;
 layout(location = 0) out vec4 light;      // linear sRGB and luminance, cd/m^2
 layout(location = 1) out float distance_km;
 
-const float kPi = 3.14159265358979;
 const float kInfinity = uintBitsToFloat(0x7f800000u);
 
 // A point on the view ray, as the tables see it.

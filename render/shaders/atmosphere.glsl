@@ -9,6 +9,7 @@ layout(binding = 0) uniform sampler2D optical_depth_table;
 layout(binding = 1) uniform sampler2D irradiance_table;
 layout(binding = 2) uniform sampler3D rayleigh_like_table;
 layout(binding = 3) uniform sampler3D single_mie_table;
+layout(binding = 4) uniform sampler2D phase_table;  // logarithm of a tabulated phase function
 
 uniform float bottom_km;
 uniform float thickness_km;
@@ -16,15 +17,21 @@ uniform float mu_s_min;
 uniform vec4 scattering_size;   // mu_s, nu, mu, r
 uniform float depolarisation;   // of the air
 uniform int phase_type;         // PhaseType of model/atmosphere.h
+uniform int lobe_type;          // of two lobes
 uniform vec4 phase_parameters;  // g, g1, g2, weight
 
+const float kPi = 3.14159265358979;
 const float kSunRadius = 0.004654793;       // rad, at 1 au
 const float kSunSolidAngle = 6.8069e-5;     // sr
 
 float aerosol_phase(float nu) {
-  if (phase_type == 0) return cornette_shanks_phase(phase_parameters.x, nu);
-  if (phase_type == 1) return henyey_greenstein_phase(phase_parameters.x, nu);
-  return two_lobe_phase(phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
+  if (phase_type == 2)
+    return two_lobe_phase(lobe_type, phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
+  if (phase_type == 3) {
+    float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) / kPi, float(textureSize(phase_table, 0).x));
+    return exp(texture(phase_table, vec2(u, 0.5)).x);
+  }
+  return lobe_phase(phase_type, phase_parameters.x, nu);
 }
 
 float height_coordinate(float h, float size) {

@@ -112,6 +112,17 @@ TEST_F(BadInputTest, PresetsWithUnphysicalValues) {
                  {"bad.json", "mie.scattering_per_m.value"});
 }
 
+TEST_F(BadInputTest, PresetsWithBadTables) {
+  write("bad.csv", "scattering_angle_deg,phase_per_sr\n0,0.2\n180,0.2\n");
+  write_preset("bad.json", "/mie/phase", {{"type", "tabulated"}, {"csv", "bad.csv"}});
+  expect_refusal({"check", "bad.json"}, {"bad.csv:1", "phase_per_sr", "2.51327", "within 5 %"});
+  write_preset("bad.json", "/mie/phase", {{"type", "tabulated"}, {"csv", "missing.csv"}});
+  expect_refusal({"check", "bad.json"}, {"missing.csv", "No such file"});
+  expect_sky_refusal(
+      {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--site-pressure-hpa", "0"},
+      {"--site-pressure-hpa", "0", "expected a pressure > 0 hPa"});
+}
+
 TEST_F(BadInputTest, PresetsWithUnknownMissingOrWrongFields) {
   write_preset("bad.json", "/mie/turbidity", 2.5);
   expect_refusal({"check", "bad.json"}, {"bad.json", "mie.turbidity"});

@@ -49,6 +49,20 @@ TEST_F(CommandsTest, PresetsPrintWhatCheckAccepts) {
   }
 }
 
+TEST_F(CommandsTest, SkyTakesTablesBesideThePresetAndASitePressure) {
+  auto preset = json::parse(output({"presets", "earth-clear"}));
+  preset["mie"]["phase"] = {{"type", "tabulated"}, {"csv", "phase.csv"}};
+  std::filesystem::create_directory(folder_ / "mine");
+  write("mine/phase.csv", "# isotropic\nscattering_angle_deg,phase_per_sr\n0,0.08\n180,0.08\n");
+  write("mine/preset.json", preset.dump());
+  const auto zenith = [&](const std::string& pressure) {
+    const auto out = lines(output({"sky", "--preset", "mine/preset.json", "--sun-zenith-deg", "60",
+                                   "--view-zenith-deg", "0", "--site-pressure-hpa", pressure}));
+    return std::stod(fields(out.at(1)).back());
+  };
+  EXPECT_GT(zenith("1013.25"), 1.1 * zenith("600"));
+}
+
 TEST_F(CommandsTest, ReferencesPrintWhatCheckAccepts) {
   const json list = json::parse(output({"references", "--json"}));
   EXPECT_EQ(list.size(), 16u);

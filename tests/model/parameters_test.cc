@@ -126,6 +126,18 @@ TEST(Validate, NamesThePathTheValueAndTheExpectation) {
             "mie.scattering_per_m.exponent = inf: expected a finite number");
   EXPECT_EQ(message_of([](auto& a) { a.mie.single_scattering_albedo = 0; }),
             "mie.single_scattering_albedo = 0: expected a ratio > 0 and <= 1");
+  EXPECT_EQ(message_of([](auto& a) { a.rayleigh.depolarisation = -0.1; }),
+            "rayleigh.depolarisation = -0.1: expected a ratio from 0 to 1");
+  EXPECT_EQ(message_of([](auto& a) { a.rayleigh.site_pressure_hpa = 0; }),
+            "rayleigh.site_pressure_hpa = 0: expected a pressure > 0 hPa");
+  EXPECT_EQ(message_of([](auto& a) { a.mie.phase.type = PhaseType::kTabulated; }),
+            "mie.phase.type = tabulated: expected a table");
+  EXPECT_EQ(
+      message_of([](auto& a) {
+        a.ozone.profile = OzoneProfile::kExponential;
+        a.rayleigh.profile = std::make_shared<const LinearProfile>(TwoColumns{{0, 3e4}, {1, 0}});
+      }),
+      "ozone.profile = exponential: expected tent or a table, the air has no scale height");
   EXPECT_EQ(message_of([](auto& a) { a.ozone.column_du = -1; }),
             "ozone.column_du = -1: expected a column >= 0 DU");
 }

@@ -96,6 +96,90 @@ TEST(Preset, RoundTripIsExactForEveryPhaseAndProfile) {
   }
 }
 
+TEST(Preset, TwoLobesAreOfCornetteAndShanksUnlessNamed) {
+  constexpr std::string_view kOneLobe = R"("type": "cornette-shanks", "g": 0.76)",
+                             kTwo = R"("type": "two-lobe", "g1": 0.8, "g2": 0.1, "weight": 0.5)";
+  EXPECT_EQ(parse_preset(with(kOneLobe, kTwo), "my.json").atmosphere.mie.phase.lobe,
+            PhaseType::kCornetteShanks);
+  const Preset preset = parse_preset(
+      with(kOneLobe, std::string(kTwo) + R"(, "lobe": "henyey-greenstein")"), "my.json");
+  EXPECT_EQ(preset.atmosphere.mie.phase.lobe, PhaseType::kHenyeyGreenstein);
+  EXPECT_EQ(parse_preset(preset_to_json(preset), "again.json").atmosphere.mie.phase.lobe,
+            PhaseType::kHenyeyGreenstein);
+  EXPECT_EQ(complaint(with(kOneLobe, std::string(kTwo) + R"(, "lobe": "two-lobe")")),
+            "my.json:13: mie.phase.lobe = \"two-lobe\": expected one of cornette-shanks, "
+            "henyey-greenstein");
+}
+
+TEST(Preset, AirMayDepolariseAndHaveAPressure) {
+  const Preset preset = parse_preset(
+      with("\"scale_height_m\": 8000",
+           "\"scale_height_m\": 8000, \"depolarisation\": 0.0279, \"site_pressure_hpa\": 880"),
+      "my.json");
+  const Preset again = parse_preset(preset_to_json(preset), "again.json");
+  EXPECT_EQ(again.atmosphere.rayleigh.depolarisation, 0.0279);
+  EXPECT_EQ(again.atmosphere.rayleigh.site_pressure_hpa, 880);
+}
+
+constexpr std::string_view kTablesPhase =
+    R"("type": "tabulated", "scattering_angle_deg": [0, 90, 180], "phase_per_sr": [0.08, 0.079, 0.08])";
+constexpr std::string_view kTablesProfile =
+    R"("profile": {"type": "tabulated", "height_m": [0, 800.5, 2000], "relative_density": [1, 0.7, 0]},)";
+
+TEST(Preset, RoundTripOfTablesIsExact) {
+  std::string text = with(R"("scale_height_m": 1200,)", kTablesProfile);
+  const std::string_view lobe = R"("type": "cornette-shanks", "g": 0.76)";
+  text.replace(text.find(lobe), lobe.size(), kTablesPhase);
+  const Preset preset = parse_preset(text, "my.json");
+  EXPECT_EQ(preset.atmosphere.mie.profile->table(), (TwoColumns{{0, 800.5, 2000}, {1, 0.7, 0}}));
+  const Preset again = parse_preset(preset_to_json(preset), "again.json");
+  EXPECT_EQ(again.atmosphere.mie.profile->table(), preset.atmosphere.mie.profile->table());
+  EXPECT_EQ(again.atmosphere.mie.phase.table->table(), preset.atmosphere.mie.phase.table->table());
+  EXPECT_EQ(preset_to_json(again), preset_to_json(preset));
+}
+
+TEST(Preset, CsvIsReadBesideThePresetAndWrittenAsArrays) {
+  const std::string text =
+      with(R"("profile": "tent")", R"("profile": {"type": "tabulated", "csv": "ozone.csv"})");
+  const TwoColumns table{{0, 20e3, 50e3}, {0, 2, 0}};
+  const auto reader = [&](const std::filesystem::path& file, const TableFormat& format) {
+    EXPECT_EQ(file, std::filesystem::path("folder/ozone.csv"));
+    EXPECT_EQ(format.columns[0], "height_m");
+    return table;
+  };
+  const Preset preset = parse_preset(text, "folder/my.json", reader);
+  EXPECT_EQ(preset.atmosphere.ozone.profile, OzoneProfile::kTabulated);
+  const Preset again = parse_preset(preset_to_json(preset), "again.json");
+  EXPECT_EQ(again.atmosphere.ozone.table->table(), table);
+  EXPECT_EQ(complaint(text),
+            "my.json:15: ozone.profile.csv = \"ozone.csv\": expected height_m and "
+            "relative_density instead of a file");
+}
+
+TEST(Preset, FaultsOfTablesAreNamed) {
+  const auto profile = [](std::string_view text) {
+    return complaint(with(R"("scale_height_m": 1200,)", text));
+  };
+  EXPECT_EQ(
+      profile(
+          R"("profile": {"type": "tabulated", "height_m": [0, 1], "relative_density": [1, -2]},)"),
+      "my.json:12: mie.profile.relative_density[1] = -2: expected a density >= 0");
+  EXPECT_EQ(
+      profile(
+          R"("profile": {"type": "tabulated", "height_m": [0, "x"], "relative_density": [1, 2]},)"),
+      "my.json:12: mie.profile.height_m = [0,\"x\"]: expected an array of numbers");
+  EXPECT_EQ(
+      profile(R"("profile": {"type": "tabulated", "height_m": [0, 1], "relative_density": [1]},)"),
+      "my.json:12: mie.profile.relative_density: 1 values: expected as many as of height_m, 2");
+  EXPECT_EQ(profile(R"("profile": "tent",)"),
+            "my.json:12: mie.profile = \"tent\": expected exponential or an object");
+  EXPECT_EQ(profile(R"("profile": {"type": "tent"},)"),
+            "my.json:12: mie.profile.type = \"tent\": expected tabulated");
+  EXPECT_EQ(profile(std::string(R"("scale_height_m": 1200,)") + std::string(kTablesProfile)),
+            "my.json:12: mie.scale_height_m = 1200: expected no scale height beside a tabulated "
+            "profile");
+}
+
 TEST(Preset, UnphysicalAtmosphereIsNotWritten) {
   Preset preset;
   preset.atmosphere.ground_albedo = std::nan("");
@@ -116,10 +200,10 @@ TEST(Preset, UnknownNameIsOneLineWhateverItHolds) {
 
 TEST(Preset, PhaseHasExactlyTheFieldsOfItsType) {
   EXPECT_EQ(complaint(with("cornette-shanks", "two-lobe")),
-            "my.json:13: mie.phase.g: unknown name, expected one of type, g1, g2, weight");
+            "my.json:13: mie.phase.g: unknown name, expected one of type, lobe, g1, g2, weight");
   EXPECT_EQ(complaint(with("cornette-shanks", "mie")),
             "my.json:13: mie.phase.type = \"mie\": expected one of cornette-shanks, "
-            "henyey-greenstein, two-lobe");
+            "henyey-greenstein, two-lobe, tabulated");
 }
 
 TEST(Preset, MissingNameIsNamed) {

@@ -33,13 +33,13 @@ TEST_F(SharedFormulas, PhaseFunctions) {
   const auto outputs =
       run_glsl("#include \"model/shared/phase.glsl\"\n",
                "y = vec4(rayleigh_phase(x.w, x.y), cornette_shanks_phase(x.x, x.y), "
-               "henyey_greenstein_phase(x.x, x.y), two_lobe_phase(x.x, x.z, x.w, x.y));",
+               "henyey_greenstein_phase(x.x, x.y), two_lobe_phase(1, x.x, x.z, x.w, x.y));",
                inputs);
   for (std::size_t i = 0; i < inputs.size(); i += 4) {
     const double g = inputs[i], nu = inputs[i + 1], g2 = inputs[i + 2], weight = inputs[i + 3];
     const double expected[4] = {
         shared_.rayleigh_phase(weight, nu), shared_.cornette_shanks_phase(g, nu),
-        shared_.henyey_greenstein_phase(g, nu), shared_.two_lobe_phase(g, g2, weight, nu)};
+        shared_.henyey_greenstein_phase(g, nu), shared_.two_lobe_phase(1, g, g2, weight, nu)};
     // Near nu = 1 the phase functions amplify the rounding of 1 + g^2 - 2 g nu.
     const double tolerance = kFloat * 4 / std::pow(1 - std::abs(g), 2);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -99,12 +99,12 @@ TEST_F(SharedFormulas, GeometryKeepsItsDigitsNearTheGround) {
   }
 }
 
-TEST_F(SharedFormulas, TableLookups) {
-  const AtmosphereTables tables = tables_of(shipped("earth-clear"), kSmallTables);
+void expect_equal_lookups(const AtmosphereTables& tables) {
+  Shared<double> shared;
   FrameGraph graph;
   add_tables(tables, graph);
   const auto inputs = rays();
-  const char* names[4] = {"optical_depth", "irradiance", "rayleigh_like", "single_mie"};
+  const char* names[5] = {"optical_depth", "irradiance", "rayleigh_like", "single_mie", "phase"};
   // One shader, so that the compiler drops no uniform; x.w says which function is asked for.
   const auto look_up = [&](float which) {
     std::vector<float> asked = inputs;
@@ -117,14 +117,14 @@ TEST_F(SharedFormulas, TableLookups) {
                     "if (x.w == 2.0) y = sun_transmittance(x.x, x.z);\n",
                     asked, [&](GLuint program) {
                       set_atmosphere(tables, program);
-                      for (GLuint unit = 0; unit < 4; ++unit) graph.bind(names[unit], unit);
+                      for (GLuint unit = 0; unit < 5; ++unit) graph.bind(names[unit], unit);
                     });
   };
   const auto radiances = look_up(0), irradiances = look_up(1), suns = look_up(2);
   constexpr double kFilter = 2e-3;  // float coordinates times steps between texels, eight of them
   for (std::size_t i = 0; i < inputs.size(); i += 4) {
     const double h = 1e3 * inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
-    const bool hit = shared_.ray_hits_ground(h, mu, 1e3 * kBottom);
+    const bool hit = shared.ray_hits_ground(h, mu, 1e3 * kBottom);
     const double nu = mu * mu_s + 0.3 * std::sqrt((1 - mu * mu) * (1 - mu_s * mu_s));
     const NodeValues radiance = lookup_radiance(tables, h, mu, mu_s, nu, hit);
     const NodeValues irradiance = lookup_irradiance(tables, h, mu_s);
@@ -137,6 +137,28 @@ TEST_F(SharedFormulas, TableLookups) {
       EXPECT_NEAR(suns[i + k], sun[k], kFilter * sun[k] + 1e-5) << h << ' ' << mu_s;
     }
   }
+}
+
+TEST_F(SharedFormulas, TableLookups) {
+  expect_equal_lookups(tables_of(shipped("earth-clear"), kSmallTables));
+}
+
+TEST_F(SharedFormulas, TableLookupsOfTwoHenyeyGreensteinLobes) {
+  Preset preset = shipped("earth-clear");
+  preset.atmosphere.mie.phase.lobe = PhaseType::kHenyeyGreenstein;
+  preset.atmosphere.rayleigh.depolarisation = 0.03;
+  expect_equal_lookups(tables_of(preset, kSmallTables));
+}
+
+TEST_F(SharedFormulas, TableLookupsOfTabulatedPhaseAndProfile) {
+  Preset preset = shipped("earth-clear");
+  AerosolPhase<double>& phase = preset.atmosphere.mie.phase;
+  phase.type = PhaseType::kTabulated;
+  phase.table = std::make_shared<const TabulatedPhase>(
+      TwoColumns{{0, 5, 20, 60, 120, 150, 180}, {7.6, 2.28, 0.319, 0.0683, 0.0106, 0.00759, 0.0228}});
+  preset.atmosphere.mie.profile = std::make_shared<const LinearProfile>(
+      TwoColumns{{0, 1e3, 2e3, 3e3, 5e3}, {1, 0.8, 0, 0.3, 0}});
+  expect_equal_lookups(tables_of(preset, kSmallTables));
 }
 
 }  // namespace
