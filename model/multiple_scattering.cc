@@ -83,12 +83,13 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
         normalised_legendre(m, moments, point.mu, node.lambda[m].data());
       }
       for (const SunOfPath& point_sun : paths[path].suns) {
-        const double mu_s = point_sun.sun->mu_s(point);
+        const RayPoint& sun_point = paths[path].path->sun_points[i];
+        const double mu_s = point_sun.sun->mu_s(sun_point);
         const SunStencil stencil = grid_.stencil(mu_s);
         for (const int k : stencil.index) node.index.push_back(solved_[k]);
         node.even.insert(node.even.end(), stencil.even.begin(), stencil.even.end());
         node.odd.insert(node.odd.end(), stencil.odd.begin(), stencil.odd.end());
-        const double azimuth = point_sun.sun->cos_azimuth(point, mu_s);
+        const double azimuth = point_sun.sun->cos_azimuth(sun_point, mu_s);
         double cosine = 1, before = azimuth;  // cos m phi by Chebyshev's recursion
         for (int m = 0; m < modes; ++m) {
           node.wave_factor[m].push_back(m == 0 ? 1 : 2 * cosine);

@@ -66,7 +66,7 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
     suns.emplace_back(shells.bottom_radius, path.ray, points[i]);
-    for (const RayPoint& p : path.nodes) mu_s.push_back(suns.back().mu_s(p));
+    for (const RayPoint& p : path.sun_points) mu_s.push_back(suns.back().mu_s(p));
   }
   const SkySolution<N> solution(atmosphere, wavelengths, derivatives, mu_s, options);
 

@@ -23,7 +23,9 @@ SunGrid::SunGrid() {
     double end, step;
   };
   double zenith = 0;
-  for (const Range range : {Range{60, 10}, Range{75, 5}, Range{90, 2.5}, Range{108, 1.5}}) {
+  for (const Range range :
+       {Range{60, 10}, Range{75, 5}, Range{85, 2.5}, Range{90, 2.5}, Range{108, 1.5}}) {
+    if (range.end == 90) day_ = size();
     for (; zenith < range.end - 1e-9; zenith += range.step)
       zenith_.push_back(zenith * std::numbers::pi / 180);
   }
@@ -62,7 +64,10 @@ SunStencil SunGrid::stencil(double mu_s) const {
   const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
   const int above =
       static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
-  const int first = std::min(above - 2, size() - 4);  // -1: one node beyond the zenith
+  // -1: one node beyond the zenith. Up to 85 deg no node below 85 deg is asked for: suns below are
+  // dear, for they come with all their neighbours (sun_coupling() in model/diffuse_field.h).
+  const int last = x <= zenith_[day_] ? day_ : size() - 1;
+  const int first = std::min(above - 2, last - 3);
   std::array<double, 4> node;
   SunStencil s;
   for (int i = 0; i < 4; ++i) {

@@ -34,6 +34,7 @@ class SunGrid {
 
  private:
   std::vector<double> zenith_;  // radians, ascending, from 0 to below the twilight
+  int day_ = 0;                 // the node at 85 deg
 };
 
 // Lagrange's weights at x for the four (or fewer) nodes.

@@ -35,6 +35,29 @@ std::vector<double> without_near_pairs(const std::vector<double>& s, double lowe
   return kept;
 }
 
+void set_sun_points(const Shells& shells, ViewPath& path) {
+  constexpr double kShare = 0.45;
+  const ViewRay& ray = path.ray;
+  const double lowest = ray.tangent_s > 0 ? ray.tangent_height : ray.entry_height;
+  const double highest = lowest + kShare * shells.top;
+  double begin = 0, end = ray.length;
+  Shared<double> shared;
+  if (ray.tangent_s > 0 && ray.entry_height > highest) {
+    begin = shared.distance_to_inner_sphere(shells.bottom_radius, ray.entry_height, ray.entry_mu,
+                                            highest);
+  }
+  if (!ray.hits_ground && highest < shells.top) {
+    end = shared.distance_to_outer_sphere(shells.bottom_radius, ray.entry_height, ray.entry_mu,
+                                          highest);
+  }
+  for (const RayPoint& node : path.nodes) {
+    path.sun_points.push_back(
+        node.s >= begin && node.s <= end
+            ? node
+            : ray_point(ray, shells.bottom_radius, std::clamp(node.s, begin, end)));
+  }
+}
+
 }  // namespace
 
 ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
@@ -45,6 +68,7 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
   const std::vector<double> s = without_near_pairs(
       shell_crossings(path.ray, shells.bottom_radius, heights), path.ray.tangent_s);
   for (const double x : s) path.nodes.push_back(ray_point(path.ray, shells.bottom_radius, x));
+  set_sun_points(shells, path);
   for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, path.ray, s), 3)) {
     ViewPath::Sample sample{ray_point(path.ray, shells.bottom_radius, q.s), q.weight, {}};
     sample.columns = columns_along(shells, path.ray, sample.point);

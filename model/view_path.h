@@ -12,6 +12,10 @@ namespace skyfit {
 struct ViewPath {
   ViewRay ray;
   std::vector<RayPoint> nodes;  // ascending in s; empty when the ray misses the atmosphere
+  // Where the sun of each node's source is taken: the node itself, but not higher than 0.45 of the
+  // atmosphere above the ray's lowest point. What is left there (0.4 % of the Earth's air) is too
+  // little to ask for suns of its own.
+  std::vector<RayPoint> sun_points;
   struct Sample {
     RayPoint point;
     double weight;        // of the quadrature along s, metres
