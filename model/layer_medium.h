@@ -11,6 +11,8 @@
 // one is 0, the beam is taken as linear.
 #pragma once
 
+#include <tbb/scalable_allocator.h>
+
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -22,7 +24,8 @@
 
 namespace skyfit {
 
-using Lanes = std::vector<double>;
+// Large and short-lived: kept by the allocator from one solution to the next.
+using Lanes = std::vector<double, tbb::scalable_allocator<double>>;
 
 // The beam's weights for the rays of one layer that look one way, [ray][sun], and how they change
 // with the layer's depth x and the sun's depths at the near and the far end.

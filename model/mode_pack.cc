@@ -9,16 +9,16 @@ namespace skyfit {
 namespace {
 
 // Element (i, j) of a matrix of lanes.
-double* at(std::vector<double>& m, std::size_t columns, std::size_t i, std::size_t j) {
+double* at(Lanes& m, std::size_t columns, std::size_t i, std::size_t j) {
   return m.data() + (i * columns + j) * lanes::kLanes;
 }
-const double* at(const std::vector<double>& m, std::size_t columns, std::size_t i, std::size_t j) {
+const double* at(const Lanes& m, std::size_t columns, std::size_t i, std::size_t j) {
   return m.data() + (i * columns + j) * lanes::kLanes;
 }
 
 // Adds `factor` (one element per row, or 1 when null) times rows x columns of `from` to `to`.
-void add_block(const double* factor, const std::vector<double>& from, std::size_t from_columns,
-               std::size_t from_first, std::vector<double>& to, std::size_t to_columns,
+void add_block(const double* factor, const Lanes& from, std::size_t from_columns,
+               std::size_t from_first, Lanes& to, std::size_t to_columns,
                std::size_t to_first, std::size_t rows, std::size_t columns, double sign = 1) {
   for (std::size_t i = 0; i < rows; ++i) {
     const double* x = at(from, from_columns, i, from_first);
@@ -31,7 +31,7 @@ void add_block(const double* factor, const std::vector<double>& from, std::size_
 }
 
 // Adds a diagonal: one element per row, or 1 when null.
-void add_diagonal(const double* diagonal, std::vector<double>& to, std::size_t to_columns,
+void add_diagonal(const double* diagonal, Lanes& to, std::size_t to_columns,
                   std::size_t to_first, std::size_t rows) {
   for (std::size_t i = 0; i < rows; ++i) {
     double* y = at(to, to_columns, i, to_first + i);
@@ -40,15 +40,15 @@ void add_diagonal(const double* diagonal, std::vector<double>& to, std::size_t t
   }
 }
 
-std::vector<double> columns_of(const std::vector<double>& m, std::size_t all, std::size_t first,
+Lanes columns_of(const Lanes& m, std::size_t all, std::size_t first,
                                std::size_t rows, std::size_t count) {
-  std::vector<double> r(rows * count * lanes::kLanes);
+  Lanes r(rows * count * lanes::kLanes);
   for (std::size_t i = 0; i < rows; ++i)
     std::copy_n(at(m, all, i, first), count * lanes::kLanes, at(r, count, i, 0));
   return r;
 }
 
-void append(std::vector<double>& to, const std::vector<double>& from, std::size_t count) {
+void append(Lanes& to, const Lanes& from, std::size_t count) {
   to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
