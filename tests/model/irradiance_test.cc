@@ -82,7 +82,7 @@ double integral_of_radiance(const SkyModel& model, const Atmosphere<double>& a,
 }
 
 void expect_integral(const Atmosphere<double>& a, double altitude, double sun_deg) {
-  constexpr double kAgreement = 5e-4;  // of the model's 32 rings of 32; asked is 3e-3
+  constexpr double kAgreement = 5e-4;  // of 32 rings of 32 directions
   const auto model = make_sky_model("reference", 2);
   const WavelengthNode node = spectral_nodes(refs::standard_spectral_data(), {480}).front();
   const double sun = sun_deg * kDegree;
