@@ -2,7 +2,6 @@
 // `skyfit sky`: evaluates a model at every combination of the given altitudes, suns and views.
 #include <fmt/format.h>
 
-#include <iterator>
 #include <memory>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
+#include "cli/sky_table.h"
 #include "data_refs/spectra.h"
 #include "model/sky_model.h"
 
@@ -23,19 +23,12 @@ constexpr double kMaxAltitude = 1e12;  // metres, beyond any atmosphere
 struct SkyOptions {
   std::string preset, site_pressure, model = "reference";
   std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength;
-  bool luminance = false, irradiance = false;
+  bool luminance = false, color = false, irradiance = false, sigma = false;
   int threads = default_threads();
 };
 
 struct SkyGrid {
   std::vector<double> altitude_m, sun_zenith_deg, view_zenith_deg, azimuth_deg;
-};
-
-// What the values are evaluated at and multiplied by. In the spectral case there is one row per
-// wavelength; otherwise one row that sums over the nodes with the rule's weights.
-struct Wavelengths {
-  std::vector<double> nm;  // empty: photometric
-  LuminanceRule rule;      // spectral: the nodes, weights empty
 };
 
 SkyGrid parse_grid(const SkyOptions& options) {
@@ -57,16 +50,21 @@ SkyGrid parse_grid(const SkyOptions& options) {
   return grid;
 }
 
-Wavelengths parse_wavelengths(const SkyOptions& options) {
+SkyTable parse_table(const SkyOptions& options) {
   const SpectralData& data = refs::standard_spectral_data();
-  if (options.wavelength.empty()) return {{}, luminance_rule(data)};
-  if (options.luminance) throw UsageError("--luminance", "", "expected without --wavelength-nm");
+  if (options.wavelength.empty()) {
+    if (options.irradiance) return illuminance_table(data);
+    return options.color ? color_table(data) : luminance_table(data);
+  }
+  for (const auto& [given, name] :
+       {std::pair{options.luminance, "--luminance"}, std::pair{options.color, "--color"}}) {
+    if (given) throw UsageError(name, "", "expected without --wavelength-nm");
+  }
   const auto& table = data.ozone_cross_section.wavelength_nm;
-  Wavelengths wavelengths;
-  wavelengths.nm = parse_list_within("--wavelength-nm", options.wavelength, table.front(),
-                                     table.back(), "a wavelength in nm that the tables hold,");
-  wavelengths.rule.nodes = spectral_nodes(data, wavelengths.nm);
-  return wavelengths;
+  const std::vector<double> nm =
+      parse_list_within("--wavelength-nm", options.wavelength, table.front(), table.back(),
+                        "a wavelength in nm that the tables hold,");
+  return options.irradiance ? irradiance_table(data, nm) : radiance_table(data, nm);
 }
 
 std::vector<SkyPoint> points_of(const SkyGrid& grid) {
@@ -103,82 +101,49 @@ void for_each_point(const SkyGrid& grid, const Row& row) {
   }
 }
 
-double weighted_sum(const std::vector<double>& weights, const double* values) {
-  double sum = 0;
-  for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * values[k];
-  return sum;
-}
-
 void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
-               const Wavelengths& wavelengths) {
-  const std::vector<SkyPoint> points = points_of(grid);
-  const SkyValues sky = model.radiance(atmosphere, wavelengths.rule.nodes, points, {});
-  print("altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,");
-  print(wavelengths.nm.empty() ? "luminance_cd_m2\n"
-                               : "wavelength_nm,radiance_per_irradiance_sr\n");
+               const SkyTable& table) {
+  const SkyValues sky =
+      model.radiance(atmosphere, table.nodes, points_of(grid), table.derivatives());
+  print(header(table, "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,"));
   int point = 0;
   fmt::memory_buffer text;
   for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
     text.clear();
-    const auto out = std::back_inserter(text);
-    const auto angles = fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}", altitude, sun, view, azimuth);
-    if (wavelengths.nm.empty()) {
-      const double* const values =
-          sky.value.data() + static_cast<std::ptrdiff_t>(point) * sky.wavelengths;
-      fmt::format_to(out, "{},{:.9g}\n", angles, weighted_sum(wavelengths.rule.weight, values));
-    }
-    for (std::size_t k = 0; k < wavelengths.nm.size(); ++k) {
-      fmt::format_to(out, "{},{:.9g},{:.9g}\n", angles, wavelengths.nm[k],
-                     sky.at(point, static_cast<int>(k)));
-    }
+    append_place(table, fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth),
+                 sky, point++, 1, text);
     print({text.data(), text.size()});
-    ++point;
   });
 }
 
 void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmosphere,
-                      const SkyGrid& grid, const Wavelengths& wavelengths) {
-  const bool spectral = !wavelengths.nm.empty();
-  const std::string_view unit = spectral ? "w_m2_nm" : "lx";
-  print(fmt::format(
-      "altitude_m,sun_zenith_deg,{}direct_normal_{},direct_horizontal_{},diffuse_horizontal_{},"
-      "global_horizontal_{}\n",
-      spectral ? "wavelength_nm," : "", unit, unit, unit, unit));
-  const Spectrum& solar = refs::standard_spectral_data().solar_irradiance;
+                      const SkyGrid& grid, const SkyTable& table) {
+  print(header(table, "altitude_m,sun_zenith_deg,"));
+  fmt::memory_buffer text;
   for (const double altitude : grid.altitude_m) {
     for (const double sun : grid.sun_zenith_deg) {
-      const SkyIrradiance light =
-          model.irradiance(atmosphere, wavelengths.rule.nodes, altitude, radians(sun));
-      if (!spectral) {
-        const auto sum = [&](const std::vector<double>& values) {
-          return weighted_sum(wavelengths.rule.weight, values.data());
-        };
-        print(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", altitude, sun,
-                          sum(light.direct_normal), sum(light.direct_horizontal),
-                          sum(light.diffuse_horizontal), sum(light.global_horizontal)));
-      }
-      for (std::size_t k = 0; k < wavelengths.nm.size(); ++k) {
-        const double scale = solar.at(wavelengths.nm[k]);
-        print(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", altitude, sun,
-                          wavelengths.nm[k], scale * light.direct_normal[k],
-                          scale * light.direct_horizontal[k], scale * light.diffuse_horizontal[k],
-                          scale * light.global_horizontal[k]));
-      }
+      text.clear();
+      append_place(
+          table, fmt::format("{:.9g},{:.9g},", altitude, sun),
+          model.irradiance(atmosphere, table.nodes, altitude, radians(sun), table.derivatives()), 0,
+          kIrradianceCount, text);
+      print({text.data(), text.size()});
     }
   }
 }
 
 void run_sky(const SkyOptions& options) {
   const SkyGrid grid = parse_grid(options);
-  const Wavelengths wavelengths = parse_wavelengths(options);
+  SkyTable table = parse_table(options);
   Preset preset = preset_named(options.preset);
+  if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
     preset.atmosphere.rayleigh.site_pressure_hpa = *pressure;
   const auto model = make_sky_model(options.model, options.threads);
   if (options.irradiance) {
-    print_irradiance(*model, preset.atmosphere, grid, wavelengths);
+    print_irradiance(*model, preset.atmosphere, grid, table);
   } else {
-    print_sky(*model, preset.atmosphere, grid, wavelengths);
+    print_sky(*model, preset.atmosphere, grid, table);
   }
 }
 
@@ -211,11 +176,22 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
       ->type_name("LIST");
   auto* const luminance =
       command.add_flag("--luminance", options.luminance, "Print luminance in cd/m^2 (the default)");
+  auto* const color =
+      command
+          .add_flag("--color", options.color,
+                    "Print CIE 1931 XYZ (Y is luminance) and linear sRGB (primaries of\n"
+                    "IEC 61966-2-1; white D65 of luminance L is R = G = B = L; negative\n"
+                    "outside its gamut), all in cd/m^2")
+          ->excludes(luminance);
   command
       .add_flag("--irradiance", options.irradiance,
                 "Print direct, diffuse and global irradiance (no view directions): lx,\n"
                 "or W m^-2 nm^-1 with --wavelength-nm")
-      ->excludes(luminance);
+      ->excludes(luminance)
+      ->excludes(color);
+  command.add_flag("--sigma", options.sigma,
+                   "Print one standard deviation after each value, from the covariance of a\n"
+                   "fitted preset");
   add_threads_option(command, options.threads);
 }
 
@@ -224,7 +200,7 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
 void add_sky_command(CLI::App& app) {
   const auto options = std::make_shared<SkyOptions>();
   CLI::App* const command = app.add_subcommand(
-      "sky", "Evaluates a preset and prints CSV: luminance, radiance or irradiance.");
+      "sky", "Evaluates a preset and prints CSV: luminance, colour, radiance or irradiance.");
   add_sky_options(*command, *options);
   command->footer(
       "Prints every combination of the lists. A LIST is a,b,c or "
@@ -232,10 +208,15 @@ void add_sky_command(CLI::App& app) {
       "Light is diffuse, that reflected by the ground included, the sun's "
       "disc not, the sun at 1 au.\n"
       "\n"
+      "--sigma is sqrt(J C J'), J the exact derivatives by the fitted parameters and C the\n"
+      "covariance in the preset. Parameters that were fixed or at a bound contribute nothing, nor\n"
+      "does the luminance scale, which a fit to relative luminances leaves free.\n"
+      "\n"
       "Examples:\n"
       "  skyfit sky --preset earth-clear --sun-zenith-deg 30 --view-zenith-deg 0:85:5 "
       "--azimuth-deg 0,180\n"
-      "  skyfit sky --preset fitted/preset.json --sun-zenith-deg 0:80:10 --irradiance");
+      "  skyfit sky --preset fitted/preset.json --sun-zenith-deg 0:80:10 --irradiance --sigma\n"
+      "  skyfit sky --preset earth-clear --sun-zenith-deg 88 --view-zenith-deg 85 --color");
   command->callback([options] { run_sky(*options); });
 }
 

@@ -21,8 +21,6 @@ namespace skyfit::fit {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr int kNodes = 4;                  // of the luminance rule; 0.001 % (physics: photometry.h)
-constexpr int kCoarseNodes = 2;            // while searching among the starts
 constexpr int kCoarseIterations = 15;      // what does not settle by then is compared as it is
 constexpr double kCoarseTolerance = 1e-3;  // relative change of the cost
 constexpr double kTolerance = 1e-7;
@@ -33,7 +31,7 @@ struct Task {
   const refs::Reference& reference;
   const SkyModel& model;
   const FitOptions& options;
-  LuminanceRule rule, coarse_rule;
+  LuminanceRule rule, coarse_rule;  // the latter while searching among the starts
   Observations observations;
   Atmosphere<double> start;  // as given
   std::vector<FreeParameter> parameters;
@@ -77,8 +75,8 @@ Task make_task(const refs::Reference& reference, const SpectralData& spectra, co
   Task task{reference,
             model,
             options,
-            luminance_rule(spectra, kNodes),
-            luminance_rule(spectra, kCoarseNodes),
+            luminance_rule(spectra),
+            coarse_luminance_rule(spectra),
             observe(reference, options.exclude_sun),
             start_atmosphere(options),
             {},

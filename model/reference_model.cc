@@ -11,8 +11,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "model/gauss.h"
-#include "model/parameter_field.h"
 #include "model/single_scattering.h"
 #include "model/sky_solution.h"
 
@@ -151,58 +149,6 @@ SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
                ? solve<0>(atmosphere, wavelengths, points, derivatives, options_)
                : solve<kParameterCount>(atmosphere, wavelengths, points, derivatives, options_);
   });
-}
-
-// The diffuse part is the integral of the radiance over the upper hemisphere in polar coordinates
-// about the sun, where the aureole is: polar angle pi x^2, azimuth over the arc above the horizon,
-// both by Gauss's rule.
-SkyIrradiance ReferenceModel::irradiance(const Atmosphere<double>& atmosphere,
-                                         std::span<const WavelengthNode> wavelengths,
-                                         double altitude_m, double sun_zenith) const {
-  constexpr int kPolar = 40, kAzimuth = 24;
-  const GaussRule polar = gauss_legendre(kPolar), azimuth = gauss_legendre(kAzimuth);
-  const double cs = std::cos(sun_zenith), ss = std::sin(sun_zenith);
-  std::vector<SkyPoint> points;
-  std::vector<double> weights;
-  for (int i = 0; i < kPolar; ++i) {
-    const double x = polar.node[i], theta = std::numbers::pi * x * x;
-    const double c = std::cos(theta), s = std::sin(theta);
-    // cos zenith = c cs + s ss cos(a); above the horizon where cos(a) > -c cs / (s ss)
-    const double limit = s * ss > 1e-12 ? -c * cs / (s * ss) : (c * cs > 0 ? -1.0 : 1.0);
-    const double arc = std::acos(std::clamp(limit, -1.0, 1.0));
-    for (int k = 0; arc > 0 && k < kAzimuth; ++k) {
-      const double a = arc * azimuth.node[k];
-      const double mu = std::clamp(c * cs + s * ss * std::cos(a), 0.0, 1.0);
-      // The view's horizontal components: toward the sun's azimuth, and across.
-      points.push_back({altitude_m, sun_zenith, std::acos(mu),
-                        std::atan2(s * std::sin(a), c * ss - s * cs * std::cos(a))});
-      weights.push_back(2 * arc * azimuth.weight[k] * polar.weight[i] * 2 * std::numbers::pi * x *
-                        s * mu);
-    }
-  }
-  const SkyValues sky = radiance(atmosphere, wavelengths, points, {});
-  const Shells shells = shells_of(atmosphere);
-  const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, cs);
-  const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
-  SkyIrradiance result;
-  for (int w = 0; w < sky.wavelengths; ++w) {
-    double diffuse = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      diffuse += weights[i] * sky.at(static_cast<int>(i), w);
-    double direct = to_sun.hits_ground ? 0 : 1;
-    if (direct > 0 && to_sun.length > 0) {
-      const PathColumns columns =
-          columns_along(shells, to_sun, ray_point(to_sun, shells.bottom_radius, to_sun.length));
-      Optics<0> optics = optics_at(plain, wavelengths[w], options_.moments);
-      optics.aerosol_extinction = optics.aerosol_extinction_true;  // the beam itself, nothing cut
-      direct = std::exp(-optics.optical_depth(columns).v);
-    }
-    result.direct_normal.push_back(direct);
-    result.direct_horizontal.push_back(direct * std::max(cs, 0.0));
-    result.diffuse_horizontal.push_back(diffuse);
-    result.global_horizontal.push_back(result.direct_horizontal.back() + diffuse);
-  }
-  return result;
 }
 
 }  // namespace skyfit

@@ -36,14 +36,15 @@ struct SkyValues {
   }
 };
 
-// Irradiances per unit solar irradiance at the top of the atmosphere (pure numbers) for one
-// observer and one sun, one value per wavelength.
-struct SkyIrradiance {
-  std::vector<double> direct_normal;      // the sun's beam on a surface that faces it
-  std::vector<double> direct_horizontal;  // direct_normal * cos(sun zenith), 0 when the sun is down
-  std::vector<double> diffuse_horizontal;  // sky on a horizontal surface that faces up
-  std::vector<double> global_horizontal;   // direct + diffuse
+// The irradiances of one observer under one sun, per unit solar irradiance at the top of the
+// atmosphere (pure numbers).
+enum Irradiance : int {
+  kDirectNormal,       // the sun's beam on a surface that faces it
+  kDirectHorizontal,   // direct normal * cos(sun zenith), 0 when the sun is down
+  kDiffuseHorizontal,  // sky on a horizontal surface that faces up
+  kGlobalHorizontal,   // direct + diffuse
 };
+inline constexpr int kIrradianceCount = 4;
 
 class SkyModel {
  public:
@@ -59,9 +60,10 @@ class SkyModel {
                              std::span<const SkyPoint> points,
                              std::span<const Parameter> derivatives) const = 0;
 
-  virtual SkyIrradiance irradiance(const Atmosphere<double>& atmosphere,
-                                   std::span<const WavelengthNode> wavelengths, double altitude_m,
-                                   double sun_zenith) const = 0;
+  // The values of Irradiance, in its order, as the points of SkyValues. Throws as radiance() does.
+  virtual SkyValues irradiance(const Atmosphere<double>& atmosphere,
+                               std::span<const WavelengthNode> wavelengths, double altitude_m,
+                               double sun_zenith, std::span<const Parameter> derivatives) const = 0;
 };
 
 // The names that make_sky_model accepts.

@@ -104,8 +104,8 @@ void run_notebook(notebook::Page& page) {
       sky.push_back({0, sun_zenith, std::acos(std::sqrt((row + 0.5) / rows)),
                      2 * std::numbers::pi * (column + 0.5) / columns});
   const SkyValues radiance = model->radiance(published.atmosphere, rule.nodes, sky, {});
-  const SkyIrradiance irradiance =
-      model->irradiance(published.atmosphere, rule.nodes, 0, sun_zenith);
+  const SkyValues irradiance =
+      model->irradiance(published.atmosphere, rule.nodes, 0, sun_zenith, {});
 
   double summed = 0, stated = 0;
   for (int node = 0; node < radiance.wavelengths; ++node) {
@@ -113,7 +113,7 @@ void run_notebook(notebook::Page& page) {
     for (int point = 0; point < radiance.points; ++point)
       mean += radiance.at(point, node) / radiance.points;
     summed += rule.weight[node] * std::numbers::pi * mean;
-    stated += rule.weight[node] * irradiance.diffuse_horizontal[node];
+    stated += rule.weight[node] * irradiance.at(kDiffuseHorizontal, node);
   }
   std::cout << fmt::format("diffuse horizontal illuminance, sun zenith 50 deg, preset {}\n",
                            published.name);

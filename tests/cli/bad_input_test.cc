@@ -168,8 +168,27 @@ TEST_F(BadInputTest, Wavelengths) {
       {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--wavelength-nm", "550", "--luminance"},
       {"--luminance"});
   expect_sky_refusal(
-      {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--luminance", "--irradiance"},
-      {"--luminance"});
+      {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--wavelength-nm", "550", "--color"},
+      {"--color", "expected without --wavelength-nm"});
+}
+
+TEST_F(BadInputTest, OneKindOfValue) {
+  const std::vector<std::string> kinds = {"--luminance", "--color", "--irradiance"};
+  for (const std::string& first : kinds) {
+    for (const std::string& second : kinds) {
+      if (first == second) continue;
+      expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", first, second},
+                         {first, second});
+    }
+  }
+}
+
+TEST_F(BadInputTest, Altitudes) {
+  for (const char* altitude : {"high", "-5", "nan", "inf", "1e13", "0:10:-1", ""}) {
+    expect_sky_refusal(
+        {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--altitude-m", altitude},
+        {"--altitude-m", altitude});
+  }
 }
 
 TEST_F(BadInputTest, FitOptions) {

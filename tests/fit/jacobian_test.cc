@@ -17,7 +17,7 @@ class JacobianTest : public testing::TestWithParam<int> {};
 TEST_P(JacobianTest, EqualsCentralDifferences) {
   const int lobes = GetParam();
   const ToySky model;
-  const LuminanceRule rule = luminance_rule(refs::standard_spectral_data(), 4);
+  const LuminanceRule rule = luminance_rule(refs::standard_spectral_data());
   refs::Reference reference = synthetic_reference(true_atmosphere(lobes), 0.1);
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {
     reference.samples[i].weight = 1 + 0.1 * static_cast<double>(i % 7);

@@ -49,7 +49,7 @@ inline refs::Reference synthetic_reference(const Atmosphere<double>& atmosphere,
     }
   }
   const Luminance luminance = model_luminance(
-      ToySky(), luminance_rule(refs::standard_spectral_data(), 4), atmosphere, points, {});
+      ToySky(), luminance_rule(refs::standard_spectral_data()), atmosphere, points, {});
   std::mt19937 generator(12);
   std::normal_distribution<double> normal(0, noise);
   for (std::size_t i = 0; i < points.size(); ++i) {

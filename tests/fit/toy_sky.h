@@ -56,8 +56,8 @@ class ToySky : public SkyModel {
     return sky;
   }
 
-  SkyIrradiance irradiance(const Atmosphere<double>&, std::span<const WavelengthNode>, double,
-                           double) const override {
+  SkyValues irradiance(const Atmosphere<double>&, std::span<const WavelengthNode>, double, double,
+                       std::span<const Parameter>) const override {
     throw std::logic_error("the toy sky has no irradiance");
   }
 

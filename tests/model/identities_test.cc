@@ -190,33 +190,6 @@ TEST(Reference, NoAtmosphereIsBlackSkyAndLambertGround) {
   EXPECT_NEAR(radiance(a, {1000, 0.5, kPi, 0}), 0.3 / kPi * std::cos(0.5), 1e-6);
 }
 
-TEST(Reference, IrradianceIsTheSunsAndTheSkys) {
-  const Atmosphere<double> a;
-  const double sun = 40 * kDegree;
-  const SkyIrradiance e = make_sky_model("reference", 2)->irradiance(a, {&kGreen, 1}, 0, sun);
-  EXPECT_DOUBLE_EQ(e.direct_horizontal[0], e.direct_normal[0] * std::cos(sun));
-  EXPECT_DOUBLE_EQ(e.global_horizontal[0], e.direct_horizontal[0] + e.diffuse_horizontal[0]);
-  const double depth = (1.216e-5 * 8000 + 2.2e-5 / 0.9 * 1200) / std::cos(sun);
-  constexpr double kCurvature = 1e-3;
-  EXPECT_NEAR(e.direct_normal[0], std::exp(-depth), kCurvature);
-  // The sky by a plain grid of zenith and azimuth.
-  std::vector<SkyPoint> points;
-  std::vector<double> weights;
-  const GaussRule rule = gauss_legendre(60);
-  for (int i = 0; i < 60; ++i) {
-    for (int k = 0; k < 60; ++k) {
-      const double zenith = 0.5 * kPi * rule.node[i];
-      points.push_back({0, sun, zenith, kPi * rule.node[k]});
-      weights.push_back(kPi * kPi * rule.weight[i] * rule.weight[k] * std::sin(zenith) *
-                        std::cos(zenith));
-    }
-  }
-  const SkyValues sky = make_sky_model("reference", 2)->radiance(a, {&kGreen, 1}, points, {});
-  double sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) sum += weights[i] * sky.value[i];
-  EXPECT_NEAR(e.diffuse_horizontal[0] / sum, 1, 0.003);
-}
-
 TEST(Reference, RefusesWhatItCannotDo) {
   const auto model = make_sky_model("reference", 1);
   const SkyPoint below{-1, 0, 0, 0};

@@ -35,8 +35,8 @@ class CosineSky : public SkyModel {
                           1.1 + std::cos(point.view_zenith));
     return values;
   }
-  SkyIrradiance irradiance(const Atmosphere<double>&, std::span<const WavelengthNode>, double,
-                           double) const override {
+  SkyValues irradiance(const Atmosphere<double>&, std::span<const WavelengthNode>, double, double,
+                       std::span<const Parameter>) const override {
     return {};
   }
 };

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The CSV of `skyfit sky`: which values it prints of a place, and with which uncertainty.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fit/preset_record.h"
+#include "model/sky_model.h"
+
+namespace skyfit::cli {
+
+// sum_k weight[k] * (value at node first_node + k).
+struct NodeSum {
+  std::size_t first_node = 0;
+  std::vector<double> weight;
+};
+
+// One line of a place: its first fields, and what it prints of each of the place's points.
+struct SkyLine {
+  std::string prefix;
+  std::vector<NodeSum> sums;
+};
+
+// A place is a direction of the sky (one point), or an observer's horizontal plane (one point per
+// irradiance). It has one line, or one per wavelength.
+struct SkyTable {
+  std::string prefix_columns;        // of the prefixes of the lines
+  std::vector<std::string> columns;  // of the values of a line: points x sums
+  std::vector<WavelengthNode> nodes;
+  std::vector<SkyLine> lines;
+  std::optional<fit::FittedCovariance> covariance;  // prints one sigma after each value
+
+  std::vector<Parameter> derivatives() const {
+    return covariance ? covariance->parameters : std::vector<Parameter>{};
+  }
+};
+
+SkyTable luminance_table(const SpectralData& data);
+SkyTable color_table(const SpectralData& data);
+SkyTable radiance_table(const SpectralData& data, const std::vector<double>& wavelengths_nm);
+SkyTable illuminance_table(const SpectralData& data);
+SkyTable irradiance_table(const SpectralData& data, const std::vector<double>& wavelengths_nm);
+
+// `place` names the columns of a place, with a comma at its end; so do the fields of
+// append_place().
+std::string header(const SkyTable& table, std::string_view place);
+
+// The lines of the place whose points are first .. first + count - 1 of `sky`.
+void append_place(const SkyTable& table, std::string_view place, const SkyValues& sky, int first,
+                  int count, fmt::memory_buffer& out);
+
+}  // namespace skyfit::cli

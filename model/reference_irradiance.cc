@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Irradiances of the reference model: the integral of its radiance, and the sun's beam.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/gauss.h"
+#include "model/parameter_field.h"
+#include "model/sky_solution.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Directions and weights whose weighted sum of radiances is the irradiance of a horizontal surface.
+struct Hemisphere {
+  std::vector<SkyPoint> points;
+  std::vector<double> weights;
+};
+
+// Gauss's rule in zenith angle, above and below the sun (or the horizon, where the sun is down),
+// and in azimuth, both gathered where the aureole is by the cube of the variable. Rings share a
+// zenith angle, which is what a solution costs most for.
+Hemisphere upper_hemisphere(double altitude_m, double sun_zenith) {
+  constexpr int kRings = 16, kAzimuths = 32;
+  const GaussRule ring = gauss_legendre(kRings), azimuth = gauss_legendre(kAzimuths);
+  const double peak = std::min(sun_zenith, 0.5 * kPi);
+  Hemisphere hemisphere;
+  for (const double reach : {-peak, 0.5 * kPi - peak}) {
+    for (int i = 0; reach != 0 && i < kRings; ++i) {
+      const double x = ring.node[i], zenith = peak + reach * x * x * x;
+      const double band =
+          ring.weight[i] * 3 * x * x * std::abs(reach) * std::sin(zenith) * std::cos(zenith);
+      for (int k = 0; k < kAzimuths; ++k) {
+        const double y = azimuth.node[k];
+        hemisphere.points.push_back({altitude_m, sun_zenith, zenith, kPi * y * y * y});
+        hemisphere.weights.push_back(band * 2 * kPi * 3 * y * y * azimuth.weight[k]);
+      }
+    }
+  }
+  return hemisphere;
+}
+
+using DualIrradiance = Dual<kParameterCount>;
+
+// exp(-optical depth) toward the sun, the beam itself: nothing of the forward peak is cut off.
+std::vector<DualIrradiance> direct_beam(const Atmosphere<double>& atmosphere,
+                                        std::span<const WavelengthNode> wavelengths,
+                                        double altitude_m, double mu_s,
+                                        std::span<const Parameter> derivatives, int moments) {
+  Shells shells = shells_of(atmosphere);
+  shells.ozone = true;  // for its derivative where there is none
+  const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, mu_s);
+  if (to_sun.hits_ground) return std::vector<DualIrradiance>(wavelengths.size());
+  PathColumns columns;
+  if (to_sun.length > 0) {
+    columns = columns_along(shells, to_sun, ray_point(to_sun, shells.bottom_radius, to_sun.length));
+  }
+  const auto seeded_atmosphere = seeded<kParameterCount>(atmosphere, derivatives);
+  std::vector<DualIrradiance> beam;
+  for (const WavelengthNode& node : wavelengths) {
+    auto optics = optics_at(seeded_atmosphere, node, moments);
+    optics.aerosol_extinction = optics.aerosol_extinction_true;
+    beam.push_back(exp(-optics.optical_depth(columns)));
+  }
+  return beam;
+}
+
+// The integral of the radiances at one wavelength.
+DualIrradiance diffuse_of(const Hemisphere& hemisphere, const SkyValues& sky, int wavelength) {
+  DualIrradiance sum;
+  for (int i = 0; i < sky.points; ++i) {
+    sum.v += hemisphere.weights[i] * sky.at(i, wavelength);
+    for (int p = 0; p < sky.parameters; ++p) {
+      sum.d[p] += hemisphere.weights[i] * sky.derivative_at(p, i, wavelength);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+SkyValues ReferenceModel::irradiance(const Atmosphere<double>& atmosphere,
+                                     std::span<const WavelengthNode> wavelengths, double altitude_m,
+                                     double sun_zenith,
+                                     std::span<const Parameter> derivatives) const {
+  const Hemisphere hemisphere = upper_hemisphere(altitude_m, sun_zenith);
+  const SkyValues sky = radiance(atmosphere, wavelengths, hemisphere.points, derivatives);
+  const double mu_s = std::cos(sun_zenith);
+  const auto beam =
+      direct_beam(atmosphere, wavelengths, altitude_m, mu_s, derivatives, options_.moments);
+  SkyValues result{kIrradianceCount, sky.wavelengths, sky.parameters, {}, {}};
+  result.value.resize(static_cast<std::size_t>(result.points) * result.wavelengths);
+  result.derivative.resize(result.value.size() * result.parameters);
+  for (int w = 0; w < result.wavelengths; ++w) {
+    const DualIrradiance horizontal = std::max(mu_s, 0.0) * beam[w];
+    const DualIrradiance diffuse = diffuse_of(hemisphere, sky, w);
+    const auto put = [&](Irradiance which, const DualIrradiance& value) {
+      const std::size_t at = static_cast<std::size_t>(which) * result.wavelengths + w;
+      result.value[at] = value.v;
+      for (int p = 0; p < result.parameters; ++p) {
+        result.derivative[p * result.value.size() + at] = value.d[p];
+      }
+    };
+    put(kDirectNormal, beam[w]);
+    put(kDirectHorizontal, horizontal);
+    put(kDiffuseHorizontal, diffuse);
+    put(kGlobalHorizontal, horizontal + diffuse);
+  }
+  return result;
+}
+
+}  // namespace skyfit

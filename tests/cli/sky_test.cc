@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit sky --color` is the sum over the spectrum that `skyfit sky --wavelength-nm` prints, and
+// `--sigma` is what a covariance of the parameters makes of numerical derivatives of the values.
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "data_refs/references.h"
+#include "data_refs/spectra.h"
+#include "tests/cli/program.h"
+
+namespace skyfit::cli {
+namespace {
+
+using nlohmann::json;
+
+// The columns of a CSV by their names.
+using Columns = std::map<std::string, std::vector<double>>;
+
+class SkyTest : public ProgramTest {
+ protected:
+  Columns sky(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "sky");
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const auto rows = lines(outcome.out);
+    const auto names = fields(rows.at(0));
+    Columns columns;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const auto row = fields(rows[i]);
+      EXPECT_EQ(row.size(), names.size());
+      for (std::size_t k = 0; k < row.size(); ++k) columns[names[k]].push_back(std::stod(row[k]));
+    }
+    return columns;
+  }
+
+  // earth-clear with two fields replaced, and a fit section with the covariance of the two.
+  void write_preset(const std::string& name, double scattering, double albedo,
+                    const json& matrix) const {
+    json preset = json::parse(refs::shipped_preset_json("earth-clear"));
+    preset["mie"]["scattering_per_m"]["value"] = scattering;
+    preset["ground"]["albedo"] = albedo;
+    preset["fit"]["covariance"] = {{"parameters", {"ground.albedo", "mie.scattering"}},
+                                   {"matrix", matrix}};
+    write(name, preset.dump());
+  }
+};
+
+TEST_F(SkyTest, ColorIsTheSumOverTheSpectrum) {
+  const std::vector<std::string> where = {"--preset", "earth-clear",       "--sun-zenith-deg",
+                                          "88",       "--view-zenith-deg", "85"};
+  auto spectral = where, color = where;
+  spectral.insert(spectral.end(), {"--wavelength-nm", "380:780:5"});
+  color.emplace_back("--color");
+  const Columns spectrum = sky(spectral), found = sky(color), luminance = sky(where);
+  const SpectralData& data = refs::standard_spectral_data();
+  std::array<double, 3> xyz{};
+  for (std::size_t i = 0; i < spectrum.at("wavelength_nm").size(); ++i) {
+    const double nm = spectrum.at("wavelength_nm")[i];
+    const double power =
+        683.002 * 5 * data.solar_irradiance.at(nm) * spectrum.at("radiance_per_irradiance_sr")[i];
+    xyz[0] += power * data.x_bar.at(nm);
+    xyz[1] += power * data.y_bar.at(nm);
+    xyz[2] += power * data.z_bar.at(nm);
+  }
+  constexpr double kRule = 1.5e-3;  // model/photometry.h
+  const std::array<double, 3> printed = {found.at("X_cd_m2")[0], found.at("Y_cd_m2")[0],
+                                         found.at("Z_cd_m2")[0]};
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(printed[c] / xyz[c], 1, kRule) << c;
+  EXPECT_NEAR(printed[1] / luminance.at("luminance_cd_m2")[0], 1, kRule);
+  // Red of IEC 61966-2-1.
+  EXPECT_NEAR(found.at("R_cd_m2")[0],
+              3.2404542 * printed[0] - 1.5371385 * printed[1] - 0.4985314 * printed[2],
+              1e-7 * printed[1]);
+}
+
+// Values at parameters one step up and down give the gradient g; sigma^2 = g C g.
+TEST_F(SkyTest, SigmaIsThatOfANumericalPropagation) {
+  constexpr double kScattering = 3e-5, kAlbedo = 0.2, kStep = 1e-3;
+  constexpr double kDifference = 1e-4;  // nine digits over the step, and the step's square
+  const double variance_albedo = 0.0025, variance_scattering = 1e-10, covariance = -2.5e-7;
+  const json matrix = {{variance_albedo, covariance}, {covariance, variance_scattering}};
+  write_preset("fitted.json", kScattering, kAlbedo, matrix);
+  write_preset("more-aerosol.json", kScattering * (1 + kStep), kAlbedo, matrix);
+  write_preset("less-aerosol.json", kScattering * (1 - kStep), kAlbedo, matrix);
+  write_preset("more-albedo.json", kScattering, kAlbedo * (1 + kStep), matrix);
+  write_preset("less-albedo.json", kScattering, kAlbedo * (1 - kStep), matrix);
+  for (const std::vector<std::string>& what :
+       std::vector<std::vector<std::string>>{{"--luminance"},
+                                             {"--color"},
+                                             {"--wavelength-nm", "450,600"},
+                                             {"--irradiance"},
+                                             {"--irradiance", "--wavelength-nm", "550"}}) {
+    const auto values = [&](const std::string& preset, bool sigma) {
+      std::vector<std::string> arguments = {
+          "--preset",          preset, "--sun-zenith-deg", "40,70",
+          "--view-zenith-deg", "30",   "--azimuth-deg",    "20"};
+      arguments.insert(arguments.end(), what.begin(), what.end());
+      if (sigma) arguments.emplace_back("--sigma");
+      return sky(arguments);
+    };
+    const Columns with = values("fitted.json", true), plain = values("fitted.json", false);
+    const Columns up_m = values("more-aerosol.json", false),
+                  down_m = values("less-aerosol.json", false),
+                  up_a = values("more-albedo.json", false),
+                  down_a = values("less-albedo.json", false);
+    int checked = 0;
+    for (const auto& [name, value] : plain) {
+      EXPECT_EQ(with.at(name).size(), value.size());
+      if (!with.contains("sigma_" + name)) continue;
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        const double by_m = (up_m.at(name)[i] - down_m.at(name)[i]) / (2 * kStep * kScattering);
+        const double by_a = (up_a.at(name)[i] - down_a.at(name)[i]) / (2 * kStep * kAlbedo);
+        const double sigma =
+            std::sqrt(by_a * by_a * variance_albedo + by_m * by_m * variance_scattering +
+                      2 * by_a * by_m * covariance);
+        EXPECT_NEAR(with.at("sigma_" + name)[i], sigma, kDifference * value[i]) << name;
+        EXPECT_GT(sigma, 10 * kDifference * value[i]) << name;
+        ++checked;
+      }
+    }
+    EXPECT_EQ(static_cast<std::size_t>(checked) / plain.begin()->second.size(),
+              with.size() - plain.size());
+    EXPECT_GT(checked, 0);
+  }
+}
+
+TEST_F(SkyTest, NoCovarianceNoSigma) {
+  write_preset("fitted.json", 3e-5, 0.2, {{0, 0}, {0, 0}});
+  const Columns columns =
+      sky({"--preset", "fitted.json", "--sun-zenith-deg", "40", "--irradiance", "--sigma"});
+  EXPECT_EQ(columns.size(), 2u + 2 * 4);
+  for (const auto& [name, value] : columns) {
+    if (name.starts_with("sigma_")) {
+      EXPECT_EQ(value[0], 0) << name;
+    }
+  }
+}
+
+TEST_F(SkyTest, SigmaNeedsACovariance) {
+  const auto refuse = [&](const std::string& preset, const std::vector<std::string>& texts) {
+    expect_refusal({"sky", "--preset", preset, "--sun-zenith-deg", "40", "--irradiance", "--sigma"},
+                   texts);
+  };
+  refuse("earth-clear", {"earth-clear", "fit.covariance is missing", "skyfit fit"});
+  write_preset("null.json", 3e-5, 0.2, nullptr);
+  refuse("null.json", {"null.json", "fit.covariance.matrix", "expected 2 rows of 2 numbers"});
+  write_preset("narrow.json", 3e-5, 0.2, {{1, 2}, {3}});
+  refuse("narrow.json", {"narrow.json", "fit.covariance.matrix", "expected 2 rows of 2 numbers"});
+  write_preset("endless.json", 3e-5, 0.2, {{nullptr, 0}, {0, 1}});
+  refuse("endless.json", {"fit.covariance.matrix[0][0] = null", "ground.albedo", "prior"});
+  write_preset("negative.json", 3e-5, 0.2, {{1, 0}, {0, -1}});
+  refuse("negative.json", {"fit.covariance.matrix[1][1] = -1", ">= 0"});
+  json preset = json::parse(read("negative.json"));
+  preset["fit"]["covariance"]["parameters"] = {"mie.phase.g1", "mie.beta"};
+  write("names.json", preset.dump());
+  refuse("names.json", {"fit.covariance.parameters", "mie.phase.g1"});
+}
+
+}  // namespace
+}  // namespace skyfit::cli
