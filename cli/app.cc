@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 
@@ -55,12 +56,16 @@ int run(int argc, char** argv) {
     return kSuccess;
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
+  } catch (const CLI::ConversionError& error) {
+    return fail(kUsage, std::string(error.what()) + ": expected a whole number");
   } catch (const CLI::ParseError& error) {
     return fail(kUsage, std::string(error.what()) + " (see skyfit --help)");
   } catch (const UsageError& error) {
     return fail(kUsage, error.what());
   } catch (const std::bad_alloc&) {
     return fail(kFailure, "not enough memory for what was asked");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(kFailure, error.path1().string() + ": " + error.code().message());
   } catch (const std::exception& error) {
     return fail(kFailure, error.what());
   }

@@ -129,6 +129,7 @@ ImageSize parse_image_size(std::string_view option, std::string_view text) {
 std::vector<Parameter> parse_parameters(std::string_view option, std::string_view text) {
   std::vector<Parameter> parameters;
   for (const std::string_view name : split(text, ',')) {
+    if (trimmed(name).empty()) throw UsageError(option, text, "expected names of parameters");
     try {
       parameters.push_back(parameter_from_name(trimmed(name)));
     } catch (const std::invalid_argument& error) {

@@ -71,8 +71,9 @@ std::string line_of(const nlohmann::json& summary) {
 
 void run_check(const std::string& file, bool json) {
   if (!std::filesystem::is_regular_file(file)) {
-    throw std::runtime_error(fmt::format(
-        "{}: expected a preset (.json) or samples (.csv), there is no such file", file));
+    throw std::runtime_error(
+        fmt::format("{}: expected a preset (.json) or samples (.csv), {}", file,
+                    std::filesystem::exists(file) ? "this is no file" : "there is no such file"));
   }
   const nlohmann::json summary =
       looks_like_json(file) ? summary_of_preset(file) : summary_of_samples(file);

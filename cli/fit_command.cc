@@ -33,16 +33,16 @@ struct FitCommandOptions {
   bool no_priors = false, force = false, json = false;
 };
 
-fit::FitOptions fit_options(const FitCommandOptions& options) {
+fit::FitOptions fit_options(const FitCommandOptions& options, const CLI::App& command) {
   fit::FitOptions result;
   result.lobes = options.lobes;
   result.starts = options.starts;
   result.max_iterations = options.max_iterations;
   result.exclude_sun = radians(parse_number("--exclude-sun-deg", options.exclude_sun));
   result.threads = options.threads;
-  if (!options.preset.empty()) result.start = preset_named(options.preset);
+  if (command.count("--preset") > 0) result.start = preset_named(options.preset);
   result.site_pressure_hpa = parse_site_pressure(options.site_pressure);
-  if (!options.free.empty()) result.free = parse_parameters("--free", options.free);
+  if (command.count("--free") > 0) result.free = parse_parameters("--free", options.free);
   result.fix = parse_fixed("--fix", options.fix);
   result.priors = parse_priors("--prior", options.prior);
   result.use_priors = !options.no_priors;
@@ -79,7 +79,7 @@ void run_fit(const FitCommandOptions& options, const CLI::App& command) {
       options.out,
       {kPresetFile, kReportFile, kReportTextFile, kSamplesFile, kFigureFiles[0], kFigureFiles[1]},
       options.force);
-  const fit::FitOptions how = fit_options(options);
+  const fit::FitOptions how = fit_options(options, command);
   const refs::Reference reference = refs::load_reference(
       options.reference, parse_sun_zeniths(options.sun_zenith), parse_sampling(options.sampling));
   warn_of_unused_sampling(command, options.reference);

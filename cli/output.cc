@@ -12,8 +12,11 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 #include <system_error>
+
+#include "cli/arguments.h"
 
 namespace skyfit::cli {
 namespace fs = std::filesystem;
@@ -62,6 +65,12 @@ fs::path resolved(const fs::path& path) {
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
+// "a, b or c"
+std::string either(const std::vector<std::string>& words) {
+  const auto last = words.end() - 1;
+  return fmt::format("{} or {}", fmt::join(words.begin(), last, ", "), *last);
+}
+
 // What mkdir(2) would give a new directory, instead of the 0700 of a temporary one.
 void give_usual_permissions(const fs::path& directory) {
   const mode_t mask = umask(0);
@@ -92,6 +101,20 @@ void require_writable_file(const fs::path& file) {
   const fs::path path = resolved(file);
   if (!fs::exists(path.parent_path())) fail(file, "cannot be written: its folder does not exist");
   const StagingDirectory probe(file, path);
+}
+
+void require_output_files(const std::vector<std::string>& files,
+                          const std::vector<std::string>& extensions) {
+  std::set<fs::path> seen;
+  for (const std::string& file : files) {
+    if (std::ranges::count(extensions, fs::path(file).extension().string()) == 0) {
+      throw UsageError("--out", file, "expected a name that ends in " + either(extensions));
+    }
+    require_writable_file(file);
+    if (!seen.insert(resolved(file)).second) {
+      throw UsageError("--out", file, "expected each file once");
+    }
+  }
 }
 
 ResultDirectory::ResultDirectory(fs::path directory, std::vector<std::string> names, bool force)

@@ -14,6 +14,11 @@ namespace skyfit::cli {
 // nothing behind. Called before long work whose result goes there.
 void require_writable_file(const std::filesystem::path& file);
 
+// The same for every file of --out; throws UsageError where a name ends in none of `extensions` or
+// a file is named twice.
+void require_output_files(const std::vector<std::string>& files,
+                          const std::vector<std::string>& extensions);
+
 // A directory for a result that consists of known files.
 class ResultDirectory {
  public:

@@ -2,7 +2,6 @@
 // `skyfit plot`: the comparison figure of one or several finished fits.
 #include <memory>
 
-#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
@@ -20,13 +19,7 @@ struct PlotOptions {
 };
 
 void run_plot(const PlotOptions& options) {
-  for (const std::string& file : options.out) {
-    const std::string extension = std::filesystem::path(file).extension().string();
-    if (extension != ".svg" && extension != ".png" && extension != ".pdf") {
-      throw UsageError("--out", file, "expected a name that ends in .svg, .png or .pdf");
-    }
-    require_writable_file(file);
-  }
+  require_output_files(options.out, {".svg", ".png", ".pdf"});
   std::vector<plot::FitOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(plot::read_fit_outcome(directory));

@@ -2,6 +2,7 @@
 // `skyfit render`: a frame of the planet under a preset's atmosphere.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "cli/arguments.h"
@@ -18,6 +19,7 @@ namespace skyfit::cli {
 namespace {
 
 constexpr double kTablesShare = 0.8;  // of the time that a frame takes
+constexpr double kMaxStops = 50;      // 2^50: from the darkest night to the sun's disc and beyond
 
 struct RenderOptions {
   std::string preset, view = "ground", size = "1280x720", sun_zenith;
@@ -32,7 +34,8 @@ double parse_angle(std::string_view option, const std::string& text, double lowe
   return radians(values.front());
 }
 
-FrameOptions frame_options(const RenderOptions& options) {
+FrameOptions frame_options(const RenderOptions& options, const CLI::App& command) {
+  const auto given = [&](const char* option) { return command.count(option) > 0; };
   const NamedView& view = find_view(options.view);
   const ImageSize size = parse_image_size("--size", options.size);
   FrameOptions frame;
@@ -41,30 +44,27 @@ FrameOptions frame_options(const RenderOptions& options) {
   frame.camera = view.camera;
   frame.sun_zenith = view.sun_zenith;
   frame.samples_per_side = options.samples_per_side;
-  if (!options.sun_zenith.empty())
+  if (given("--sun-zenith-deg"))
     frame.sun_zenith = parse_angle("--sun-zenith-deg", options.sun_zenith, 0, 180);
-  if (!options.altitude.empty())
+  if (given("--altitude-m"))
     frame.camera.altitude_m = parse_number("--altitude-m", options.altitude);
-  if (!options.view_zenith.empty()) {
+  if (given("--view-zenith-deg")) {
     frame.camera.view_zenith = parse_angle("--view-zenith-deg", options.view_zenith, 0, 180);
   }
-  if (!options.azimuth.empty())
+  if (given("--azimuth-deg"))
     frame.camera.azimuth = parse_angle("--azimuth-deg", options.azimuth, -360, 360);
-  if (!options.field_of_view.empty()) {
-    frame.camera.vertical_fov = parse_angle("--field-of-view-deg", options.field_of_view, 0.1, 170);
+  if (given("--field-of-view-deg")) {
+    frame.camera.vertical_fov = parse_angle("--field-of-view-deg", options.field_of_view, 1, 150);
   }
   validate(frame);
   return frame;
 }
 
-void check_outputs(const std::vector<std::string>& files) {
-  for (const std::string& file : files) {
-    const std::string extension = std::filesystem::path(file).extension().string();
-    if (extension != ".png" && extension != ".exr") {
-      throw UsageError("--out", file, "expected a name that ends in .png or .exr");
-    }
-    require_writable_file(file);
-  }
+ToneOptions tone_options(const std::string& stops) {
+  ToneOptions tone{parse_number("--exposure-stops", stops)};
+  if (std::abs(tone.exposure_stops) <= kMaxStops) return tone;
+  throw UsageError("--exposure-stops", stops,
+                   fmt::format("expected stops from {} to {}", -kMaxStops, kMaxStops));
 }
 
 Frame draw(const Preset& preset, const FrameOptions& frame, int threads) {
@@ -77,10 +77,10 @@ Frame draw(const Preset& preset, const FrameOptions& frame, int threads) {
   });
 }
 
-void run_render(const RenderOptions& options) {
-  const FrameOptions frame_size = frame_options(options);
-  const ToneOptions tone{parse_number("--exposure-stops", options.exposure)};
-  check_outputs(options.out);
+void run_render(const RenderOptions& options, const CLI::App& command) {
+  const FrameOptions frame_size = frame_options(options, command);
+  const ToneOptions tone = tone_options(options.exposure);
+  require_output_files(options.out, {".png", ".exr"});
   const Frame frame = draw(preset_named(options.preset), frame_size, options.threads);
   plot::WholeFiles files(
       std::vector<std::filesystem::path>(options.out.begin(), options.out.end()));
@@ -160,7 +160,7 @@ void add_render_command(CLI::App& app) {
       "\nExample: skyfit render --preset earth-clear --view ground --sun-zenith-deg 60 "
       "--size 1280x720\n"
       "           --out frame.png --out frame.exr");
-  command->callback([options] { run_render(*options); });
+  command->callback([options, command] { run_render(*options, *command); });
 }
 
 }  // namespace skyfit::cli

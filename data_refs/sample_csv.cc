@@ -78,6 +78,9 @@ class SampleReader {
     return sample;
   }
 
+  // That were met so far.
+  std::size_t scans() const { return scans_.size(); }
+
  private:
   template <class Holds>
   double checked(const CsvRecord& record, std::string_view column, std::string_view expectation,
@@ -130,10 +133,9 @@ Reference parse_sample_csv(std::string_view text, std::string_view source) {
     throw std::invalid_argument(
         fmt::format("{}: {} samples with a weight > 0, expected at least 1", source, used));
   }
-  reference.description =
-      fmt::format("{} samples of {} in {} scans from {}", reference.samples.size(),
-                  table.has(kLuminance) ? "luminance" : "relative luminance",
-                  reference.samples.back().scan + 1, source);
+  reference.description = fmt::format(
+      "{} samples of {} in {} scans from {}", reference.samples.size(),
+      table.has(kLuminance) ? "luminance" : "relative luminance", reader.scans(), source);
   return reference;
 }
 

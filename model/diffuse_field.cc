@@ -75,21 +75,10 @@ int mode_count(const Optics<N>& optics, int moments, double tolerance) {
 }
 
 void unpack(const ModePack& pack, int lane, int m, DiffuseField& field) {
-  const FieldShape& shape = field.shape;
   std::vector<double>& out = field.moments[m];
-  out.reserve(shape.levels * shape.level(m));
-  for (int i = 0; i < shape.levels; ++i) {
-    for (int l = m; l < shape.moments; ++l) {
-      for (int j = 0; j < shape.suns; ++j) {
-        for (int p = 0; p < shape.slices; ++p) out.push_back(pack.moment(lane, i, l, j, p));
-      }
-    }
-  }
-  if (m > 0) return;
-  for (int j = 0; j < shape.suns; ++j) {
-    for (int p = 0; p < shape.slices; ++p)
-      field.ground_irradiance.push_back(pack.ground_irradiance(lane, j, p));
-  }
+  out.reserve(field.shape.levels * field.shape.level(m));
+  for (int i = 0; i < field.shape.levels; ++i) pack.append_moments(lane, i, out);
+  if (m == 0) pack.append_ground_irradiance(lane, field.ground_irradiance);
 }
 
 // Steps of the iteration that couples the suns; a third changes twilight by less than 0.1 % down to

@@ -100,6 +100,16 @@ void blend(const double* __restrict near, const double* __restrict q_near,
 }
 
 SKYFIT_CLONES
+void combine(const double* __restrict a, const double* __restrict x, const double* __restrict b,
+             const double* __restrict y, double* __restrict out, std::size_t count) {
+  const Vector fa = *reinterpret_cast<const Vector*>(a), fb = *reinterpret_cast<const Vector*>(b);
+  const Vector* const vx = reinterpret_cast<const Vector*>(x);
+  const Vector* const vy = reinterpret_cast<const Vector*>(y);
+  Vector* const o = reinterpret_cast<Vector*>(out);
+  for (std::size_t i = 0; i < count; ++i) o[i] = fa * vx[i] + fb * vy[i];
+}
+
+SKYFIT_CLONES
 void add_blend(const double* __restrict near, const double* __restrict q_near,
                const double* __restrict far, const double* __restrict q_far,
                double* __restrict out, std::size_t rows, std::size_t columns) {
@@ -121,35 +131,45 @@ void layer_tangent(const LayerTangent& in, double* __restrict out, std::size_t r
     return reinterpret_cast<const Vector*>(p);
   };
   Vector* o = reinterpret_cast<Vector*>(out);
-  const Vector *dqn = at(in.dq_near), *dqf = at(in.dq_far);
+  const Vector* const aerosol[2] = {at(in.end[0].aerosol_tangent), at(in.end[1].aerosol_tangent)};
+  const Vector* const air[2] = {at(in.end[0].air_tangent), at(in.end[1].air_tangent)};
   for (std::size_t r = 0; r < rows; ++r) {
     const Vector* const depth = at(in.depth) + r * parameters;
     for (std::size_t j = 0; j < suns; ++j) {
       const std::size_t k = r * suns + j;
-      const Vector qn = at(in.q_near)[k], qf = at(in.q_far)[k];
-      const Vector g = at(in.near_slopes[0])[k] * qn + at(in.far_slopes[0])[k] * qf +
-                       at(in.near_slope)[r] * at(in.j_near)[k] +
-                       at(in.far_slope)[r] * at(in.j_far)[k] - at(in.t)[r] * at(in.x)[k];
-      const Vector g_near = at(in.near_slopes[1])[k] * qn + at(in.far_slopes[1])[k] * qf;
-      const Vector g_far = at(in.near_slopes[2])[k] * qn + at(in.far_slopes[2])[k] * qf;
-      const Vector bn = at(in.beam_near)[k], bf = at(in.beam_far)[k];
+      Vector g = -at(in.t)[r] * at(in.x)[k], g_near{}, g_far{}, of_aerosol[2], of_air[2];
+      for (int i = 0; i < 2; ++i) {
+        const LayerEndTangent& e = in.end[i];
+        const Vector da = at(e.diffuse_aerosol)[k], db = at(e.diffuse_air)[k];
+        const Vector ba = at(e.beam_aerosol)[k], bb = at(e.beam_air)[k];
+        const Vector diffuse = *at(e.aerosol) * da + *at(e.air) * db;
+        const Vector beam = *at(e.aerosol) * ba + *at(e.air) * bb;
+        g += at(e.slope)[r] * diffuse + at(e.beam_slopes[0])[k] * beam;
+        g_near += at(e.beam_slopes[1])[k] * beam;
+        g_far += at(e.beam_slopes[2])[k] * beam;
+        of_aerosol[i] = at(e.weight)[r] * da + at(e.beam)[k] * ba;
+        of_air[i] = at(e.weight)[r] * db + at(e.beam)[k] * bb;
+      }
       const Vector *sn = at(in.sun_near) + j * parameters, *sf = at(in.sun_far) + j * parameters;
       for (std::size_t p = 0; p < parameters; ++p)
-        *o++ = g * depth[p] + g_near * sn[p] + g_far * sf[p] + bn * *dqn++ + bf * *dqf++;
+        *o++ = g * depth[p] + g_near * sn[p] + g_far * sf[p] + of_aerosol[0] * aerosol[0][p] +
+               of_aerosol[1] * aerosol[1][p] + of_air[0] * air[0][p] + of_air[1] * air[1][p];
     }
   }
 }
 
 SKYFIT_CLONES
-void outer(const double* __restrict domega, const double* __restrict m, double* __restrict out,
-           std::size_t rows, std::size_t suns, std::size_t parameters) {
-  const Vector* const dw = reinterpret_cast<const Vector*>(domega);
-  const Vector* const vm = reinterpret_cast<const Vector*>(m);
-  Vector* o = reinterpret_cast<Vector*>(out);
-  for (std::size_t l = 0; l < rows; ++l) {
-    for (std::size_t j = 0; j < suns; ++j) {
-      for (std::size_t p = 0; p < parameters; ++p)
-        *o++ = dw[l * parameters + p] * vm[l * suns + j];
+void add_phase_tangent(const PhaseTangent end[2], double* __restrict out, std::size_t rows,
+                       std::size_t suns, std::size_t parameters, std::size_t p) {
+  const auto at = [](const double* x) __attribute__((always_inline)) {
+    return reinterpret_cast<const Vector*>(x);
+  };
+  Vector* const o = reinterpret_cast<Vector*>(out) + p;
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t k = r * suns; k < (r + 1) * suns; ++k) {
+      for (int i = 0; i < 2; ++i)
+        o[k * parameters] += *at(end[i].share) * (at(end[i].weight)[r] * at(end[i].diffuse)[k] +
+                                                  at(end[i].beam)[k] * at(end[i].beam_source)[k]);
     }
   }
 }

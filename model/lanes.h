@@ -25,31 +25,45 @@ void butterfly(double* x, double* y, std::size_t count);
 void blend(const double* near, const double* q_near, const double* far, const double* q_far,
            double* out, std::size_t count);
 
+// out[i] = a x[i] + b y[i] with one element a, b for all.
+void combine(const double* a, const double* x, const double* b, const double* y, double* out,
+             std::size_t count);
+
 // out[r][j] += near[r] q_near[r][j] + far[r] q_far[r][j]
 void add_blend(const double* near, const double* q_near, const double* far, const double* q_far,
                double* out, std::size_t rows, std::size_t columns);
 
-// How the light that a layer sends along its rays changes with the parameters [p], for suns [j]:
-//   out[r][j][p] = g[r][j] depth[r][p] + g_near[r][j] sun_near[j][p] + g_far[r][j] sun_far[j][p]
-//                  + beam_near[r][j] dq_near[r][j][p] + beam_far[r][j] dq_far[r][j][p],
-//   g = slope_near q_near + slope_far q_far + near_slope j_near + far_slope j_far - t x,
-//   g_near = near_slopes[1] q_near + far_slopes[1] q_far, and g_far with [2] alike.
+// How the light that a layer sends along its rays changes with the parameters [p], for suns [j]. Of
+// one end of the layer, near or far:
+struct LayerEndTangent {
+  const double* slope;         // [r]: d weight / d depth, of the diffuse source
+  const double* weight;        // [r]: of the diffuse source
+  const double* beam;          // [r][j]: weight of the beam's source
+  const double* beam_slopes[3];  // [r][j]: by depth and the sun's depths at the near and far end
+  const double *aerosol, *air;  // [1]: shares of the extinction, source per unit of each below
+  const double *aerosol_tangent, *air_tangent;  // [p]
+  const double *diffuse_aerosol, *diffuse_air;  // [r][j]
+  const double *beam_aerosol, *beam_air;        // [r][j]
+};
+// out[r][j][p] = g[r][j] depth[r][p] + g_near[r][j] sun_near[j][p] + g_far[r][j] sun_far[j][p]
+//                + sum over ends of (weight diffuse_i + beam beam_i) i_tangent[p], i aerosol and air,
+// with g = sum over ends of (slope diffuse + beam_slopes[0] beam) - t x, x the light that enters,
+// and g_near, g_far those with beam_slopes[1] and [2].
 struct LayerTangent {
-  const double *t, *near_slope, *far_slope;          // [r]
-  const double *x, *j_near, *j_far;                  // [r][j]: light that enters; its sources
-  const double *beam_near, *beam_far;                // [r][j]
-  const double *near_slopes[3], *far_slopes[3];      // [r][j], by x and the sun's two depths
-  const double *q_near, *q_far;                      // [r][j]: sources per unit of the beam
-  const double *dq_near, *dq_far;                    // [r][j][p]
-  const double* depth;                               // [r][p]
-  const double *sun_near, *sun_far;                  // [j][p]
+  LayerEndTangent end[2];
+  const double *t, *x;               // [r], [r][j]
+  const double* depth;               // [r][p]
+  const double *sun_near, *sun_far;  // [j][p]
 };
 void layer_tangent(const LayerTangent& in, double* out, std::size_t rows, std::size_t suns,
                    std::size_t parameters);
 
-// out[l][j][p] = domega[l][p] m[l][j]
-void outer(const double* domega, const double* m, double* out, std::size_t rows, std::size_t suns,
-           std::size_t parameters);
+// out[r][j][p] += sum over ends of share (weight[r] diffuse[r][j] + beam[r][j] beam_source[r][j])
+struct PhaseTangent {
+  const double *share, *weight, *diffuse, *beam, *beam_source;
+};
+void add_phase_tangent(const PhaseTangent end[2], double* out, std::size_t rows, std::size_t suns,
+                       std::size_t parameters, std::size_t p);
 
 // out[r][j] = d[r] x[r][j]
 void scale_rows(const double* d, const double* x, double* out, std::size_t rows,

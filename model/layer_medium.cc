@@ -84,10 +84,10 @@ BeamWeight beam_weight(double x, const DiffuseWeights& diffuse, bool lit_near, b
 template <class F>
 void for_each_array(LayerMedium& m, const F& f) {
   const auto all = [&](std::vector<Lanes>& arrays) { std::ranges::for_each(arrays, f); };
-  all(m.omega);
-  all(m.omega_tangent);
-  all(m.sun_depth_tangent);
-  for (Lanes* array : {&m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent}) f(*array);
+  for (std::vector<Lanes>* arrays : {&m.chi_tangent, &m.aerosol, &m.air, &m.aerosol_tangent,
+                                     &m.air_tangent, &m.sun_depth_tangent})
+    all(*arrays);
+  for (Lanes* array : {&m.chi, &m.chi_air, &m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent}) f(*array);
   for (LayerMedium::Layer& layer : m.layers) {
     for (Lanes* array : {&layer.t, &layer.near, &layer.far, &layer.near_slope, &layer.far_slope,
                          &layer.depth_tangent})
@@ -134,6 +134,14 @@ class LaneFiller {
       : optics_(optics), columns_(columns), fan_(fan), lane_(lane), medium_(medium) {}
 
   void fill(const std::vector<double>& heights) {
+    for (std::size_t l = 0; l < static_cast<std::size_t>(medium_.moments); ++l) {
+      medium_.chi[l * kLanes + lane_] = optics_.moments[l].v;
+      if (l < optics_.air_moments.size())
+        medium_.chi_air[l * kLanes + lane_] = optics_.air_moments[l];
+      for (std::size_t q = 0; q < medium_.phase_parameters.size(); ++q)
+        medium_.chi_tangent[q][l * kLanes + lane_] =
+            derivative(optics_.moments[l], medium_.phase_parameters[q]);
+    }
     for (std::size_t i = 0; i < heights.size(); ++i)
       set_level(i, optics_.densities_at_level(heights[i > 0 ? i - 1 : 0], heights[i],
                                               heights[std::min(i + 1, heights.size() - 1)]));
@@ -160,12 +168,10 @@ class LaneFiller {
     const Dual<N> aerosol =
         empty ? Dual<N>() : optics_.aerosol_scattering_cut * rho.aerosol / extinction;
     const Dual<N> air_share = empty ? Dual<N>() : air / extinction;
-    for (std::size_t l = 0; l < static_cast<std::size_t>(medium_.moments); ++l) {
-      Dual<N> omega = aerosol * optics_.moments[l];
-      if (l < optics_.air_moments.size()) omega += air_share * optics_.air_moments[l];
-      medium_.omega[level][l * kLanes + lane_] = omega.v;
-      put(medium_.omega_tangent[level], l, omega);
-    }
+    medium_.aerosol[level][lane_] = aerosol.v;
+    medium_.air[level][lane_] = air_share.v;
+    put(medium_.aerosol_tangent[level], 0, aerosol);
+    put(medium_.air_tangent[level], 0, air_share);
     for (std::size_t j = 0; j < medium_.suns; ++j) {
       sun_depth_.push_back(optics_.optical_depth(columns_.suns[level * medium_.suns + j]));
       put(medium_.sun_depth_tangent[level], j, sun_depth_.back());
@@ -239,9 +245,22 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& opti
   const auto sized = [](std::size_t elements) { return Lanes(elements * kLanes); };
   const std::size_t l_count = static_cast<std::size_t>(moments);
   for (std::size_t i = 0; i < heights.size(); ++i) {
-    m.omega.push_back(sized(l_count));
-    m.omega_tangent.push_back(sized(l_count * parameters));
+    m.aerosol.push_back(sized(1));
+    m.air.push_back(sized(1));
+    m.aerosol_tangent.push_back(sized(parameters));
+    m.air_tangent.push_back(sized(parameters));
     m.sun_depth_tangent.push_back(sized(m.suns * parameters));
+  }
+  m.chi = sized(l_count);
+  m.chi_air = sized(l_count);
+  for (std::size_t p = 0; p < parameters; ++p) {
+    const bool changes = std::ranges::any_of(optics, [&](const Optics<N>* o) {
+      return std::ranges::any_of(o->moments,
+                                 [&](const Dual<N>& chi) { return derivative(chi, p) != 0; });
+    });
+    if (!changes) continue;
+    m.phase_parameters.push_back(p);
+    m.chi_tangent.push_back(sized(l_count));
   }
   m.ground_beam = sized(m.suns);
   m.ground_albedo = sized(1);

@@ -38,8 +38,13 @@ struct LayerMedium {
   int moments = 0;
   std::size_t suns = 0, parameters = 0;
   std::vector<double> sun_mu;
+  // Source per extinction of the moment l at a level: aerosol chi_l + air chi_air_l.
+  Lanes chi, chi_air;                          // [l]
+  std::vector<std::size_t> phase_parameters;   // those that change chi
+  std::vector<Lanes> chi_tangent;              // per phase parameter: [l]
   // Per level.
-  std::vector<Lanes> omega, omega_tangent;  // [l], [l][parameter]: source per extinction
+  std::vector<Lanes> aerosol, air;                  // one element: shares of the extinction
+  std::vector<Lanes> aerosol_tangent, air_tangent;  // [parameter]
   std::vector<Lanes> sun_depth_tangent;     // [sun][parameter]
   Lanes ground_beam;                        // [sun], transmittance
   Lanes ground_albedo, ground_albedo_tangent;

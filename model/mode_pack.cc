@@ -72,8 +72,8 @@ ModePack::ModePack(const RayFan& fan, const LayerMedium& medium,
 
 // Rows of moments that a lane's mode does not have stay 0.
 void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
-  const std::size_t p_count = medium_.parameters;
-  for (auto* v : {&synthesis_, &analysis_, &omega_, &omega_tangent_}) v->resize(levels());
+  for (auto* v : {&synthesis_, &analysis_, &omega_}) v->resize(levels());
+  chi_tangent_.resize(medium_.phase_parameters.size());
   for (std::size_t parity = 0; parity < 2; ++parity) {
     const std::size_t count = rows_[parity];
     sun_basis_[parity].assign(count * suns() * kLanes, 0.0);
@@ -81,8 +81,10 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
       synthesis_[i][parity].assign(rays(i) * count * kLanes, 0.0);
       analysis_[i][parity].assign(rays(i) * count * kLanes, 0.0);
       omega_[i][parity].assign(count * kLanes, 0.0);
-      omega_tangent_[i][parity].assign(count * p_count * kLanes, 0.0);
     }
+    chi_[parity].assign(count * kLanes, 0.0);
+    chi_air_[parity].assign(count * kLanes, 0.0);
+    for (Parities& chi : chi_tangent_) chi[parity].assign(count * kLanes, 0.0);
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const ModeBasis& basis = bases[modes_[lane]];
       const auto m = static_cast<std::size_t>(modes_[lane]),
@@ -91,6 +93,12 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
         const std::size_t offset = 2 * row + parity, l = m + offset;  // offset = l - m
         for (std::size_t j = 0; j < suns(); ++j)
           at(sun_basis_[parity], suns(), row, j)[lane] = basis.at_suns[j * own + offset];
+        const double chi = at(medium_.chi, 1, l, 0)[lane], air = at(medium_.chi_air, 1, l, 0)[lane];
+        at(chi_[parity], 1, row, 0)[lane] = chi;
+        at(chi_air_[parity], 1, row, 0)[lane] = air;
+        for (std::size_t q = 0; q < chi_tangent_.size(); ++q)
+          at(chi_tangent_[q][parity], 1, row, 0)[lane] =
+              at(medium_.chi_tangent[q], 1, l, 0)[lane];
         for (int i = 0; i < levels(); ++i) {
           for (std::size_t k = 0; k < rays(i); ++k) {
             const double value = basis.at_rays[(i * fan_.most() + k) * own + offset];
@@ -98,10 +106,8 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
             at(analysis_[i][parity], rays(i), row, k)[lane] =
                 2 * std::numbers::pi * fan_.weight(i, static_cast<int>(k)) * value;
           }
-          at(omega_[i][parity], 1, row, 0)[lane] = at(medium_.omega[i], 1, l, 0)[lane];
-          for (std::size_t p = 0; p < p_count; ++p)
-            at(omega_tangent_[i][parity], p_count, row, p)[lane] =
-                at(medium_.omega_tangent[i], p_count, l, p)[lane];
+          at(omega_[i][parity], 1, row, 0)[lane] =
+              medium_.aerosol[i][lane] * chi + medium_.air[i][lane] * air;
         }
       }
     }
@@ -239,25 +245,45 @@ std::vector<ModePack::Parities> ModePack::scattered(const std::vector<Parities>&
   return r;
 }
 
-// Sources by the change of the scattering alone, of light with the moments given per level.
-template <class F>
-ModePack::Columns ModePack::changed(const F& moments_at) const {
-  const std::size_t columns = suns() * medium_.parameters;
+// Values at the rays of moments times chi.
+ModePack::Columns ModePack::sources_by(const Parities& chi,
+                                       const std::vector<Parities>& moments) const {
   std::vector<Parities> q(levels());
   for (int i = 0; i < levels(); ++i) {
     for (std::size_t parity = 0; parity < 2; ++parity) {
-      q[i][parity].resize(rows_[parity] * columns * kLanes);
-      lanes::outer(omega_tangent_[i][parity].data(), moments_at(i)[parity].data(),
-                   q[i][parity].data(), rows_[parity], suns(), medium_.parameters);
+      q[i][parity].resize(moments[i][parity].size());
+      lanes::scale_rows(chi[parity].data(), moments[i][parity].data(), q[i][parity].data(),
+                        rows_[parity], suns());
     }
   }
-  return at_rays(q, columns);
+  return at_rays(q, suns());
+}
+
+ModePack::Sources ModePack::sources_of(const std::vector<Parities>& moments) const {
+  Sources sources{sources_by(chi_, moments), sources_by(chi_air_, moments), {}};
+  for (const Parities& chi : chi_tangent_) sources.phase.push_back(sources_by(chi, moments));
+  return sources;
+}
+
+ModePack::Columns ModePack::source_function(const Sources& sources) const {
+  Columns r = sources.aerosol;
+  for (int i = 0; i < levels(); ++i) {
+    const std::size_t count = rays(i) * suns();
+    for (auto side : {&Columns::down, &Columns::up}) {
+      lanes::combine(medium_.aerosol[i].data(), (sources.aerosol.*side)[i].data(),
+                     medium_.air[i].data(), (sources.air.*side)[i].data(), (r.*side)[i].data(),
+                     count);
+    }
+  }
+  return r;
 }
 
 // What the beam's light, scattered once in a layer, adds to the rays that leave it.
 void ModePack::beam_sources() {
-  const std::vector<Parities> unit(levels(), sun_basis_);
-  unit_beam_ = at_rays(scattered(unit), suns());
+  if (beam_.aerosol.count == 0) {
+    beam_ = sources_of(std::vector<Parities>(levels(), sun_basis_));
+    beam_source_ = source_function(beam_);
+  }
   down_source_.resize(medium_.layers.size());
   up_source_.resize(medium_.layers.size());
   for (std::size_t i = 0; i < medium_.layers.size(); ++i) {
@@ -265,10 +291,10 @@ void ModePack::beam_sources() {
     const std::size_t count = w.down.near.size() / kLanes;
     down_source_[i].resize(count * kLanes);
     up_source_[i].resize(count * kLanes);
-    lanes::blend(w.down.near.data(), unit_beam_.down[i].data(), w.down.far.data(),
-                 unit_beam_.down[i + 1].data(), down_source_[i].data(), count);
-    lanes::blend(w.up.near.data(), unit_beam_.up[i + 1].data(), w.up.far.data(),
-                 unit_beam_.up[i].data(), up_source_[i].data(), count);
+    lanes::blend(w.down.near.data(), beam_source_.down[i].data(), w.down.far.data(),
+                 beam_source_.down[i + 1].data(), down_source_[i].data(), count);
+    lanes::blend(w.up.near.data(), beam_source_.up[i + 1].data(), w.up.far.data(),
+                 beam_source_.up[i].data(), up_source_[i].data(), count);
   }
 }
 
@@ -373,36 +399,60 @@ void ModePack::solve_values() {
 
 // What depends on the parameters, applied to the solution, is the source of the derivatives.
 void ModePack::set_tangent_sources() {
-  const std::size_t columns = suns() * medium_.parameters;
-  const Columns source = at_rays(scattered(moments_), suns());
-  const Columns beam_change = changed([&](int) -> const Parities& { return sun_basis_; });
+  const Sources diffuse = sources_of(moments_);
   for (int i = 0; i + 1 < levels(); ++i) {
-    down_source_[i].resize(rays(i) * columns * kLanes);
-    up_source_[i].resize(rays(i) * columns * kLanes);
-    layer_tangent(i, true, source, unit_beam_, beam_change, down_source_[i]);
-    layer_tangent(i, false, source, unit_beam_, beam_change, up_source_[i]);
+    down_source_[i] = layer_tangent(i, true, diffuse, true);
+    up_source_[i] = layer_tangent(i, false, diffuse, true);
   }
-  add_diffuse_sources(changed([&](int i) -> const Parities& { return moments_[i]; }), columns);
 }
 
-// Of the light that leaves a layer along the rays that look up, or down.
-void ModePack::layer_tangent(int layer, bool looks_up, const Columns& source, const Columns& beam,
-                             const Columns& beam_change, Lanes& out) const {
+Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, bool near) const {
   const LayerMedium::Layer& w = medium_.layers[layer];
-  const int near = looks_up ? layer : layer + 1, far = looks_up ? layer + 1 : layer;
+  const std::array<int, 2> level = looks_up ? std::array{layer, layer + 1}
+                                            : std::array{layer + 1, layer};  // near, far
   const BeamWeights& b = looks_up ? w.down : w.up;
-  const auto of = [&](const Columns& c) -> const std::vector<Lanes>& {
-    return looks_up ? c.down : c.up;
+  const auto of = [&](const Columns& c, int i) {
+    return (looks_up ? c.down : c.up)[static_cast<std::size_t>(level[i])].data();
   };
-  lanes::layer_tangent(
-      {w.t.data(), w.near_slope.data(), w.far_slope.data(), of(values_)[far].data(),
-       of(source)[near].data(), of(source)[far].data(), b.near.data(), b.far.data(),
-       {b.near_slope[0].data(), b.near_slope[1].data(), b.near_slope[2].data()},
-       {b.far_slope[0].data(), b.far_slope[1].data(), b.far_slope[2].data()},
-       of(beam)[near].data(), of(beam)[far].data(), of(beam_change)[near].data(),
-       of(beam_change)[far].data(), w.depth_tangent.data(),
-       medium_.sun_depth_tangent[near].data(), medium_.sun_depth_tangent[far].data()},
-      out.data(), rays(layer), suns(), medium_.parameters);
+  const std::size_t p_count = medium_.parameters;
+  const Lanes zero(near ? 0 : rays(layer) * suns() * kLanes, 0.0);
+  const auto end = [&](int i) {
+    const bool is_near = i == 0, none = is_near && !near;
+    const auto& slopes = is_near ? b.near_slope : b.far_slope;
+    const auto pick = [&](const double* x) { return none ? zero.data() : x; };
+    const auto at_level = static_cast<std::size_t>(level[i]);
+    return lanes::LayerEndTangent{
+        pick((is_near ? w.near_slope : w.far_slope).data()),
+        pick((is_near ? w.near : w.far).data()),
+        pick((is_near ? b.near : b.far).data()),
+        {pick(slopes[0].data()), pick(slopes[1].data()), pick(slopes[2].data())},
+        medium_.aerosol[at_level].data(),
+        medium_.air[at_level].data(),
+        medium_.aerosol_tangent[at_level].data(),
+        medium_.air_tangent[at_level].data(),
+        of(diffuse.aerosol, i),
+        of(diffuse.air, i),
+        of(beam_.aerosol, i),
+        of(beam_.air, i)};
+  };
+  Lanes out(rays(layer) * suns() * p_count * kLanes);
+  const lanes::LayerTangent in{{end(0), end(1)},
+                               w.t.data(),
+                               of(values_, 1),
+                               w.depth_tangent.data(),
+                               medium_.sun_depth_tangent[level[0]].data(),
+                               medium_.sun_depth_tangent[level[1]].data()};
+  lanes::layer_tangent(in, out.data(), rays(layer), suns(), p_count);
+  for (std::size_t q = 0; q < diffuse.phase.size(); ++q) {
+    const auto phase_end = [&](int i) {
+      return lanes::PhaseTangent{in.end[i].aerosol, in.end[i].weight, of(diffuse.phase[q], i),
+                                 in.end[i].beam, of(beam_.phase[q], i)};
+    };
+    const lanes::PhaseTangent ends[2] = {phase_end(0), phase_end(1)};
+    lanes::add_phase_tangent(ends, out.data(), rays(layer), suns(), p_count,
+                             medium_.phase_parameters[q]);
+  }
+  return out;
 }
 
 void ModePack::solve_tangents() {
@@ -498,23 +548,18 @@ void ModePack::set_neighbour(const SunCoupling& coupling, int layer, const Lanes
 
 // The light that enters a layer at its far end, as it is at the near end.
 void ModePack::prepare_coupling(const SunCoupling& coupling) {
-  const std::size_t p_count = medium_.parameters;
-  const Columns source = at_rays(scattered(moments_), suns());
-  Columns source_tangent, no_source, no_change, beam_change;
+  const std::size_t p_count = medium_.parameters, columns = suns() * p_count;
+  const Sources diffuse = sources_of(moments_);
+  const Columns source = source_function(diffuse);
+  Columns source_tangent;
   if (p_count > 0) {
-    std::vector<Parities> change(levels());
+    std::vector<Parities> scattered_tangents = moment_tangents_;
     for (int i = 0; i < levels(); ++i) {
-      for (std::size_t parity = 0; parity < 2; ++parity) {
-        Lanes& q = change[i][parity];
-        q.resize(moment_tangents_[i][parity].size());
-        lanes::outer(omega_tangent_[i][parity].data(), moments_[i][parity].data(), q.data(),
-                     rows_[parity], suns(), p_count);
-        add_block(omega_[i][parity].data(), moment_tangents_[i][parity], suns() * p_count, 0, q,
-                  suns() * p_count, 0, rows_[parity], suns() * p_count);
-      }
+      for (std::size_t parity = 0; parity < 2; ++parity)
+        lanes::scale_rows(omega_[i][parity].data(), moment_tangents_[i][parity].data(),
+                          scattered_tangents[i][parity].data(), rows_[parity], columns);
     }
-    source_tangent = at_rays(change, suns() * p_count);
-    beam_change = changed([&](int) -> const Parities& { return sun_basis_; });
+    source_tangent = at_rays(scattered_tangents, columns);
   }
   for (std::size_t side = 0; side < 2; ++side) {
     const bool looks_up = side == 0;
@@ -524,31 +569,18 @@ void ModePack::prepare_coupling(const SunCoupling& coupling) {
     for (int i = 0; i + 1 < levels(); ++i) {
       const LayerMedium::Layer& w = medium_.layers[i];
       const int far = looks_up ? i + 1 : i;
-      const auto of = [&](const Columns& c) -> const Lanes& {
-        return looks_up ? c.down[far] : c.up[far];
+      const auto of = [&](const Columns& c) {
+        return (looks_up ? c.down : c.up)[static_cast<std::size_t>(far)].data();
       };
-      const BeamWeights& b = looks_up ? w.down : w.up;
-      const std::size_t count = rays(i) * suns();
-      Lanes x(count * kLanes);
-      const Lanes none(x.size(), 0.0);
-      lanes::blend(b.far.data(), of(unit_beam_).data(), none.data(), none.data(), x.data(), count);
-      lanes::add_blend(w.t.data(), of(values_).data(), w.far.data(), of(source).data(), x.data(),
-                       rays(i), suns());
+      Lanes x((looks_up ? w.down : w.up).far);
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] *= of(beam_source_)[k];
+      lanes::add_blend(w.t.data(), of(values_), w.far.data(), of(source), x.data(), rays(i),
+                       suns());
       set_neighbour(coupling, i, x, 1, to_next_[0][side][i], to_previous_[0][side][i]);
       if (p_count == 0) continue;
-      Lanes dx(count * p_count * kLanes);
-      const Lanes nothing(dx.size(), 0.0);
-      lanes::layer_tangent(
-          {w.t.data(), w.near_slope.data(), w.far_slope.data(), of(values_).data(), none.data(),
-           of(source).data(), b.near.data(), b.far.data(),
-           {b.near_slope[0].data(), b.near_slope[1].data(), b.near_slope[2].data()},
-           {b.far_slope[0].data(), b.far_slope[1].data(), b.far_slope[2].data()}, none.data(),
-           of(unit_beam_).data(), nothing.data(), of(beam_change).data(), w.depth_tangent.data(),
-           medium_.sun_depth_tangent[looks_up ? i : i + 1].data(),
-           medium_.sun_depth_tangent[far].data()},
-          dx.data(), rays(i), suns(), p_count);
-      lanes::add_blend(w.t.data(), of(tangents_).data(), w.far.data(), of(source_tangent).data(),
-                       dx.data(), rays(i), suns() * p_count);
+      Lanes dx = layer_tangent(i, looks_up, diffuse, false);
+      lanes::add_blend(w.t.data(), of(tangents_), w.far.data(), of(source_tangent), dx.data(),
+                       rays(i), columns);
       set_neighbour(coupling, i, dx, p_count, to_next_[1][side][i], to_previous_[1][side][i]);
     }
   }
@@ -600,17 +632,27 @@ void ModePack::couple(const SunCoupling& coupling, const std::vector<ModePack>& 
   solve_tangents();
 }
 
-double ModePack::moment(int lane, int level, int l, int sun, int slice) const {
-  const int offset = l - modes_[lane];
-  const std::size_t parity = offset % 2, row = offset / 2, j = sun;
-  if (slice == 0) return at(moments_[level][parity], suns(), row, j)[lane];
-  return at(moment_tangents_[level][parity], suns() * medium_.parameters, row,
-            j * medium_.parameters + slice - 1)[lane];
+void ModePack::append_moments(int lane, int level, std::vector<double>& out) const {
+  const std::size_t p_count = medium_.parameters;
+  for (int offset = 0; offset < medium_.moments - modes_[lane]; ++offset) {  // l - m
+    const std::size_t parity = offset % 2, row = offset / 2;
+    const double* value = at(moments_[level][parity], suns(), row, 0) + lane;
+    const double* tangent =
+        p_count > 0 ? at(moment_tangents_[level][parity], suns() * p_count, row, 0) + lane : nullptr;
+    for (std::size_t j = 0; j < suns(); ++j, value += kLanes) {
+      out.push_back(*value);
+      for (std::size_t p = 0; p < p_count; ++p, tangent += kLanes) out.push_back(*tangent);
+    }
+  }
 }
 
-double ModePack::ground_irradiance(int lane, int sun, int slice) const {
-  if (slice == 0) return ground_[sun * kLanes + lane];
-  return ground_tangent_[(sun * medium_.parameters + slice - 1) * kLanes + lane];
+void ModePack::append_ground_irradiance(int lane, std::vector<double>& out) const {
+  const std::size_t p_count = medium_.parameters;
+  for (std::size_t j = 0; j < suns(); ++j) {
+    out.push_back(ground_[j * kLanes + lane]);
+    for (std::size_t p = 0; p < p_count; ++p)
+      out.push_back(ground_tangent_[(j * p_count + p) * kLanes + lane]);
+  }
 }
 
 }  // namespace skyfit

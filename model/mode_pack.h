@@ -60,9 +60,10 @@ class ModePack {
   // is the field of light that met air or ground k times. Not to be mixed with solve().
   void advance();
 
-  // Of the diffuse field; l >= the task's mode; slice 0 is the value, 1 + p derivatives.
-  double moment(int lane, int level, int l, int sun, int slice) const;
-  double ground_irradiance(int lane, int sun, int slice) const;  // of a task with mode 0
+  // Of the diffuse field: appends the moments of a lane's mode at a level, [l - m][sun][slice], slice
+  // 0 the value, 1 + p derivatives.
+  void append_moments(int lane, int level, std::vector<double>& out) const;
+  void append_ground_irradiance(int lane, std::vector<double>& out) const;  // [sun][slice], mode 0
 
  private:
   static constexpr std::size_t kLanes = lanes::kLanes;
@@ -83,8 +84,17 @@ class ModePack {
   void eliminate();
   void eliminate_layer(int layer, const Lanes& same, const Lanes& other, const Lanes& same_above,
                        const Lanes& other_above);
+  // The sources of light with given moments, per unit of the shares of aerosol and air, and per
+  // share of aerosol by the phase parameters.
+  struct Sources {
+    Columns aerosol, air;
+    std::vector<Columns> phase;
+  };
   Columns at_rays(const std::vector<Parities>& moments, std::size_t columns) const;
   std::vector<Parities> scattered(const std::vector<Parities>& moments) const;
+  Columns sources_by(const Parities& chi, const std::vector<Parities>& moments) const;
+  Sources sources_of(const std::vector<Parities>& moments) const;
+  Columns source_function(const Sources& sources) const;
   void beam_sources();
   void add_diffuse_sources(const Columns& source, std::size_t columns);
   Columns substitute(const Lanes& ground, std::size_t columns) const;
@@ -96,10 +106,9 @@ class ModePack {
   void set_tangent_sources();
   void solve_values();
   void solve_tangents();
-  template <class F>
-  Columns changed(const F& moments_at) const;
-  void layer_tangent(int layer, bool looks_up, const Columns& source, const Columns& beam,
-                     const Columns& beam_change, Lanes& out) const;
+  // Of the light that leaves a layer along the rays that look up, or down; `near` false leaves out
+  // the sources at the near end.
+  Lanes layer_tangent(int layer, bool looks_up, const Sources& diffuse, bool near) const;
   void set_neighbour(const SunCoupling& coupling, int layer, const Lanes& from_afar,
                      std::size_t parameters, Lanes& to_next, Lanes& to_previous) const;
   void add_coupling(const SunCoupling& coupling, const std::vector<ModePack>& packs, int at_once,
@@ -109,12 +118,15 @@ class ModePack {
   const LayerMedium& medium_;
   Modes modes_;
   std::array<std::size_t, 2> rows_{};
-  std::vector<Parities> synthesis_, analysis_, omega_, omega_tangent_;  // per level
+  std::vector<Parities> synthesis_, analysis_, omega_;  // per level
+  Parities chi_, chi_air_;                              // [l]
+  std::vector<Parities> chi_tangent_;                   // per phase parameter
   Parities sun_basis_;                                                  // [l][sun]
   Lanes albedo_, albedo_tangent_;  // over pi; 0 in modes above 0
   std::vector<Lanes> reflection_, forward_, backward_;
   std::vector<Lanes> down_source_, up_source_;  // per layer
-  Columns unit_beam_;  // source per unit of the sun's beam at the rays
+  Sources beam_;       // at the rays, per unit of the sun's beam
+  Columns beam_source_;  // its source function
   Columns values_, tangents_;
   // What the light that enters each layer from its far end becomes at the near end, derived by the
   // sun's place as the next and as the previous mode need it: [values, tangents][down, up][layer].

@@ -39,7 +39,7 @@ TEST_F(BadInputTest, CommandLine) {
   expect_refusal({"fit"}, {"--reference is required"});
   expect_refusal({"fit", "--reference", "cie:12"}, {"--out is required"});
   expect_refusal({"fit", "--reference", "cie:12", "--out", "x", "--lobes", "abc"},
-                 {"--lobes", "abc"});
+                 {"--lobes", "abc", "whole number"});
   expect_refusal({"fit", "--reference", "cie:12", "--out", "x", "--wings", "2"}, {"--wings"});
 }
 
@@ -47,6 +47,8 @@ TEST_F(BadInputTest, MissingFiles) {
   expect_fit_refusal("missing.csv", {"missing.csv"});
   expect_refusal({"check", "missing.json"}, {"missing.json", "no such file"});
   expect_refusal({"check", "missing.csv"}, {"missing.csv", "no such file"});
+  write("folder/file", "");
+  expect_refusal({"check", "folder"}, {"folder", "this is no file"});
   expect_refusal({"plot", "missing", "--out", "figure.svg"}, {"missing"});
   expect_refusal(
       {"sky", "--preset", "missing.json", "--sun-zenith-deg", "0", "--view-zenith-deg", "0"},
@@ -204,6 +206,10 @@ TEST_F(BadInputTest, FitOptions) {
   refuse({"--fix", "ground.albedo"}, {"--fix", "ground.albedo", "name=value"});
   refuse({"--prior", "ground.albedo=0.1:-1"}, {"--prior", "sigma > 0"});
   refuse({"--threads", "0"}, {"--threads", "0"});
+  // An option given without a value, as by an unset variable, is not one that was left out.
+  refuse({"--free", ""}, {"--free \"\"", "names of parameters"});
+  refuse({"--free", "ground.albedo,"}, {"--free", "names of parameters"});
+  refuse({"--preset", ""}, {"preset \"\"", "earth-clear"});
 }
 
 TEST_F(BadInputTest, UnwritableOutputs) {
@@ -214,6 +220,8 @@ TEST_F(BadInputTest, UnwritableOutputs) {
                  {"file/below", "cannot be written"});
   expect_refusal({"fit", "--reference", "cie:12", "--out", "/proc/fitted"},
                  {"/proc/fitted", "cannot be written"});
+  const std::string long_name(300, 'a');
+  expect_refusal({"fit", "--reference", "cie:12", "--out", long_name}, {long_name + ": "});
   expect_refusal({"render", "--preset", "earth-clear", "--out", "missing/frame.png"},
                  {"missing/frame.png", "folder"});
   expect_refusal({"render", "--preset", "earth-clear", "--out", "/proc/frame.png"},
@@ -236,6 +244,14 @@ TEST_F(BadInputTest, OutputsOfAnotherKind) {
                  {"--out", "figure.gif", ".svg, .png or .pdf"});
 }
 
+TEST_F(BadInputTest, OutputsNamedTwice) {
+  expect_refusal(
+      {"render", "--preset", "earth-clear", "--out", "frame.png", "--out", "./frame.png"},
+      {"--out", "./frame.png", "once"});
+  expect_refusal({"plot", "x", "--out", "figure.svg", "--out", "figure.svg"},
+                 {"--out", "figure.svg", "once"});
+}
+
 TEST_F(BadInputTest, ImagesOfNoOrAbsurdSize) {
   for (const char* size :
        {"0x720", "1280x0", "1280", "-1x-1", "1000000x1000000", "16384x16384", "bigxsmall", ""}) {
@@ -244,7 +260,7 @@ TEST_F(BadInputTest, ImagesOfNoOrAbsurdSize) {
   }
 }
 
-TEST_F(BadInputTest, RenderAngles) {
+TEST_F(BadInputTest, RenderNumbers) {
   const auto refuse = [&](const std::string& option, const std::string& value) {
     expect_refusal({"render", "--preset", "earth-clear", option, value, "--out", "frame.png"},
                    {option, value});
@@ -252,8 +268,12 @@ TEST_F(BadInputTest, RenderAngles) {
   refuse("--sun-zenith-deg", "181");
   refuse("--sun-zenith-deg", "10,20");
   refuse("--sun-zenith-deg", "nan");
+  refuse("--sun-zenith-deg", "");
   refuse("--field-of-view-deg", "0");
+  refuse("--field-of-view-deg", "160");
   refuse("--altitude-m", "high");
+  refuse("--altitude-m", "");
+  refuse("--exposure-stops", "1e6");
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ TEST(SampleCsv, ReadsEveryColumn) {
           ",sigma,weight,scan\n30,60,90,4000,40,0.5,a\n40,10,-45,3000,30,0,b\n31,5,0,2000,20,1,a\n",
       "sky.csv");
   EXPECT_EQ(reference.name, "sky.csv");
+  EXPECT_EQ(reference.description, "3 samples of luminance in 2 scans from sky.csv");
   EXPECT_EQ(reference.quantity, Quantity::kLuminance);
   ASSERT_EQ(reference.samples.size(), 3u);
   const Sample& first = reference.samples[0];
