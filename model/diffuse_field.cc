@@ -75,7 +75,7 @@ int mode_count(const Optics<N>& optics, int moments, double tolerance) {
 }
 
 void unpack(const ModePack& pack, int lane, int m, DiffuseField& field) {
-  std::vector<double>& out = field.moments[m];
+  LargeArray& out = field.moments[m];
   out.reserve(field.shape.levels * field.shape.level(m));
   for (int i = 0; i < field.shape.levels; ++i) pack.append_moments(lane, i, out);
   if (m == 0) pack.append_ground_irradiance(lane, field.ground_irradiance);

@@ -34,14 +34,14 @@ struct DiffuseField {
   FieldShape shape;
   // moments[m] holds 2 pi integral Lambda_lm I_m dmu, I = sum_m (2 - delta_m0) I_m cos m phi, mu
   // and phi those of the direction in which one looks; one entry per mode that matters.
-  std::vector<std::vector<double>> moments;
-  std::vector<double> ground_irradiance;  // diffuse, on the ground, [sun][slice]
+  std::vector<LargeArray> moments;
+  LargeArray ground_irradiance;  // diffuse, on the ground, [sun][slice]
 };
 
 struct DiffuseOptions {
   int moments = 16;  // of the phase functions, as many as the optics keep
   // A mode is left out when a bound on what it adds to the field is below this share of mode 0.
-  double tolerance = 1e-3;
+  double tolerance = 3e-3;
   // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
   int order = 0;
 };

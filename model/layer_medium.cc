@@ -242,7 +242,7 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& opti
   m.suns = sun_mu.size();
   m.parameters = parameters;
   m.sun_mu = sun_mu;
-  const auto sized = [](std::size_t elements) { return Lanes(elements * kLanes); };
+  const auto sized = [](std::size_t elements) { return Lanes(elements * kLanes, 0.0); };
   const std::size_t l_count = static_cast<std::size_t>(moments);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     m.aerosol.push_back(sized(1));

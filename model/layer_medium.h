@@ -11,21 +11,19 @@
 // one is 0, the beam is taken as linear.
 #pragma once
 
-#include <tbb/scalable_allocator.h>
-
 #include <array>
 #include <cstddef>
 #include <vector>
 
 #include "model/lanes.h"
+#include "model/large_array.h"
 #include "model/optics.h"
 #include "model/ray.h"
 #include "model/ray_fan.h"
 
 namespace skyfit {
 
-// Large and short-lived: kept by the allocator from one solution to the next.
-using Lanes = std::vector<double, tbb::scalable_allocator<double>>;
+using Lanes = LargeArray;
 
 // The beam's weights for the rays of one layer that look one way, [ray][sun], and how they change
 // with the layer's depth x and the sun's depths at the near and the far end.

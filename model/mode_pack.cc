@@ -632,7 +632,7 @@ void ModePack::couple(const SunCoupling& coupling, const std::vector<ModePack>& 
   solve_tangents();
 }
 
-void ModePack::append_moments(int lane, int level, std::vector<double>& out) const {
+void ModePack::append_moments(int lane, int level, LargeArray& out) const {
   const std::size_t p_count = medium_.parameters;
   for (int offset = 0; offset < medium_.moments - modes_[lane]; ++offset) {  // l - m
     const std::size_t parity = offset % 2, row = offset / 2;
@@ -646,7 +646,7 @@ void ModePack::append_moments(int lane, int level, std::vector<double>& out) con
   }
 }
 
-void ModePack::append_ground_irradiance(int lane, std::vector<double>& out) const {
+void ModePack::append_ground_irradiance(int lane, LargeArray& out) const {
   const std::size_t p_count = medium_.parameters;
   for (std::size_t j = 0; j < suns(); ++j) {
     out.push_back(ground_[j * kLanes + lane]);

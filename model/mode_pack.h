@@ -62,8 +62,8 @@ class ModePack {
 
   // Of the diffuse field: appends the moments of a lane's mode at a level, [l - m][sun][slice], slice
   // 0 the value, 1 + p derivatives.
-  void append_moments(int lane, int level, std::vector<double>& out) const;
-  void append_ground_irradiance(int lane, std::vector<double>& out) const;  // [sun][slice], mode 0
+  void append_moments(int lane, int level, LargeArray& out) const;
+  void append_ground_irradiance(int lane, LargeArray& out) const;  // [sun][slice], mode 0
 
  private:
   static constexpr std::size_t kLanes = lanes::kLanes;

@@ -14,10 +14,10 @@ namespace skyfit {
 template <int N>
 struct MultipleScattering<N>::Node {
   int path, node;
-  std::vector<std::vector<double>> lambda;       // [mode][l - m]
-  std::vector<int> index;                        // [point][4]
-  std::vector<double> even, odd;                 // [point][4]
-  std::vector<std::vector<double>> wave_factor;  // [mode][point]: (2 - delta_m0) cos m phi
+  std::vector<double> lambda;       // [mode][l], from l = m on
+  std::vector<int> index;           // [point][4]
+  std::vector<double> even, odd;    // [point][4]
+  std::vector<double> wave_factor;  // [mode][point]: (2 - delta_m0) cos m phi
 };
 
 // Nodes at one height: on a level, or between levels, where the moments are Lagrange's cubic in the
@@ -76,13 +76,16 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
         bundle.groups.push_back(std::move(group));
       }
       Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, {}};
-      node.lambda.resize(modes);
-      node.wave_factor.resize(modes);
-      for (int m = 0; m < modes; ++m) {
-        node.lambda[m].resize(moments - m);
-        normalised_legendre(m, moments, point.mu, node.lambda[m].data());
-      }
-      for (const SunOfPath& point_sun : paths[path].suns) {
+      node.lambda.resize(static_cast<std::size_t>(modes) * moments);
+      for (int m = 0; m < modes; ++m)
+        normalised_legendre(m, moments, point.mu, &node.lambda[m * moments + m]);
+      const std::size_t points = paths[path].suns.size();
+      node.index.reserve(4 * points);
+      node.even.reserve(4 * points);
+      node.odd.reserve(4 * points);
+      node.wave_factor.resize(modes * points);
+      for (std::size_t at_point = 0; at_point < points; ++at_point) {
+        const SunOfPath& point_sun = paths[path].suns[at_point];
         const RayPoint& sun_point = paths[path].path->sun_points[i];
         const double mu_s = point_sun.sun->mu_s(sun_point);
         const SunStencil stencil = grid_.stencil(mu_s);
@@ -92,7 +95,7 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
         const double azimuth = point_sun.sun->cos_azimuth(sun_point, mu_s);
         double cosine = 1, before = azimuth;  // cos m phi by Chebyshev's recursion
         for (int m = 0; m < modes; ++m) {
-          node.wave_factor[m].push_back(m == 0 ? 1 : 2 * cosine);
+          node.wave_factor[m * points + at_point] = m == 0 ? 1 : 2 * cosine;
           const double next = 2 * azimuth * cosine - before;
           before = cosine;
           cosine = next;
@@ -107,7 +110,7 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
 // Moments of mode m at the group's height, [l - m][sun][slice].
 template <int N>
 const double* MultipleScattering<N>::block_at(const Group& group, const DiffuseField& field, int m,
-                                              std::vector<double>& scratch) const {
+                                              LargeArray& scratch) const {
   const std::size_t size = field.shape.level(m);
   const double* first = field.moments[m].data() + group.first_level * size;
   if (group.share.size() == 1) return first;
@@ -125,7 +128,7 @@ void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeW
   const auto own = static_cast<std::size_t>(field.shape.moments - m),
              suns = static_cast<std::size_t>(field.shape.suns),
              slices = static_cast<std::size_t>(field.shape.slices), parameters = slices - 1;
-  std::vector<double> scratch, coefficient, tangent, series, by_sun, change;
+  LargeArray scratch, coefficient, tangent, series, by_sun, change;
   for (const Group& group : bundle.groups) {
     const std::size_t rows = group.nodes.size();
     const double* block = block_at(group, field, m, scratch);
@@ -133,15 +136,16 @@ void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeW
     tangent.resize(own * rows * parameters);
     for (std::size_t r = 0; r < rows; ++r) {
       const Node& node = group.nodes[r];
+      const double* const lambda = &node.lambda[m * field.shape.moments + m];
       const Dual<N>&air = weights[node.path].air[node.node],
              &aerosol = weights[node.path].aerosol[node.node];
       for (std::size_t k = 0; k < own; ++k) {
         const std::size_t l = k + static_cast<std::size_t>(m);
         Dual<N> c = aerosol * optics.moments[l];
         if (l < optics.air_moments.size()) c += air * optics.air_moments[l];
-        coefficient[r * own + k] = c.v * node.lambda[m][k];
+        coefficient[r * own + k] = c.v * lambda[k];
         for (std::size_t p = 0; p < parameters; ++p)
-          tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * node.lambda[m][k];
+          tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * lambda[k];
       }
     }
     series.resize(rows * field.shape.row());
@@ -166,7 +170,8 @@ void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeW
       const Node& node = group.nodes[r];
       kernels::accumulate_suns(series.data() + r * field.shape.row(), slices, node.index.data(),
                                m % 2 == 0 ? node.even.data() : node.odd.data(),
-                               node.wave_factor[m].data(), node.wave_factor[m].size(),
+                               &node.wave_factor[m * (node.index.size() / 4)],
+                               node.index.size() / 4,
                                const_cast<double*>(bundle.sums[node.path].data()));
     }
   }

@@ -44,7 +44,7 @@ class MultipleScattering {
   Bundle bundle_of(std::span<const PathWithSuns> paths) const;
   void add_mode(const Bundle& bundle, std::span<const NodeWeights<N>> weights, int wave, int m) const;
   const double* block_at(const Group& group, const DiffuseField& field, int m,
-                         std::vector<double>& scratch) const;
+                         LargeArray& scratch) const;
 
   const std::vector<double>& heights_;
   const SunGrid& grid_;

@@ -30,6 +30,20 @@ SunGrid::SunGrid() {
       zenith_.push_back(zenith * std::numbers::pi / 180);
   }
   zenith_.push_back(zenith * std::numbers::pi / 180);
+  for (int first = -1; first + 4 <= size(); ++first) {  // -1: one node beyond the zenith
+    Four four;
+    for (int i = 0; i < 4; ++i) {
+      four.index[i] = std::abs(first + i);
+      four.node[i] = first + i < 0 ? -zenith_[1] : zenith_[first + i];
+    }
+    for (int i = 0; i < 4; ++i) {
+      four.factor[i] = 1;
+      for (int k = 0; k < 4; ++k) {
+        if (k != i) four.factor[i] /= four.node[i] - four.node[k];
+      }
+    }
+    fours_.push_back(four);
+  }
 }
 
 double SunGrid::mu(int i) const { return std::cos(zenith_[i]); }
@@ -64,17 +78,17 @@ SunStencil SunGrid::stencil(double mu_s) const {
   const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
   const int above =
       static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
-  // -1: one node beyond the zenith. Up to 85 deg no node below 85 deg is asked for: suns below are
-  // dear, for they come with all their neighbours (sun_coupling() in model/diffuse_field.h).
+  // Up to 85 deg no node below 85 deg is asked for: suns below are dear, for they come with all their
+  // neighbours (sun_coupling() in model/diffuse_field.h).
   const int last = x <= zenith_[day_] ? day_ : size() - 1;
   const int first = std::min(above - 2, last - 3);
-  std::array<double, 4> node;
+  const Four& four = fours_[static_cast<std::size_t>(first + 1)];
+  const double a = x - four.node[0], b = x - four.node[1], c = x - four.node[2],
+               d = x - four.node[3];
   SunStencil s;
-  for (int i = 0; i < 4; ++i) {
-    s.index[i] = std::abs(first + i);
-    node[i] = first + i < 0 ? -zenith_[1] : zenith_[first + i];
-  }
-  lagrange_weights(node.data(), 4, x, s.even.data());
+  s.index = four.index;
+  s.even = {b * c * d * four.factor[0], a * c * d * four.factor[1], a * b * d * four.factor[2],
+            a * b * c * four.factor[3]};
   s.odd = s.even;
   if (first < 0) s.odd[0] = -s.odd[0];
   return s;

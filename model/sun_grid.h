@@ -35,6 +35,13 @@ class SunGrid {
  private:
   std::vector<double> zenith_;  // radians, ascending, from 0 to below the twilight
   int day_ = 0;                 // the node at 85 deg
+  // Four neighbours, from the first or from one before it: Lagrange's weight i is factor[i] times the
+  // distances to the other nodes.
+  struct Four {
+    std::array<int, 4> index;
+    std::array<double, 4> node, factor;
+  };
+  std::vector<Four> fours_;
 };
 
 // Lagrange's weights at x for the four (or fewer) nodes.
