@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "model/mode_pack.h"
 #include "model/parameters.h"
@@ -145,29 +146,34 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
     const LayerMedium medium =
         layer_medium<N>(lane_optics, static_cast<std::size_t>(slices - 1), heights, sun_mu,
                         columns, fan, moments);
-    std::vector<ModePack> packs;
-    for (int m = 0; m < modes; m += at_once) {
+    const auto pack_of = [&](int p) {
       ModePack::Modes lane_modes;
       for (int k = 0; k < kLanes; ++k)
-        lane_modes[k] = std::min(m + std::min(k / width, at_once - 1), modes - 1);
-      packs.emplace_back(fan, medium, bases, lane_modes);
-    }
-    const auto for_each_pack = [&](const auto& f) {
-      tbb::parallel_for(std::size_t{0}, packs.size(), [&](std::size_t p) { f(packs[p]); });
+        lane_modes[k] = std::min(p * at_once + std::min(k / width, at_once - 1), modes - 1);
+      return ModePack(fan, medium, bases, lane_modes);
     };
-    for_each_pack([&](ModePack& pack) {
+    const auto unpack_all = [&](const ModePack& pack, int p) {
+      for (int k = 0; k < at_once * width && p * at_once + k / width < modes; ++k)
+        unpack(pack, k, p * at_once + k / width, fields[first + k % width]);
+    };
+    const int count = (modes + at_once - 1) / at_once;
+    const bool coupled = std::ranges::count(coupling.coupled, 1) > 0 && options.order == 0;
+    std::vector<std::optional<ModePack>> packs(coupled ? count : 0);
+    tbb::parallel_for(0, count, [&](int p) {
+      ModePack pack = pack_of(p);
       if (options.order == 0) pack.solve();
       for (int k = 0; k < options.order; ++k) pack.advance();
+      if (coupled) {
+        packs[p] = std::move(pack);
+      } else {
+        unpack_all(pack, p);
+      }
     });
-    const bool coupled = std::ranges::count(coupling.coupled, 1) > 0 && options.order == 0;
     for (int k = 0; coupled && k < kCouplings; ++k) {
-      for_each_pack([&](ModePack& pack) { pack.prepare_coupling(coupling); });
-      for_each_pack([&](ModePack& pack) { pack.couple(coupling, packs, at_once, width); });
+      tbb::parallel_for(0, count, [&](int p) { packs[p]->prepare_coupling(coupling); });
+      tbb::parallel_for(0, count, [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });
     }
-    tbb::parallel_for(0, modes * width, [&](int task) {
-      const int m = task / width, wave = task % width;
-      unpack(packs[m / at_once], m % at_once * width + wave, m, fields[first + wave]);
-    });
+    if (coupled) tbb::parallel_for(0, count, [&](int p) { unpack_all(*packs[p], p); });
   }
   return fields;
 }

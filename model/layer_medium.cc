@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/layer_medium.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -133,7 +135,7 @@ class LaneFiller {
              std::size_t lane, LayerMedium& medium)
       : optics_(optics), columns_(columns), fan_(fan), lane_(lane), medium_(medium) {}
 
-  void fill(const std::vector<double>& heights) {
+  void fill_levels(const std::vector<double>& heights) {
     for (std::size_t l = 0; l < static_cast<std::size_t>(medium_.moments); ++l) {
       medium_.chi[l * kLanes + lane_] = optics_.moments[l].v;
       if (l < optics_.air_moments.size())
@@ -145,12 +147,37 @@ class LaneFiller {
     for (std::size_t i = 0; i < heights.size(); ++i)
       set_level(i, optics_.densities_at_level(heights[i > 0 ? i - 1 : 0], heights[i],
                                               heights[std::min(i + 1, heights.size() - 1)]));
-    for (int i = 0; i + 1 < fan_.levels(); ++i) set_layer(i);
     medium_.ground_albedo[lane_] = optics_.ground_albedo.v;
     put(medium_.ground_albedo_tangent, 0, optics_.ground_albedo);
     for (std::size_t j = 0; j < medium_.suns; ++j) {
       medium_.ground_beam[j * kLanes + lane_] =
           columns_.lit[j] ? std::exp(-sun_depth_[j].v) : 0;
+    }
+  }
+
+  // After fill_levels().
+  void set_layer(int i) {
+    LayerMedium::Layer& layer = medium_.layers[i];
+    const std::size_t suns = medium_.suns, below = i * suns, above = below + suns;
+    for (int k = 0; k < fan_.count(i); ++k) {
+      PathColumns c = columns_.rays[i * fan_.most() + k];
+      c += -columns_.rays[(i + 1) * fan_.most() + k];
+      const Dual<N> depth = optics_.optical_depth(c);
+      const DiffuseWeights w = diffuse_weights(depth.v);
+      const std::size_t ray = static_cast<std::size_t>(k), at = ray * kLanes + lane_;
+      layer.t[at] = w.t;
+      layer.near[at] = w.near;
+      layer.far[at] = w.far;
+      layer.near_slope[at] = w.near_slope;
+      layer.far_slope[at] = w.far_slope;
+      put(layer.depth_tangent, ray, depth);
+      for (std::size_t j = 0; j < suns; ++j) {
+        const bool lit = columns_.lit[below + j], lit_above = columns_.lit[above + j];
+        const double tau = sun_depth_[below + j].v, tau_above = sun_depth_[above + j].v;
+        const std::size_t sun_at = (ray * suns + j) * kLanes + lane_;
+        set(layer.down, sun_at, beam_weight(depth.v, w, lit, lit_above, tau, tau_above));
+        set(layer.up, sun_at, beam_weight(depth.v, w, lit_above, lit, tau_above, tau));
+      }
     }
   }
 
@@ -175,31 +202,6 @@ class LaneFiller {
     for (std::size_t j = 0; j < medium_.suns; ++j) {
       sun_depth_.push_back(optics_.optical_depth(columns_.suns[level * medium_.suns + j]));
       put(medium_.sun_depth_tangent[level], j, sun_depth_.back());
-    }
-  }
-
-  void set_layer(int i) {
-    LayerMedium::Layer& layer = medium_.layers[i];
-    const std::size_t suns = medium_.suns, below = i * suns, above = below + suns;
-    for (int k = 0; k < fan_.count(i); ++k) {
-      PathColumns c = columns_.rays[i * fan_.most() + k];
-      c += -columns_.rays[(i + 1) * fan_.most() + k];
-      const Dual<N> depth = optics_.optical_depth(c);
-      const DiffuseWeights w = diffuse_weights(depth.v);
-      const std::size_t ray = static_cast<std::size_t>(k), at = ray * kLanes + lane_;
-      layer.t[at] = w.t;
-      layer.near[at] = w.near;
-      layer.far[at] = w.far;
-      layer.near_slope[at] = w.near_slope;
-      layer.far_slope[at] = w.far_slope;
-      put(layer.depth_tangent, ray, depth);
-      for (std::size_t j = 0; j < suns; ++j) {
-        const bool lit = columns_.lit[below + j], lit_above = columns_.lit[above + j];
-        const double tau = sun_depth_[below + j].v, tau_above = sun_depth_[above + j].v;
-        const std::size_t sun_at = (ray * suns + j) * kLanes + lane_;
-        set(layer.down, sun_at, beam_weight(depth.v, w, lit, lit_above, tau, tau_above));
-        set(layer.up, sun_at, beam_weight(depth.v, w, lit_above, lit, tau_above, tau));
-      }
     }
   }
 
@@ -275,14 +277,20 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& opti
     resize(layer.down, rays * m.suns * kLanes, parameters > 0);
     resize(layer.up, rays * m.suns * kLanes, parameters > 0);
   }
+  std::vector<LaneFiller<N>> fillers;  // of the first lane of each wavelength
+  std::array<std::size_t, kLanes> first;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const auto same = static_cast<std::size_t>(
+    first[lane] = static_cast<std::size_t>(
         std::find(optics.begin(), optics.begin() + lane, optics[lane]) - optics.begin());
-    if (same < lane) {
-      copy_lane(m, same, lane);
-    } else {
-      LaneFiller<N>(*optics[lane], columns, fan, lane, m).fill(heights);
-    }
+    if (first[lane] < lane) continue;
+    fillers.emplace_back(*optics[lane], columns, fan, lane, m);
+    fillers.back().fill_levels(heights);
+  }
+  tbb::parallel_for(0, fan.levels() - 1, [&](int i) {
+    for (LaneFiller<N>& filler : fillers) filler.set_layer(i);
+  });
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (first[lane] < lane) copy_lane(m, first[lane], lane);
   }
   return m;
 }

@@ -56,7 +56,7 @@ void append(Lanes& to, const Lanes& from, std::size_t count) {
 
 ModePack::ModePack(const RayFan& fan, const LayerMedium& medium,
                    const std::vector<ModeBasis>& bases, const Modes& modes)
-    : fan_(fan), medium_(medium), modes_(modes) {
+    : fan_(&fan), medium_(&medium), modes_(modes) {
   const int most = medium.moments - *std::min_element(modes.begin(), modes.end());
   rows_ = {static_cast<std::size_t>((most + 1) / 2), static_cast<std::size_t>(most / 2)};
   set_basis(bases);
@@ -73,7 +73,7 @@ ModePack::ModePack(const RayFan& fan, const LayerMedium& medium,
 // Rows of moments that a lane's mode does not have stay 0.
 void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
   for (auto* v : {&synthesis_, &analysis_, &omega_}) v->resize(levels());
-  chi_tangent_.resize(medium_.phase_parameters.size());
+  chi_tangent_.resize(medium_->phase_parameters.size());
   for (std::size_t parity = 0; parity < 2; ++parity) {
     const std::size_t count = rows_[parity];
     sun_basis_[parity].assign(count * suns() * kLanes, 0.0);
@@ -88,26 +88,26 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const ModeBasis& basis = bases[modes_[lane]];
       const auto m = static_cast<std::size_t>(modes_[lane]),
-                 own = static_cast<std::size_t>(medium_.moments) - m;
+                 own = static_cast<std::size_t>(medium_->moments) - m;
       for (std::size_t row = 0; 2 * row + parity < own; ++row) {
         const std::size_t offset = 2 * row + parity, l = m + offset;  // offset = l - m
         for (std::size_t j = 0; j < suns(); ++j)
           at(sun_basis_[parity], suns(), row, j)[lane] = basis.at_suns[j * own + offset];
-        const double chi = at(medium_.chi, 1, l, 0)[lane], air = at(medium_.chi_air, 1, l, 0)[lane];
+        const double chi = at(medium_->chi, 1, l, 0)[lane], air = at(medium_->chi_air, 1, l, 0)[lane];
         at(chi_[parity], 1, row, 0)[lane] = chi;
         at(chi_air_[parity], 1, row, 0)[lane] = air;
         for (std::size_t q = 0; q < chi_tangent_.size(); ++q)
           at(chi_tangent_[q][parity], 1, row, 0)[lane] =
-              at(medium_.chi_tangent[q], 1, l, 0)[lane];
+              at(medium_->chi_tangent[q], 1, l, 0)[lane];
         for (int i = 0; i < levels(); ++i) {
           for (std::size_t k = 0; k < rays(i); ++k) {
-            const double value = basis.at_rays[(i * fan_.most() + k) * own + offset];
+            const double value = basis.at_rays[(i * fan_->most() + k) * own + offset];
             at(synthesis_[i][parity], count, k, row)[lane] = value;
             at(analysis_[i][parity], rays(i), row, k)[lane] =
-                2 * std::numbers::pi * fan_.weight(i, static_cast<int>(k)) * value;
+                2 * std::numbers::pi * fan_->weight(i, static_cast<int>(k)) * value;
           }
           at(omega_[i][parity], 1, row, 0)[lane] =
-              medium_.aerosol[i][lane] * chi + medium_.air[i][lane] * air;
+              medium_->aerosol[i][lane] * chi + medium_->air[i][lane] * air;
         }
       }
     }
@@ -142,7 +142,7 @@ void ModePack::eliminate() {
       const int ray = static_cast<int>(j);
       for (std::size_t k = 0; k < kLanes; ++k)
         at(reflection_[0], n, i, j)[k] = 2 * std::numbers::pi * albedo_[k] *
-                                         fan_.weight(0, ray) * fan_.mu(0, ray);
+                                         fan_->weight(0, ray) * fan_->mu(0, ray);
     }
   }
   Lanes same, other, same_above, other_above;
@@ -160,7 +160,7 @@ void ModePack::eliminate() {
 void ModePack::eliminate_layer(int layer, const Lanes& same, const Lanes& other,
                                   const Lanes& same_above, const Lanes& other_above) {
   const std::size_t n = rays(layer), above = rays(layer + 1);
-  const LayerMedium::Layer& weights = medium_.layers[layer];
+  const LayerMedium::Layer& weights = medium_->layers[layer];
   const double *t = weights.t.data(), *near = weights.near.data(), *far = weights.far.data();
   const Lanes& reflection = reflection_[layer];
   Lanes down(n * n * kLanes), up(n * n * kLanes);  // sources per D once U = R D
@@ -270,8 +270,8 @@ ModePack::Columns ModePack::source_function(const Sources& sources) const {
   for (int i = 0; i < levels(); ++i) {
     const std::size_t count = rays(i) * suns();
     for (auto side : {&Columns::down, &Columns::up}) {
-      lanes::combine(medium_.aerosol[i].data(), (sources.aerosol.*side)[i].data(),
-                     medium_.air[i].data(), (sources.air.*side)[i].data(), (r.*side)[i].data(),
+      lanes::combine(medium_->aerosol[i].data(), (sources.aerosol.*side)[i].data(),
+                     medium_->air[i].data(), (sources.air.*side)[i].data(), (r.*side)[i].data(),
                      count);
     }
   }
@@ -284,10 +284,10 @@ void ModePack::beam_sources() {
     beam_ = sources_of(std::vector<Parities>(levels(), sun_basis_));
     beam_source_ = source_function(beam_);
   }
-  down_source_.resize(medium_.layers.size());
-  up_source_.resize(medium_.layers.size());
-  for (std::size_t i = 0; i < medium_.layers.size(); ++i) {
-    const LayerMedium::Layer& w = medium_.layers[i];
+  down_source_.resize(medium_->layers.size());
+  up_source_.resize(medium_->layers.size());
+  for (std::size_t i = 0; i < medium_->layers.size(); ++i) {
+    const LayerMedium::Layer& w = medium_->layers[i];
     const std::size_t count = w.down.near.size() / kLanes;
     down_source_[i].resize(count * kLanes);
     up_source_[i].resize(count * kLanes);
@@ -300,8 +300,8 @@ void ModePack::beam_sources() {
 
 // Adds near J_i + far J_{i+1} to the rays that look up, near J_{i+1} + far J_i to the others.
 void ModePack::add_diffuse_sources(const Columns& source, std::size_t columns) {
-  for (std::size_t i = 0; i < medium_.layers.size(); ++i) {
-    const LayerMedium::Layer& w = medium_.layers[i];
+  for (std::size_t i = 0; i < medium_->layers.size(); ++i) {
+    const LayerMedium::Layer& w = medium_->layers[i];
     const std::size_t n = rays(static_cast<int>(i));
     lanes::add_blend(w.near.data(), source.down[i].data(), w.far.data(),
                      source.down[i + 1].data(), down_source_[i].data(), n, columns);
@@ -365,8 +365,8 @@ std::vector<ModePack::Parities> ModePack::analyse(const Columns& columns) const 
 
 Lanes ModePack::irradiance(const Lanes& down, std::size_t columns) const {
   Lanes sum(columns * kLanes, 0.0);
-  for (int k = 0; k < fan_.count(0); ++k) {
-    const double weight = 2 * std::numbers::pi * fan_.weight(0, k) * fan_.mu(0, k);
+  for (int k = 0; k < fan_->count(0); ++k) {
+    const double weight = 2 * std::numbers::pi * fan_->weight(0, k) * fan_->mu(0, k);
     const double* row = at(down, columns, static_cast<std::size_t>(k), 0);
     for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += weight * row[j];
   }
@@ -386,8 +386,8 @@ Lanes ModePack::reflected(Lanes irradiance) const {
 }
 
 Lanes ModePack::beam_on_ground() const {
-  Lanes r = medium_.ground_beam;
-  for (std::size_t i = 0; i < r.size(); ++i) r[i] *= std::max(medium_.sun_mu[i / kLanes], 0.0);
+  Lanes r = medium_->ground_beam;
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] *= std::max(medium_->sun_mu[i / kLanes], 0.0);
   return r;
 }
 
@@ -407,14 +407,14 @@ void ModePack::set_tangent_sources() {
 }
 
 Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, bool near) const {
-  const LayerMedium::Layer& w = medium_.layers[layer];
+  const LayerMedium::Layer& w = medium_->layers[layer];
   const std::array<int, 2> level = looks_up ? std::array{layer, layer + 1}
                                             : std::array{layer + 1, layer};  // near, far
   const BeamWeights& b = looks_up ? w.down : w.up;
   const auto of = [&](const Columns& c, int i) {
     return (looks_up ? c.down : c.up)[static_cast<std::size_t>(level[i])].data();
   };
-  const std::size_t p_count = medium_.parameters;
+  const std::size_t p_count = medium_->parameters;
   const Lanes zero(near ? 0 : rays(layer) * suns() * kLanes, 0.0);
   const auto end = [&](int i) {
     const bool is_near = i == 0, none = is_near && !near;
@@ -426,10 +426,10 @@ Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, 
         pick((is_near ? w.near : w.far).data()),
         pick((is_near ? b.near : b.far).data()),
         {pick(slopes[0].data()), pick(slopes[1].data()), pick(slopes[2].data())},
-        medium_.aerosol[at_level].data(),
-        medium_.air[at_level].data(),
-        medium_.aerosol_tangent[at_level].data(),
-        medium_.air_tangent[at_level].data(),
+        medium_->aerosol[at_level].data(),
+        medium_->air[at_level].data(),
+        medium_->aerosol_tangent[at_level].data(),
+        medium_->air_tangent[at_level].data(),
         of(diffuse.aerosol, i),
         of(diffuse.air, i),
         of(beam_.aerosol, i),
@@ -440,8 +440,8 @@ Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, 
                                w.t.data(),
                                of(values_, 1),
                                w.depth_tangent.data(),
-                               medium_.sun_depth_tangent[level[0]].data(),
-                               medium_.sun_depth_tangent[level[1]].data()};
+                               medium_->sun_depth_tangent[level[0]].data(),
+                               medium_->sun_depth_tangent[level[1]].data()};
   lanes::layer_tangent(in, out.data(), rays(layer), suns(), p_count);
   for (std::size_t q = 0; q < diffuse.phase.size(); ++q) {
     const auto phase_end = [&](int i) {
@@ -450,22 +450,22 @@ Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, 
     };
     const lanes::PhaseTangent ends[2] = {phase_end(0), phase_end(1)};
     lanes::add_phase_tangent(ends, out.data(), rays(layer), suns(), p_count,
-                             medium_.phase_parameters[q]);
+                             medium_->phase_parameters[q]);
   }
   return out;
 }
 
 void ModePack::solve_tangents() {
-  const std::size_t p_count = medium_.parameters, columns = suns() * p_count;
+  const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
   Lanes on_ground(columns * kLanes);
   for (std::size_t j = 0; j < suns(); ++j) {
-    const double mu = std::max(medium_.sun_mu[j], 0.0);
+    const double mu = std::max(medium_->sun_mu[j], 0.0);
     for (std::size_t p = 0; p < p_count; ++p) {
       for (std::size_t k = 0; k < kLanes; ++k) {
         const std::size_t sun = j * kLanes + k, column = (j * p_count + p) * kLanes + k;
-        const double beam = mu * medium_.ground_beam[sun];
+        const double beam = mu * medium_->ground_beam[sun];
         on_ground[column] = albedo_tangent_[p * kLanes + k] * (ground_[sun] + beam) -
-                            albedo_[k] * beam * medium_.sun_depth_tangent[0][column];
+                            albedo_[k] * beam * medium_->sun_depth_tangent[0][column];
       }
     }
   }
@@ -491,7 +491,7 @@ void ModePack::advance() {
   values_.down.back().assign(rays(levels() - 1) * width * kLanes, 0.0);
   for (int i = levels() - 2; i >= 0; --i) {
     Lanes& d = values_.down[i] = down_source_[i];
-    add_block(medium_.layers[i].t.data(), values_.down[i + 1], width, 0, d, width, 0, rays(i),
+    add_block(medium_->layers[i].t.data(), values_.down[i + 1], width, 0, d, width, 0, rays(i),
               width);
   }
   values_.up[0] = ground;
@@ -499,7 +499,7 @@ void ModePack::advance() {
     // A ray that begins at level i + 1 comes from its other half.
     Lanes& u = values_.up[i + 1] = values_.down[i + 1];
     std::ranges::copy(up_source_[i], u.begin());
-    add_block(medium_.layers[i].t.data(), values_.up[i], width, 0, u, width, 0, rays(i), width);
+    add_block(medium_->layers[i].t.data(), values_.up[i], width, 0, u, width, 0, rays(i), width);
   }
   moments_ = analyse(values_);
   ground_ = irradiance(values_.down[0], width);
@@ -509,7 +509,7 @@ void ModePack::solve() {
   eliminate();
   beam_sources();
   solve_values();
-  if (medium_.parameters == 0) return;
+  if (medium_->parameters == 0) return;
   set_tangent_sources();
   solve_tangents();
 }
@@ -548,7 +548,7 @@ void ModePack::set_neighbour(const SunCoupling& coupling, int layer, const Lanes
 
 // The light that enters a layer at its far end, as it is at the near end.
 void ModePack::prepare_coupling(const SunCoupling& coupling) {
-  const std::size_t p_count = medium_.parameters, columns = suns() * p_count;
+  const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
   const Sources diffuse = sources_of(moments_);
   const Columns source = source_function(diffuse);
   Columns source_tangent;
@@ -564,10 +564,10 @@ void ModePack::prepare_coupling(const SunCoupling& coupling) {
   for (std::size_t side = 0; side < 2; ++side) {
     const bool looks_up = side == 0;
     for (auto* v : {&to_next_, &to_previous_}) {
-      for (auto& kind : *v) kind[side].resize(medium_.layers.size());
+      for (auto& kind : *v) kind[side].resize(medium_->layers.size());
     }
     for (int i = 0; i + 1 < levels(); ++i) {
-      const LayerMedium::Layer& w = medium_.layers[i];
+      const LayerMedium::Layer& w = medium_->layers[i];
       const int far = looks_up ? i + 1 : i;
       const auto of = [&](const Columns& c) {
         return (looks_up ? c.down : c.up)[static_cast<std::size_t>(far)].data();
@@ -587,14 +587,14 @@ void ModePack::prepare_coupling(const SunCoupling& coupling) {
 }
 
 // Adds -psi / 2 (P_{m-1} + Q_{m+1}), in mode 0 -psi Q_1.
-void ModePack::add_coupling(const SunCoupling& coupling, const std::vector<ModePack>& packs,
+void ModePack::add_coupling(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs,
                             int at_once, int width, std::size_t columns, std::size_t kind) {
   const int modes = static_cast<int>(packs.size()) * at_once;
   for (int lane = 0; lane < static_cast<int>(kLanes); ++lane) {
     const int m = modes_[lane];
     const auto add = [&](int neighbour, double factor, bool next) {
       if (neighbour >= modes) return;
-      const ModePack& pack = packs[neighbour / at_once];
+      const ModePack& pack = *packs[neighbour / at_once];
       const int from = neighbour % at_once * width + lane % width;
       if (pack.modes_[from] != neighbour) return;  // a lane that repeats the last mode
       const auto& light = (next ? pack.to_next_ : pack.to_previous_)[kind];
@@ -604,7 +604,7 @@ void ModePack::add_coupling(const SunCoupling& coupling, const std::vector<ModeP
           const std::size_t n = rays(static_cast<int>(i));
           for (std::size_t r = 0; r < n; ++r) {
             const double weight =
-                factor * coupling.step[i * static_cast<std::size_t>(fan_.most()) + r];
+                factor * coupling.step[i * static_cast<std::size_t>(fan_->most()) + r];
             const double* x = light[side][i].data() + r * columns * kLanes + from;
             double* y = source[i].data() + r * columns * kLanes + lane;
             for (std::size_t c = 0; c < columns; ++c) y[c * kLanes] += weight * x[c * kLanes];
@@ -621,20 +621,20 @@ void ModePack::add_coupling(const SunCoupling& coupling, const std::vector<ModeP
   }
 }
 
-void ModePack::couple(const SunCoupling& coupling, const std::vector<ModePack>& packs,
+void ModePack::couple(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs,
                       int at_once, int width) {
   beam_sources();
   add_coupling(coupling, packs, at_once, width, suns(), 0);
   solve_values();
-  if (medium_.parameters == 0) return;
+  if (medium_->parameters == 0) return;
   set_tangent_sources();
-  add_coupling(coupling, packs, at_once, width, suns() * medium_.parameters, 1);
+  add_coupling(coupling, packs, at_once, width, suns() * medium_->parameters, 1);
   solve_tangents();
 }
 
 void ModePack::append_moments(int lane, int level, LargeArray& out) const {
-  const std::size_t p_count = medium_.parameters;
-  for (int offset = 0; offset < medium_.moments - modes_[lane]; ++offset) {  // l - m
+  const std::size_t p_count = medium_->parameters;
+  for (int offset = 0; offset < medium_->moments - modes_[lane]; ++offset) {  // l - m
     const std::size_t parity = offset % 2, row = offset / 2;
     const double* value = at(moments_[level][parity], suns(), row, 0) + lane;
     const double* tangent =
@@ -647,7 +647,7 @@ void ModePack::append_moments(int lane, int level, LargeArray& out) const {
 }
 
 void ModePack::append_ground_irradiance(int lane, LargeArray& out) const {
-  const std::size_t p_count = medium_.parameters;
+  const std::size_t p_count = medium_->parameters;
   for (std::size_t j = 0; j < suns(); ++j) {
     out.push_back(ground_[j * kLanes + lane]);
     for (std::size_t p = 0; p < p_count; ++p)

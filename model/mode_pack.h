@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "model/layer_medium.h"
@@ -54,7 +55,7 @@ class ModePack {
   // every pack of the same medium prepares, then each couples to all of them. `packs` hold `at_once`
   // modes each, ascending, in lanes of `width` wavelengths.
   void prepare_coupling(const SunCoupling& coupling);
-  void couple(const SunCoupling& coupling, const std::vector<ModePack>& packs, int at_once,
+  void couple(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs, int at_once,
               int width);
   // One more order of scattering or reflection, values only: what advance() was called k times for
   // is the field of light that met air or ground k times. Not to be mixed with solve().
@@ -75,9 +76,9 @@ class ModePack {
   };
   using Parities = std::array<Lanes, 2>;  // by parity of l - m
 
-  std::size_t rays(int level) const { return static_cast<std::size_t>(fan_.count(level)); }
-  int levels() const { return fan_.levels(); }
-  std::size_t suns() const { return medium_.suns; }
+  std::size_t rays(int level) const { return static_cast<std::size_t>(fan_->count(level)); }
+  int levels() const { return fan_->levels(); }
+  std::size_t suns() const { return medium_->suns; }
 
   void set_basis(const std::vector<ModeBasis>& bases);
   void scattering(int level, Lanes& same, Lanes& other) const;
@@ -111,11 +112,11 @@ class ModePack {
   Lanes layer_tangent(int layer, bool looks_up, const Sources& diffuse, bool near) const;
   void set_neighbour(const SunCoupling& coupling, int layer, const Lanes& from_afar,
                      std::size_t parameters, Lanes& to_next, Lanes& to_previous) const;
-  void add_coupling(const SunCoupling& coupling, const std::vector<ModePack>& packs, int at_once,
+  void add_coupling(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs, int at_once,
                     int width, std::size_t columns, std::size_t kind);
 
-  const RayFan& fan_;
-  const LayerMedium& medium_;
+  const RayFan* fan_;
+  const LayerMedium* medium_;
   Modes modes_;
   std::array<std::size_t, 2> rows_{};
   std::vector<Parities> synthesis_, analysis_, omega_;  // per level

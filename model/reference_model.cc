@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "model/parameter_field.h"
 #include "model/single_scattering.h"
 #include "model/sky_solution.h"
 
@@ -41,14 +44,68 @@ ViewRays distinct_view_rays(const Shells& shells, const std::vector<double>& hei
                             std::span<const SkyPoint> points) {
   ViewRays rays;
   std::map<std::pair<double, double>, int> known;
+  std::vector<const SkyPoint*> first;
   for (const SkyPoint& p : points) {
     const auto [at, added] =
-        known.try_emplace({p.altitude_m, p.view_zenith}, static_cast<int>(rays.paths.size()));
-    if (added)
-      rays.paths.push_back(view_path(shells, heights, p.altitude_m, std::cos(p.view_zenith)));
+        known.try_emplace({p.altitude_m, p.view_zenith}, static_cast<int>(first.size()));
+    if (added) first.push_back(&p);
     rays.path_of_point.push_back(at->second);
   }
+  rays.paths.resize(first.size());
+  tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t i) {
+    rays.paths[i] = view_path(shells, heights, first[i]->altitude_m, std::cos(first[i]->view_zenith));
+  });
   return rays;
+}
+
+// Light scattered once, [point][wavelength].
+template <int N>
+std::vector<Dual<N>> single_scattering_of(const Shells& shells,
+                                          const std::vector<Optics<N>>& optics,
+                                          const ViewRays& rays,
+                                          const std::vector<SunAlongRay>& suns) {
+  Shared<double> shared;
+  std::vector<RayNodes> nodes(rays.paths.size());
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    nodes[i] = ray_nodes(shells, rays.paths[i].ray, {});
+  });
+  std::vector<Dual<N>> light(suns.size() * optics.size());
+  tbb::parallel_for(std::size_t{0}, suns.size(), [&](std::size_t i) {
+    const ViewPath& path = rays.paths[rays.path_of_point[i]];
+    if (path.nodes.empty()) return;
+    const std::vector<double> edges = suns[i].shadow_edges();
+    RayNodes own;
+    if (!edges.empty()) own = ray_nodes(shells, path.ray, edges);
+    const RayNodes& along = edges.empty() ? nodes[rays.path_of_point[i]] : own;
+    const SunlitNodes sunlit = sunlit_nodes(shells, along, suns[i]);
+    const double nu = suns[i].nu();
+    for (std::size_t w = 0; w < optics.size(); ++w) {
+      const SingleScattering<N> single = single_scattering(optics[w], along, sunlit);
+      light[i * optics.size() + w] =
+          single.air * shared.rayleigh_phase(optics[w].depolarisation, nu) +
+          single.aerosol * aerosol_phase(optics[w].phase, nu);
+    }
+  });
+  return light;
+}
+
+// Light scattered more often, [point][wavelength][slice].
+template <int N>
+std::vector<double> multiple_scattering_of(const SkySolution<N>& solution, const ViewRays& rays,
+                                           const std::vector<SunAlongRay>& suns,
+                                           std::size_t slices_per_point) {
+  std::vector<double> light(suns.size() * slices_per_point, 0.0);
+  std::vector<PathWithSuns> bundles;
+  for (const ViewPath& path : rays.paths) bundles.push_back({&path, {}});
+  for (std::size_t i = 0; i < suns.size(); ++i)
+    bundles[rays.path_of_point[i]].suns.push_back({&suns[i], &light[i * slices_per_point]});
+  const MultipleScattering<N> scattering = solution.multiple_scattering();
+  constexpr std::size_t kAtOnce = MultipleScattering<N>::kPathsAtOnce;
+  tbb::parallel_for(std::size_t{0}, (bundles.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t i) {
+    scattering.add(std::span(bundles).subspan(
+        i * kAtOnce, std::min(kAtOnce, bundles.size() - i * kAtOnce)));
+  });
+  return light;
 }
 
 template <int N>
@@ -66,57 +123,39 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
     suns.emplace_back(shells.bottom_radius, path.ray, points[i]);
     for (const RayPoint& p : path.sun_points) mu_s.push_back(suns.back().mu_s(p));
   }
-  const SkySolution<N> solution(atmosphere, wavelengths, derivatives, mu_s, options);
+  std::vector<Optics<N>> optics;
+  const auto seeded_atmosphere = seeded<N>(atmosphere, derivatives);
+  for (const WavelengthNode& node : wavelengths)
+    optics.push_back(optics_at(seeded_atmosphere, node, options.moments));
 
-  const int n_points = static_cast<int>(points.size()),
-            n_waves = static_cast<int>(wavelengths.size());
+  const bool first = options.order <= 1, further = options.order != 1;
+  std::vector<Dual<N>> single(points.size() * optics.size());
+  std::optional<SkySolution<N>> solution;
+  tbb::parallel_invoke(
+      [&] { solution.emplace(shells, optics, derivatives.size(), mu_s, options); },
+      [&] {
+        if (first) single = single_scattering_of(shells, optics, rays, suns);
+      });
   const std::size_t slices = 1 + derivatives.size();
-  std::vector<double> multiple(points.size() * wavelengths.size() * slices, 0.0);
-  std::vector<PathWithSuns> bundles;
-  for (const ViewPath& path : rays.paths) bundles.push_back({&path, {}});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    bundles[rays.path_of_point[i]].suns.push_back(
-        {&suns[i], &multiple[i * wavelengths.size() * slices]});
-  }
-  const MultipleScattering<N> scattering = solution.multiple_scattering();
-  constexpr int kAtOnce = MultipleScattering<N>::kPathsAtOnce;
-  const int n_paths = static_cast<int>(bundles.size());
-  tbb::parallel_for(0, (n_paths + kAtOnce - 1) / kAtOnce, [&](int i) {
-    const std::size_t first = static_cast<std::size_t>(i) * kAtOnce;
-    scattering.add(std::span(bundles).subspan(
-        first, std::min<std::size_t>(kAtOnce, bundles.size() - first)));
-  });
-  SkyValues values{n_points, n_waves, static_cast<int>(derivatives.size()), {}, {}};
-  values.value.resize(static_cast<std::size_t>(n_points) * n_waves);
+  const std::vector<double> multiple =
+      multiple_scattering_of(*solution, rays, suns, optics.size() * slices);
+
+  SkyValues values{static_cast<int>(points.size()), static_cast<int>(optics.size()),
+                   static_cast<int>(derivatives.size()), {}, {}};
+  values.value.resize(points.size() * optics.size());
   values.derivative.resize(values.value.size() * derivatives.size());
-  Shared<double> shared;
-  std::vector<RayNodes> nodes(rays.paths.size());
-  tbb::parallel_for(0, n_paths,
-                    [&](int i) { nodes[i] = ray_nodes(shells, rays.paths[i].ray, {}); });
-  tbb::parallel_for(0, n_points, [&](int i) {
-    const ViewPath& path = rays.paths[rays.path_of_point[i]];
-    if (path.nodes.empty()) return;
-    const std::vector<double> edges = suns[i].shadow_edges();
-    RayNodes own;
-    if (!edges.empty()) own = ray_nodes(shells, path.ray, edges);
-    const RayNodes& along = edges.empty() ? nodes[rays.path_of_point[i]] : own;
-    const SunlitNodes sunlit = sunlit_nodes(shells, along, suns[i]);
-    for (int w = 0; w < n_waves; ++w) {
-      const SingleScattering<N> single = single_scattering(solution.optics(w), along, sunlit);
-      const double nu = suns[i].nu();
-      const Dual<N> sum = single.air * shared.rayleigh_phase(solution.optics(w).depolarisation, nu) +
-                          single.aerosol * aerosol_phase(solution.optics(w).phase, nu) +
-                          solution.ground(path, suns[i], w);
-      const std::size_t cell = static_cast<std::size_t>(i) * n_waves + w;
-      values.value[cell] = sum.v + multiple[cell * slices];
-      if constexpr (N > 0) {
-        for (std::size_t p = 0; p < derivatives.size(); ++p) {
-          values.derivative[(p * n_points + i) * n_waves + w] =
-              sum.d[p] + multiple[cell * slices + 1 + p];
-        }
-      }
+  for (std::size_t cell = 0; cell < values.value.size(); ++cell) {
+    const std::size_t point = cell / optics.size(), wave = cell % optics.size();
+    const Dual<N> sum = single[cell] + solution->ground(rays.paths[rays.path_of_point[point]],
+                                                        suns[point], static_cast<int>(wave),
+                                                        first, further);
+    const double* more = further ? &multiple[cell * slices] : nullptr;
+    values.value[cell] = sum.v + (more ? more[0] : 0);
+    if constexpr (N > 0) {
+      for (std::size_t p = 0; p < derivatives.size(); ++p)
+        values.derivative[p * values.value.size() + cell] = sum.d[p] + (more ? more[1 + p] : 0);
     }
-  });
+  }
   return values;
 }
 
@@ -129,6 +168,7 @@ ReferenceModel::ReferenceModel(const ReferenceOptions& options) : options_(optio
   check(options.levels >= 4, "levels", options.levels, ">= 4");
   check(options.threads >= 1, "threads", options.threads, ">= 1");
   check(options.tolerance > 0, "tolerance", options.tolerance, "> 0");
+  check(options.order >= 0, "order", options.order, ">= 0");
 }
 
 SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,

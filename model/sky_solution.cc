@@ -25,14 +25,13 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
 }  // namespace
 
 template <int N>
-SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
-                            std::span<const WavelengthNode> wavelengths,
-                            std::span<const Parameter> derivatives,
-                            std::span<const double> mu_s_needed, const ReferenceOptions& options)
-    : shells_(shells_of(atmosphere)),
-      heights_(level_heights(shells_.top, options.levels)),
-      solved_(grid_.size(), -1) {
-  for (const Parameter p : derivatives) shells_.ozone |= p == Parameter::kOzoneColumn;
+SkySolution<N>::SkySolution(const Shells& shells, const std::vector<Optics<N>>& optics,
+                            std::size_t derivatives, std::span<const double> mu_s_needed,
+                            const ReferenceOptions& options)
+    : shells_(shells),
+      heights_(level_heights(shells.top, options.levels)),
+      solved_(grid_.size(), -1),
+      optics_(optics) {
   for (const double mu_s : mu_s_needed) {
     for (const int i : grid_.stencil(mu_s).index) solved_[i] = 0;
   }
@@ -47,19 +46,15 @@ SkySolution<N>::SkySolution(const Atmosphere<double>& atmosphere,
     solved_[i] = static_cast<int>(suns.size());
     suns.push_back(grid_.mu(i));
   }
-  const Atmosphere<Dual<N>> seeded_atmosphere = seeded<N>(atmosphere, derivatives);
-  for (const WavelengthNode& node : wavelengths) {
-    optics_.push_back(optics_at(seeded_atmosphere, node, options.moments));
-  }
   const RayFan fan(shells_.bottom_radius, heights_, options.streams);
-  fields_ = solve_diffuse_fields<N>(shells_, optics_, 1 + static_cast<int>(derivatives.size()),
+  fields_ = solve_diffuse_fields<N>(shells_, optics_, 1 + static_cast<int>(derivatives),
                                     heights_, suns, fan, sun_coupling(grid_, solved_, fan, first),
-                                    {options.moments, options.tolerance, options.order});
+                                    {options.moments, options.tolerance, std::max(options.order - 1, 0)});
 }
 
 template <int N>
-Dual<N> SkySolution<N>::ground(const ViewPath& path, const SunAlongRay& sun,
-                               int wavelength) const {
+Dual<N> SkySolution<N>::ground(const ViewPath& path, const SunAlongRay& sun, int wavelength,
+                               bool beam, bool diffuse) const {
   if (!path.ray.hits_ground) return {};
   const Optics<N>& optics = optics_[wavelength];
   const double mu_s = sun.mu_s(path.nodes.back());
@@ -71,13 +66,13 @@ Dual<N> SkySolution<N>::ground(const ViewPath& path, const SunAlongRay& sun,
   const DiffuseField& field = fields_[wavelength];
   Dual<N> irradiance;
   const SunStencil stencil = grid_.stencil(mu_s);
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 4 && diffuse; ++k) {
     const double* at = field.ground_irradiance.data() +
                        solved_[stencil.index[k]] * static_cast<std::ptrdiff_t>(field.shape.slices);
     irradiance.v += stencil.even[k] * at[0];
     for (int p = 1; p < field.shape.slices; ++p) irradiance.d[p - 1] += stencil.even[k] * at[p];
   }
-  if (mu_s > 0) irradiance += mu_s * transmitted(shells_.columns_to_top(0, mu_s));
+  if (beam && mu_s > 0) irradiance += mu_s * transmitted(shells_.columns_to_top(0, mu_s));
   return optics.ground_albedo * (1 / std::numbers::pi) * irradiance *
          transmitted(path.columns_to_end);
 }

@@ -16,24 +16,24 @@ template <int N>
 class SkySolution {
  public:
   // Solves the diffuse field for every sun of the grid that `mu_s_needed` touches (cosines of local
-  // sun zenith angles).
-  SkySolution(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
-              std::span<const Parameter> derivatives, std::span<const double> mu_s_needed,
-              const ReferenceOptions& options);
+  // sun zenith angles). `optics` stay where they are.
+  SkySolution(const Shells& shells, const std::vector<Optics<N>>& optics, std::size_t derivatives,
+              std::span<const double> mu_s_needed, const ReferenceOptions& options);
 
-  const Optics<N>& optics(int wavelength) const { return optics_[wavelength]; }
   MultipleScattering<N> multiple_scattering() const {
     return {heights_, grid_, solved_, optics_, fields_};
   }
-  // Light that comes straight from the ground at the end of the path (1/sr).
-  Dual<N> ground(const ViewPath& path, const SunAlongRay& sun, int wavelength) const;
+  // Light that comes straight from the ground at the end of the path (1/sr), under the sun's beam
+  // and under the diffuse field.
+  Dual<N> ground(const ViewPath& path, const SunAlongRay& sun, int wavelength, bool beam,
+                 bool diffuse) const;
 
  private:
   Shells shells_;
   std::vector<double> heights_;
   SunGrid grid_;
   std::vector<int> solved_;  // grid index -> solved index, -1 when not needed
-  std::vector<Optics<N>> optics_;
+  const std::vector<Optics<N>>& optics_;
   std::vector<DiffuseField> fields_;
 };
 
