@@ -87,6 +87,11 @@ expect "the installation fails" 1 "run: apt-get could not install: libfmt-dev"
 machine_without libfmt-dev
 run_packages nobody
 expect "neither root nor sudo" 1 "run: needs root or sudo to install: libfmt-dev"
+if ((EUID == 0)) && [[ $output == *$'\n'* ]]; then
+  echo "FAILED: neither root nor sudo: expected one line, got:"
+  echo "$output"
+  failures=$((failures + 1))
+fi
 
 machine_without libfmt-dev
 rm "$bin/dpkg-query"
