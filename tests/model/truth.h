@@ -66,6 +66,69 @@ inline Atmosphere<double> plane_parallel(const std::string& name) {
   return a;
 }
 
+// The cases of monte_carlo.csv.
+struct MonteCarloCase {
+  Atmosphere<double> atmosphere;
+  double wavelength_nm = 550;
+};
+inline MonteCarloCase monte_carlo_case(const std::string& name) {
+  MonteCarloCase c;
+  Atmosphere<double>& a = c.atmosphere;
+  a.rayleigh.scattering_per_m = {550, 1.216e-5, 4.08};
+  a.ozone.column_du = 0;
+  a.mie.scattering_per_m = {550, 1.583e-4, 1.0};  // aerosol optical depth 0.2
+  a.mie.single_scattering_albedo = 0.95;
+  a.mie.phase.g = 0.65;
+  a.ground_albedo = 0.2;
+  if (name == "clear-400nm") {
+    c.wavelength_nm = 400;
+    a.mie.scattering_per_m = {550, 3e-5, 1.3};
+    a.ozone.column_du = 300;
+  } else if (name == "haze-650nm") {
+    c.wavelength_nm = 650;
+    a.mie.scattering_per_m = {550, 2.1e-4, 1.3};
+    a.mie.phase.g = 0.76;
+    a.ozone.column_du = 300;
+    a.ground_albedo = 0.5;
+  } else if (name == "peaked-haze") {
+    a.mie.scattering_per_m = {550, 2.0e-4, 1.3};
+    a.mie.phase.type = PhaseType::kTwoLobe;
+    a.mie.phase.g1 = 0.9;
+    a.mie.phase.g2 = 0.3;
+    a.mie.phase.weight = 0.6;
+  } else if (name == "twilight-clear") {
+    a.mie.scattering_per_m.value = 4e-6;
+    a.mie.phase.g = 0.76;
+  } else if (name == "deep-twilight") {
+    a.mie.scattering_per_m.value = 4e-5;
+  } else if (name == "thick-haze-450nm") {  // aerosol optical depth 1.36
+    c.wavelength_nm = 450;
+    a.mie.scattering_per_m = {550, 8e-4, 1.2};
+    a.mie.single_scattering_albedo = 0.9;
+    a.mie.phase.g = 0.75;
+    a.ozone.column_du = 350;
+  } else if (name == "altitude-clear") {
+    a.mie.scattering_per_m.value = 4e-6;
+  } else if (name == "mars") {
+    a.bottom_radius_m = 3389.5e3;
+    a.top_radius_m = a.bottom_radius_m + 100e3;
+    a.rayleigh.scattering_per_m.value = 1e-6;
+    a.rayleigh.scale_height_m = 11e3;
+    a.mie.scattering_per_m = {550, 4e-5, 0};
+    a.mie.scale_height_m = 11e3;
+    a.mie.single_scattering_albedo = 0.94;
+    a.mie.phase.g = 0.7;
+  } else if (name != "low-sun-haze" && name != "twilight-haze" && name != "altitude-haze" &&
+             name != "space") {
+    throw std::runtime_error(name + ": no such case");
+  }
+  return c;
+}
+inline SkyPoint point_of(const Row& row) {
+  return {row.number(1), row.number(2) * kDegree, row.number(3) * kDegree,
+          row.number(4) * kDegree};
+}
+
 struct Compared {
   SkyPoint point;
   double truth, model;
@@ -101,8 +164,8 @@ Errors errors(const std::vector<Compared>& rows, Keep keep) {
 
 inline std::vector<Compared> compare(const SkyModel& model, const Atmosphere<double>& atmosphere,
                                      const std::vector<SkyPoint>& points,
-                                     const std::vector<double>& truth) {
-  const WavelengthNode node{550, 0};
+                                     const std::vector<double>& truth,
+                                     const WavelengthNode& node = {550, 0}) {
   const SkyValues values = model.radiance(atmosphere, {&node, 1}, points, {});
   std::vector<Compared> rows;
   for (std::size_t i = 0; i < points.size(); ++i)
