@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `reference`: the yardstick. Single scattering by quadrature in spherical geometry with the true
-// phase function; multiple scattering from the converged diffuse field (model/diffuse_field.h), its
-// source integrated along the spherical view ray at the local sun; Lambert ground, ozone.
-// Unpolarised, no refraction. Approximate: the transport of the diffuse field itself is
-// plane-parallel. It matters for low suns; README.md, Accuracy, states the error against Monte
+// phase function; multiple scattering from the diffuse field (model/diffuse_field.h), solved in
+// spherical shells, its source integrated along the spherical view ray at the local sun; Lambert
+// ground, ozone. Unpolarised, no refraction. README.md, Accuracy, states the error against Monte
 // Carlo.
 #pragma once
 
@@ -12,7 +11,7 @@
 namespace skyfit {
 
 struct ReferenceOptions {
-  int streams = 8;   // rays to the ground of the diffuse field, per hemisphere
+  int streams = 8;   // rays to the ground of the diffuse field, per hemisphere; more along the limb
   int moments = 16;  // of the aerosol's phase function, <= 2 streams
   int levels = 28;   // of the diffuse field
   int threads = 1;
