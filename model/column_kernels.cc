@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// foreach_target.h includes this file once per instruction set and must come before highway.h.
+// clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/column_kernels.cc"
-#include "hwy/foreach_target.h"  // must come before highway.h
+#include "hwy/foreach_target.h"
 
 #include "model/column_kernels.h"
 
@@ -12,7 +14,7 @@
 
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
-
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace skyfit::kernels::HWY_NAMESPACE {
@@ -102,8 +104,7 @@ HWY_INLINE void to_infinity(D d, const Layer& layer, V height, V mu, V& value, V
   const V density = hn::Exp(d, hn::Neg(relative));
   const V z = hn::Mul(mu, hn::Sqrt(hn::Mul(hn::Set(d, 0.5), x)));
   V c, by_x;
-  chapman(d, x, mu,
-          scaled_erfc(d, z, layer.erfc.series, layer.erfc.terms, layer.erfc.end),
+  chapman(d, x, mu, scaled_erfc(d, z, layer.erfc.series, layer.erfc.terms, layer.erfc.end),
           layer.order_limit_x, c, by_x);
   value = hn::Mul(hn::Mul(density, scale), c);
   slope = hn::Mul(density, hn::NegMulAdd(x, by_x, hn::Mul(c, hn::Add(hn::Set(d, 1.0), relative))));
@@ -137,12 +138,13 @@ HWY_INLINE void store(D d, V v, double* p, std::size_t lanes) {
 }
 
 void ExponentialColumns(const Sphere& sphere, double scale_height, const double* series,
-                        std::size_t terms, double erfc_end, std::size_t count,
-                        const double* height, const double* mu, double* value,
-                        double* by_scale_height) {
+                        std::size_t terms, double erfc_end, std::size_t count, const double* height,
+                        const double* mu, double* value, double* by_scale_height) {
   const D d;
   const double top = sphere.top, r_top = sphere.bottom_radius + top;
-  const Layer layer{sphere.bottom_radius, scale_height, sphere.bottom_radius / scale_height,
+  const Layer layer{sphere.bottom_radius,
+                    scale_height,
+                    sphere.bottom_radius / scale_height,
                     {series, terms, erfc_end}};
   const V radius0 = hn::Set(d, sphere.bottom_radius);
   for_blocks(d, count, [&](std::size_t first, std::size_t lanes) {
@@ -162,11 +164,9 @@ void ExponentialColumns(const Sphere& sphere, double scale_height, const double*
     const V below_top = hn::Sub(hn::Set(d, top), h);
     const auto cut = hn::Lt(below_top, hn::Set(d, kNothingAbove * scale_height));
     if (!hn::AllFalse(d, cut)) {
-      const V lift =
-          hn::Mul(below_top, hn::Add(h, hn::Set(d, top + 2 * sphere.bottom_radius)));
+      const V lift = hn::Mul(below_top, hn::Add(h, hn::Set(d, top + 2 * sphere.bottom_radius)));
       const V along = hn::Mul(r, m);
-      const V mu_top2 =
-          hn::Mul(hn::MulAdd(along, along, lift), hn::Set(d, 1 / (r_top * r_top)));
+      const V mu_top2 = hn::Mul(hn::MulAdd(along, along, lift), hn::Set(d, 1 / (r_top * r_top)));
       V above, above_slope;
       to_infinity(d, layer, hn::Set(d, top), hn::Sqrt(hn::Max(mu_top2, hn::Zero(d))), above,
                   above_slope);
@@ -190,8 +190,8 @@ HWY_INLINE V rising_piece(D d, double bottom_radius, V height, V along, double l
   const V zero = hn::Zero(d), along2 = hn::Mul(along, along);
   const V r0 = hn::Add(hn::Set(d, bottom_radius), height), r02 = hn::Mul(r0, r0);
   const auto distance_at = [&](V h) {
-    const V lift = hn::Mul(hn::Sub(h, height),
-                           hn::Add(hn::Add(h, height), hn::Set(d, 2 * bottom_radius)));
+    const V lift =
+        hn::Mul(hn::Sub(h, height), hn::Add(hn::Add(h, height), hn::Set(d, 2 * bottom_radius)));
     return hn::Sqrt(hn::Max(hn::Add(along2, lift), zero));
   };
   const V low = hn::Min(hn::Max(hn::Set(d, low_edge), height), hn::Set(d, end));
@@ -202,8 +202,8 @@ HWY_INLINE V rising_piece(D d, double bottom_radius, V height, V along, double l
     for (int i = 0; i < 4; ++i) {
       const V t = hn::MulAdd(length, hn::Set(d, (part + kNode[i]) / parts), begin);
       const V gain = hn::MulSub(t, t, along2);
-      const V h = hn::Add(
-          height, hn::Div(gain, hn::Add(r0, hn::Sqrt(hn::Max(hn::Add(r02, gain), zero)))));
+      const V h =
+          hn::Add(height, hn::Div(gain, hn::Add(r0, hn::Sqrt(hn::Max(hn::Add(r02, gain), zero)))));
       mean = hn::MulAdd(hn::Set(d, kWeight[i] / parts), h, mean);
     }
   }

@@ -88,6 +88,15 @@ constexpr int kCouplings = 2;
 
 }  // namespace
 
+int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
+  constexpr double kThin = 0.02;  // top height over radius
+  if (shells.top > kThin * shells.bottom_radius) return 0;
+  constexpr double kLow = 86 * std::numbers::pi / 180;
+  int i = 0;
+  while (grid.zenith(i) < kLow) ++i;
+  return i;
+}
+
 SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, const RayFan& fan,
                          int first) {
   SunCoupling c;
@@ -107,10 +116,9 @@ SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, co
     for (int k = 0; k < fan.most(); ++k) {
       // The difference of the ray's zenith angles at both ends.
       const double low = fan.mu(i, k), high = fan.mu(i + 1, k);
-      c.step.push_back(k < fan.count(i)
-                           ? std::asin(std::sqrt(1 - low * low) * high -
-                                       low * std::sqrt(1 - high * high))
-                           : 0.0);
+      c.step.push_back(k < fan.count(i) ? std::asin(std::sqrt(1 - low * low) * high -
+                                                    low * std::sqrt(1 - high * high))
+                                        : 0.0);
     }
   }
   return c;
@@ -120,12 +128,12 @@ template <int N>
 std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
                                                std::span<const Optics<N>> optics, int slices,
                                                const std::vector<double>& heights,
-                                               const std::vector<double>& sun_mu,
-                                               const RayFan& fan, const SunCoupling& coupling,
+                                               const std::vector<double>& sun_mu, const RayFan& fan,
+                                               const SunCoupling& coupling,
                                                const DiffuseOptions& options) {
   const int waves = static_cast<int>(optics.size()), moments = options.moments;
-  const FieldShape shape{static_cast<int>(heights.size()), moments,
-                         static_cast<int>(sun_mu.size()), slices};
+  const FieldShape shape{static_cast<int>(heights.size()), moments, static_cast<int>(sun_mu.size()),
+                         slices};
   std::vector<DiffuseField> fields(waves);
   int modes = 0;
   for (const Optics<N>& o : optics)
@@ -143,9 +151,8 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
     const int width = std::min(kLanes, waves - first), at_once = kLanes / width;
     std::array<const Optics<N>*, lanes::kLanes> lane_optics;
     for (int k = 0; k < kLanes; ++k) lane_optics[k] = &optics[first + k % width];
-    const LayerMedium medium =
-        layer_medium<N>(lane_optics, static_cast<std::size_t>(slices - 1), heights, sun_mu,
-                        columns, fan, moments);
+    const LayerMedium medium = layer_medium<N>(lane_optics, static_cast<std::size_t>(slices - 1),
+                                               heights, sun_mu, columns, fan, moments);
     const auto pack_of = [&](int p) {
       ModePack::Modes lane_modes;
       for (int k = 0; k < kLanes; ++k)
@@ -171,7 +178,8 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
     });
     for (int k = 0; coupled && k < kCouplings; ++k) {
       tbb::parallel_for(0, count, [&](int p) { packs[p]->prepare_coupling(coupling); });
-      tbb::parallel_for(0, count, [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });
+      tbb::parallel_for(0, count,
+                        [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });
     }
     if (coupled) tbb::parallel_for(0, count, [&](int p) { unpack_all(*packs[p], p); });
   }

@@ -46,8 +46,14 @@ struct DiffuseOptions {
   int order = 0;
 };
 
-// The coupling of the suns of `grid` that are solved (solved[i] >= 0 is the place of grid node i among
-// them), from the node `first` on; it and those after it, and the two before it, must be solved.
+// The first sun of the grid that has light from neighbouring places under their own sun. On a
+// planet whose atmosphere is thin against its radius, as the Earth's, that matters for low suns
+// only (below 0.15 % of the radiance to 80 deg, 0.7 % to 85 deg).
+int first_coupled_sun(const SunGrid& grid, const Shells& shells);
+
+// The coupling of the suns of `grid` that are solved (solved[i] >= 0 is the place of grid node i
+// among them), from the node `first` on; it and those after it, and the two before it, must be
+// solved.
 SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, const RayFan& fan,
                          int first);
 
@@ -57,8 +63,8 @@ template <int N>
 std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
                                                std::span<const Optics<N>> optics, int slices,
                                                const std::vector<double>& heights,
-                                               const std::vector<double>& sun_mu,
-                                               const RayFan& fan, const SunCoupling& coupling,
+                                               const std::vector<double>& sun_mu, const RayFan& fan,
+                                               const SunCoupling& coupling,
                                                const DiffuseOptions& options);
 
 // Lambda_lm = sqrt((2 l + 1) / (4 pi) (l - m)! / (l + m)!) P_lm for l = m .. count - 1, written to

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace skyfit {
 namespace {
@@ -35,12 +37,11 @@ void add_mode(const DiffuseField& field, int level, int m, const std::vector<dou
 }
 
 // Finest where the field changes fastest, about the horizon; below 108 degrees it is dark.
-std::vector<double> sun_cosines() {
-  std::vector<double> mu;
-  for (double zenith = 0; zenith < 108.5; zenith += zenith < 60 ? 6 : zenith < 80 ? 4 : 2) {
-    mu.push_back(std::cos(zenith * kPi / 180));
-  }
-  return mu;
+SunGrid sun_grid() {
+  std::vector<double> zenith;
+  for (double degrees = 0; degrees < 108.5; degrees += degrees < 60 ? 6 : degrees < 80 ? 4 : 2)
+    zenith.push_back(degrees * kPi / 180);
+  return SunGrid(std::move(zenith));
 }
 
 // First of the four nodes about x in a descending list, and the weights of the cubic through them
@@ -62,13 +63,16 @@ int cubic_stencil(const std::vector<double>& nodes, double x, std::array<float, 
 
 }  // namespace
 
-DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics)
-    : shells_(shells), sun_mu_(sun_cosines()) {
+DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics) : shells_(shells) {
+  const SunGrid grid = sun_grid();
+  for (int i = 0; i < grid.size(); ++i) sun_mu_.push_back(grid.mu(i));
+  std::vector<int> all(sun_mu_.size());
+  std::iota(all.begin(), all.end(), 0);
   const std::vector<double> heights = level_heights(shells.top, kLevels);
   const RayFan fan(shells.bottom_radius, heights, kStreams);
-  SunCoupling no_coupling;
+  const SunCoupling coupling = sun_coupling(grid, all, fan, first_coupled_sun(grid, shells));
   const std::vector<DiffuseField> fields =
-      solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, fan, no_coupling, {kSourceMoments});
+      solve_diffuse_fields<0>(shells, optics, 1, heights, sun_mu_, fan, coupling, {kSourceMoments});
   const std::size_t size = index(kLevels, 0);
   air_.resize(size);
   aerosol_.resize(size);

@@ -95,8 +95,7 @@ SKYFIT_CLONES
 void blend(const double* __restrict near, const double* __restrict q_near,
            const double* __restrict far, const double* __restrict q_far, double* __restrict out,
            std::size_t count) {
-  for (std::size_t i = 0; i < count * kLanes; ++i)
-    out[i] = near[i] * q_near[i] + far[i] * q_far[i];
+  for (std::size_t i = 0; i < count * kLanes; ++i) out[i] = near[i] * q_near[i] + far[i] * q_far[i];
 }
 
 SKYFIT_CLONES
@@ -111,8 +110,8 @@ void combine(const double* __restrict a, const double* __restrict x, const doubl
 
 SKYFIT_CLONES
 void add_blend(const double* __restrict near, const double* __restrict q_near,
-               const double* __restrict far, const double* __restrict q_far,
-               double* __restrict out, std::size_t rows, std::size_t columns) {
+               const double* __restrict far, const double* __restrict q_far, double* __restrict out,
+               std::size_t rows, std::size_t columns) {
   const Vector* const n = reinterpret_cast<const Vector*>(near);
   const Vector* const f = reinterpret_cast<const Vector*>(far);
   const Vector* const qn = reinterpret_cast<const Vector*>(q_near);

@@ -36,17 +36,18 @@ void add_blend(const double* near, const double* q_near, const double* far, cons
 // How the light that a layer sends along its rays changes with the parameters [p], for suns [j]. Of
 // one end of the layer, near or far:
 struct LayerEndTangent {
-  const double* slope;         // [r]: d weight / d depth, of the diffuse source
-  const double* weight;        // [r]: of the diffuse source
-  const double* beam;          // [r][j]: weight of the beam's source
+  const double* slope;           // [r]: d weight / d depth, of the diffuse source
+  const double* weight;          // [r]: of the diffuse source
+  const double* beam;            // [r][j]: weight of the beam's source
   const double* beam_slopes[3];  // [r][j]: by depth and the sun's depths at the near and far end
-  const double *aerosol, *air;  // [1]: shares of the extinction, source per unit of each below
+  const double *aerosol, *air;   // [1]: shares of the extinction, source per unit of each below
   const double *aerosol_tangent, *air_tangent;  // [p]
   const double *diffuse_aerosol, *diffuse_air;  // [r][j]
   const double *beam_aerosol, *beam_air;        // [r][j]
 };
 // out[r][j][p] = g[r][j] depth[r][p] + g_near[r][j] sun_near[j][p] + g_far[r][j] sun_far[j][p]
-//                + sum over ends of (weight diffuse_i + beam beam_i) i_tangent[p], i aerosol and air,
+//                + sum over ends of (weight diffuse_i + beam beam_i) i_tangent[p], i aerosol and
+//                air,
 // with g = sum over ends of (slope diffuse + beam_slopes[0] beam) - t x, x the light that enters,
 // and g_near, g_far those with beam_slopes[1] and [2].
 struct LayerTangent {

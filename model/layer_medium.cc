@@ -63,8 +63,7 @@ struct BeamWeight {
 BeamWeight beam_weight(double x, const DiffuseWeights& diffuse, bool lit_near, bool lit_far,
                        double near_depth, double far_depth) {
   constexpr double kSteepest = 300;  // beyond, the darker end has nothing to give
-  const bool exponential =
-      lit_near && lit_far && std::abs(far_depth - near_depth) < kSteepest;
+  const bool exponential = lit_near && lit_far && std::abs(far_depth - near_depth) < kSteepest;
   if (!exponential) {
     const double t_near = lit_near ? std::exp(-near_depth) : 0;
     const double t_far = lit_far ? std::exp(-far_depth) : 0;
@@ -89,7 +88,9 @@ void for_each_array(LayerMedium& m, const F& f) {
   for (std::vector<Lanes>* arrays : {&m.chi_tangent, &m.aerosol, &m.air, &m.aerosol_tangent,
                                      &m.air_tangent, &m.sun_depth_tangent})
     all(*arrays);
-  for (Lanes* array : {&m.chi, &m.chi_air, &m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent}) f(*array);
+  for (Lanes* array :
+       {&m.chi, &m.chi_air, &m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent})
+    f(*array);
   for (LayerMedium::Layer& layer : m.layers) {
     for (Lanes* array : {&layer.t, &layer.near, &layer.far, &layer.near_slope, &layer.far_slope,
                          &layer.depth_tangent})
@@ -150,8 +151,7 @@ class LaneFiller {
     medium_.ground_albedo[lane_] = optics_.ground_albedo.v;
     put(medium_.ground_albedo_tangent, 0, optics_.ground_albedo);
     for (std::size_t j = 0; j < medium_.suns; ++j) {
-      medium_.ground_beam[j * kLanes + lane_] =
-          columns_.lit[j] ? std::exp(-sun_depth_[j].v) : 0;
+      medium_.ground_beam[j * kLanes + lane_] = columns_.lit[j] ? std::exp(-sun_depth_[j].v) : 0;
     }
   }
 
@@ -297,8 +297,8 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& opti
 
 template LayerMedium layer_medium<0>(const std::array<const Optics<0>*, lanes::kLanes>&,
                                      std::size_t, const std::vector<double>&,
-                                     const std::vector<double>&, const FieldColumns&,
-                                     const RayFan&, int);
+                                     const std::vector<double>&, const FieldColumns&, const RayFan&,
+                                     int);
 template LayerMedium layer_medium<kParameterCount>(
     const std::array<const Optics<kParameterCount>*, lanes::kLanes>&, std::size_t,
     const std::vector<double>&, const std::vector<double>&, const FieldColumns&, const RayFan&,

@@ -3,7 +3,8 @@
 // at a time: sources per moment, transmittances, the sun's beam, and their derivatives.
 //
 // Along a ray the diffuse source J is linear in optical depth; x is that of the layer:
-//   I = t I_far + near J_near + far J_far, t = exp(-x), near = 1 - (1 - t) / x, far = (1 - t) / x - t.
+//   I = t I_far + near J_near + far J_far, t = exp(-x), near = 1 - (1 - t) / x, far = (1 - t) / x -
+//   t.
 // The source of the beam is linear in optical depth times the beam, which falls exponentially:
 //   I = near_b q_near + far_b q_far, near_b = x T_near A(y), far_b = x T_near B(y),
 //   y = x + log(T_near / T_far), A = integral (1 - u) exp(-y u) du, B = integral u exp(-y u) du,
@@ -15,15 +16,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/lanes.h"
-#include "model/large_array.h"
+#include "model/lane_blocks.h"
 #include "model/optics.h"
 #include "model/ray.h"
 #include "model/ray_fan.h"
 
 namespace skyfit {
-
-using Lanes = LargeArray;
 
 // The beam's weights for the rays of one layer that look one way, [ray][sun], and how they change
 // with the layer's depth x and the sun's depths at the near and the far end.
@@ -37,14 +35,14 @@ struct LayerMedium {
   std::size_t suns = 0, parameters = 0;
   std::vector<double> sun_mu;
   // Source per extinction of the moment l at a level: aerosol chi_l + air chi_air_l.
-  Lanes chi, chi_air;                          // [l]
-  std::vector<std::size_t> phase_parameters;   // those that change chi
-  std::vector<Lanes> chi_tangent;              // per phase parameter: [l]
+  Lanes chi, chi_air;                         // [l]
+  std::vector<std::size_t> phase_parameters;  // those that change chi
+  std::vector<Lanes> chi_tangent;             // per phase parameter: [l]
   // Per level.
   std::vector<Lanes> aerosol, air;                  // one element: shares of the extinction
   std::vector<Lanes> aerosol_tangent, air_tangent;  // [parameter]
-  std::vector<Lanes> sun_depth_tangent;     // [sun][parameter]
-  Lanes ground_beam;                        // [sun], transmittance
+  std::vector<Lanes> sun_depth_tangent;             // [sun][parameter]
+  Lanes ground_beam;                                // [sun], transmittance
   Lanes ground_albedo, ground_albedo_tangent;
   // Per layer.
   struct Layer {

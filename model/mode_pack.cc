@@ -6,53 +6,6 @@
 #include <numbers>
 
 namespace skyfit {
-namespace {
-
-// Element (i, j) of a matrix of lanes.
-double* at(Lanes& m, std::size_t columns, std::size_t i, std::size_t j) {
-  return m.data() + (i * columns + j) * lanes::kLanes;
-}
-const double* at(const Lanes& m, std::size_t columns, std::size_t i, std::size_t j) {
-  return m.data() + (i * columns + j) * lanes::kLanes;
-}
-
-// Adds `factor` (one element per row, or 1 when null) times rows x columns of `from` to `to`.
-void add_block(const double* factor, const Lanes& from, std::size_t from_columns,
-               std::size_t from_first, Lanes& to, std::size_t to_columns,
-               std::size_t to_first, std::size_t rows, std::size_t columns, double sign = 1) {
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double* x = at(from, from_columns, i, from_first);
-    double* y = at(to, to_columns, i, to_first);
-    for (std::size_t j = 0; j < columns; ++j) {
-      for (std::size_t k = 0; k < lanes::kLanes; ++k, ++x, ++y)
-        *y += sign * (factor ? factor[i * lanes::kLanes + k] : 1.0) * *x;
-    }
-  }
-}
-
-// Adds a diagonal: one element per row, or 1 when null.
-void add_diagonal(const double* diagonal, Lanes& to, std::size_t to_columns,
-                  std::size_t to_first, std::size_t rows) {
-  for (std::size_t i = 0; i < rows; ++i) {
-    double* y = at(to, to_columns, i, to_first + i);
-    for (std::size_t k = 0; k < lanes::kLanes; ++k)
-      y[k] += diagonal ? diagonal[i * lanes::kLanes + k] : 1.0;
-  }
-}
-
-Lanes columns_of(const Lanes& m, std::size_t all, std::size_t first,
-                               std::size_t rows, std::size_t count) {
-  Lanes r(rows * count * lanes::kLanes);
-  for (std::size_t i = 0; i < rows; ++i)
-    std::copy_n(at(m, all, i, first), count * lanes::kLanes, at(r, count, i, 0));
-  return r;
-}
-
-void append(Lanes& to, const Lanes& from, std::size_t count) {
-  to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
-}
-
-}  // namespace
 
 ModePack::ModePack(const RayFan& fan, const LayerMedium& medium,
                    const std::vector<ModeBasis>& bases, const Modes& modes)
@@ -93,12 +46,12 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
         const std::size_t offset = 2 * row + parity, l = m + offset;  // offset = l - m
         for (std::size_t j = 0; j < suns(); ++j)
           at(sun_basis_[parity], suns(), row, j)[lane] = basis.at_suns[j * own + offset];
-        const double chi = at(medium_->chi, 1, l, 0)[lane], air = at(medium_->chi_air, 1, l, 0)[lane];
+        const double chi = at(medium_->chi, 1, l, 0)[lane],
+                     air = at(medium_->chi_air, 1, l, 0)[lane];
         at(chi_[parity], 1, row, 0)[lane] = chi;
         at(chi_air_[parity], 1, row, 0)[lane] = air;
         for (std::size_t q = 0; q < chi_tangent_.size(); ++q)
-          at(chi_tangent_[q][parity], 1, row, 0)[lane] =
-              at(medium_->chi_tangent[q], 1, l, 0)[lane];
+          at(chi_tangent_[q][parity], 1, row, 0)[lane] = at(medium_->chi_tangent[q], 1, l, 0)[lane];
         for (int i = 0; i < levels(); ++i) {
           for (std::size_t k = 0; k < rays(i); ++k) {
             const double value = basis.at_rays[(i * fan_->most() + k) * own + offset];
@@ -141,8 +94,8 @@ void ModePack::eliminate() {
     for (std::size_t j = 0; j < n; ++j) {
       const int ray = static_cast<int>(j);
       for (std::size_t k = 0; k < kLanes; ++k)
-        at(reflection_[0], n, i, j)[k] = 2 * std::numbers::pi * albedo_[k] *
-                                         fan_->weight(0, ray) * fan_->mu(0, ray);
+        at(reflection_[0], n, i, j)[k] =
+            2 * std::numbers::pi * albedo_[k] * fan_->weight(0, ray) * fan_->mu(0, ray);
     }
   }
   Lanes same, other, same_above, other_above;
@@ -158,7 +111,7 @@ void ModePack::eliminate() {
 // From R_i to R_{i+1}, and the matrices of both sweeps. A limb ray that begins at level i + 1 has
 // U = D there.
 void ModePack::eliminate_layer(int layer, const Lanes& same, const Lanes& other,
-                                  const Lanes& same_above, const Lanes& other_above) {
+                               const Lanes& same_above, const Lanes& other_above) {
   const std::size_t n = rays(layer), above = rays(layer + 1);
   const LayerMedium::Layer& weights = medium_->layers[layer];
   const double *t = weights.t.data(), *near = weights.near.data(), *far = weights.far.data();
@@ -303,15 +256,14 @@ void ModePack::add_diffuse_sources(const Columns& source, std::size_t columns) {
   for (std::size_t i = 0; i < medium_->layers.size(); ++i) {
     const LayerMedium::Layer& w = medium_->layers[i];
     const std::size_t n = rays(static_cast<int>(i));
-    lanes::add_blend(w.near.data(), source.down[i].data(), w.far.data(),
-                     source.down[i + 1].data(), down_source_[i].data(), n, columns);
+    lanes::add_blend(w.near.data(), source.down[i].data(), w.far.data(), source.down[i + 1].data(),
+                     down_source_[i].data(), n, columns);
     lanes::add_blend(w.near.data(), source.up[i + 1].data(), w.far.data(), source.up[i].data(),
                      up_source_[i].data(), n, columns);
   }
 }
 
-ModePack::Columns ModePack::substitute(const Lanes& ground,
-                                                      std::size_t columns) const {
+ModePack::Columns ModePack::substitute(const Lanes& ground, std::size_t columns) const {
   const std::size_t width = columns * kLanes;
   std::vector<Lanes> s(levels());
   s[0] = ground;
@@ -342,8 +294,8 @@ ModePack::Columns ModePack::substitute(const Lanes& ground,
     lanes::multiply(backward_[i].data(), stack.data(), nullptr, result.down[i].data(), n,
                     above + 3 * n, columns);
     result.up[i].resize(n * width);
-    lanes::multiply(reflection_[i].data(), result.down[i].data(), s[i].data(),
-                    result.up[i].data(), n, n, columns);
+    lanes::multiply(reflection_[i].data(), result.down[i].data(), s[i].data(), result.up[i].data(),
+                    n, n, columns);
   }
   return result;
 }
@@ -408,8 +360,8 @@ void ModePack::set_tangent_sources() {
 
 Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, bool near) const {
   const LayerMedium::Layer& w = medium_->layers[layer];
-  const std::array<int, 2> level = looks_up ? std::array{layer, layer + 1}
-                                            : std::array{layer + 1, layer};  // near, far
+  const std::array<int, 2> level =
+      looks_up ? std::array{layer, layer + 1} : std::array{layer + 1, layer};  // near, far
   const BeamWeights& b = looks_up ? w.down : w.up;
   const auto of = [&](const Columns& c, int i) {
     return (looks_up ? c.down : c.up)[static_cast<std::size_t>(level[i])].data();
@@ -514,131 +466,14 @@ void ModePack::solve() {
   solve_tangents();
 }
 
-// P_m = df_m/dtheta - m cot f_m for the mode m + 1, Q_m = df_m/dtheta + m cot f_m for m - 1.
-void ModePack::set_neighbour(const SunCoupling& coupling, int layer, const Lanes& from_afar,
-                             std::size_t parameters, Lanes& to_next, Lanes& to_previous) const {
-  const std::size_t width = parameters * kLanes;
-  to_next.assign(from_afar.size(), 0.0);
-  to_previous.assign(from_afar.size(), 0.0);
-  for (std::size_t r = 0; r < rays(layer); ++r) {
-    for (std::size_t j = 0; j < suns(); ++j) {
-      if (!coupling.coupled[j]) continue;
-      const SunCoupling::Sun& sun = coupling.suns[j];
-      const double* const here = from_afar.data() + (r * suns() + j) * width;
-      double* const next = to_next.data() + (r * suns() + j) * width;
-      double* const previous = to_previous.data() + (r * suns() + j) * width;
-      for (std::size_t k = 0; k < 5; ++k) {
-        const double* from =
-            from_afar.data() + (r * suns() + static_cast<std::size_t>(sun.slope.index[k])) * width;
-        for (std::size_t e = 0; e < width; ++e) {
-          const double weight =
-              modes_[e % kLanes] % 2 == 0 ? sun.slope.even[k] : sun.slope.odd[k];
-          next[e] += weight * from[e];
-        }
-      }
-      for (std::size_t e = 0; e < width; ++e) {
-        const double m = modes_[e % kLanes];
-        const double turn = m * (sun.at_zenith ? next[e] : sun.cotangent * here[e]);
-        previous[e] = next[e] + turn;
-        next[e] -= turn;
-      }
-    }
-  }
-}
-
-// The light that enters a layer at its far end, as it is at the near end.
-void ModePack::prepare_coupling(const SunCoupling& coupling) {
-  const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
-  const Sources diffuse = sources_of(moments_);
-  const Columns source = source_function(diffuse);
-  Columns source_tangent;
-  if (p_count > 0) {
-    std::vector<Parities> scattered_tangents = moment_tangents_;
-    for (int i = 0; i < levels(); ++i) {
-      for (std::size_t parity = 0; parity < 2; ++parity)
-        lanes::scale_rows(omega_[i][parity].data(), moment_tangents_[i][parity].data(),
-                          scattered_tangents[i][parity].data(), rows_[parity], columns);
-    }
-    source_tangent = at_rays(scattered_tangents, columns);
-  }
-  for (std::size_t side = 0; side < 2; ++side) {
-    const bool looks_up = side == 0;
-    for (auto* v : {&to_next_, &to_previous_}) {
-      for (auto& kind : *v) kind[side].resize(medium_->layers.size());
-    }
-    for (int i = 0; i + 1 < levels(); ++i) {
-      const LayerMedium::Layer& w = medium_->layers[i];
-      const int far = looks_up ? i + 1 : i;
-      const auto of = [&](const Columns& c) {
-        return (looks_up ? c.down : c.up)[static_cast<std::size_t>(far)].data();
-      };
-      Lanes x((looks_up ? w.down : w.up).far);
-      for (std::size_t k = 0; k < x.size(); ++k) x[k] *= of(beam_source_)[k];
-      lanes::add_blend(w.t.data(), of(values_), w.far.data(), of(source), x.data(), rays(i),
-                       suns());
-      set_neighbour(coupling, i, x, 1, to_next_[0][side][i], to_previous_[0][side][i]);
-      if (p_count == 0) continue;
-      Lanes dx = layer_tangent(i, looks_up, diffuse, false);
-      lanes::add_blend(w.t.data(), of(tangents_), w.far.data(), of(source_tangent), dx.data(),
-                       rays(i), columns);
-      set_neighbour(coupling, i, dx, p_count, to_next_[1][side][i], to_previous_[1][side][i]);
-    }
-  }
-}
-
-// Adds -psi / 2 (P_{m-1} + Q_{m+1}), in mode 0 -psi Q_1.
-void ModePack::add_coupling(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs,
-                            int at_once, int width, std::size_t columns, std::size_t kind) {
-  const int modes = static_cast<int>(packs.size()) * at_once;
-  for (int lane = 0; lane < static_cast<int>(kLanes); ++lane) {
-    const int m = modes_[lane];
-    const auto add = [&](int neighbour, double factor, bool next) {
-      if (neighbour >= modes) return;
-      const ModePack& pack = *packs[neighbour / at_once];
-      const int from = neighbour % at_once * width + lane % width;
-      if (pack.modes_[from] != neighbour) return;  // a lane that repeats the last mode
-      const auto& light = (next ? pack.to_next_ : pack.to_previous_)[kind];
-      for (std::size_t side = 0; side < 2; ++side) {
-        std::vector<Lanes>& source = side == 0 ? down_source_ : up_source_;
-        for (std::size_t i = 0; i < source.size(); ++i) {
-          const std::size_t n = rays(static_cast<int>(i));
-          for (std::size_t r = 0; r < n; ++r) {
-            const double weight =
-                factor * coupling.step[i * static_cast<std::size_t>(fan_->most()) + r];
-            const double* x = light[side][i].data() + r * columns * kLanes + from;
-            double* y = source[i].data() + r * columns * kLanes + lane;
-            for (std::size_t c = 0; c < columns; ++c) y[c * kLanes] += weight * x[c * kLanes];
-          }
-        }
-      }
-    };
-    if (m == 0) {
-      add(1, -1, false);
-    } else {
-      add(m - 1, -0.5, true);
-      add(m + 1, -0.5, false);
-    }
-  }
-}
-
-void ModePack::couple(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs,
-                      int at_once, int width) {
-  beam_sources();
-  add_coupling(coupling, packs, at_once, width, suns(), 0);
-  solve_values();
-  if (medium_->parameters == 0) return;
-  set_tangent_sources();
-  add_coupling(coupling, packs, at_once, width, suns() * medium_->parameters, 1);
-  solve_tangents();
-}
-
 void ModePack::append_moments(int lane, int level, LargeArray& out) const {
   const std::size_t p_count = medium_->parameters;
   for (int offset = 0; offset < medium_->moments - modes_[lane]; ++offset) {  // l - m
     const std::size_t parity = offset % 2, row = offset / 2;
     const double* value = at(moments_[level][parity], suns(), row, 0) + lane;
     const double* tangent =
-        p_count > 0 ? at(moment_tangents_[level][parity], suns() * p_count, row, 0) + lane : nullptr;
+        p_count > 0 ? at(moment_tangents_[level][parity], suns() * p_count, row, 0) + lane
+                    : nullptr;
     for (std::size_t j = 0; j < suns(); ++j, value += kLanes) {
       out.push_back(*value);
       for (std::size_t p = 0; p < p_count; ++p, tangent += kLanes) out.push_back(*tangent);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Azimuth modes of the diffuse field, eight at a time (of any modes and wavelengths), solved
 // directly: no orders of scattering, no iteration. Unknown are the radiances D (seen when looking
-// up) and U (down) of the rays of a fan at the levels. Within a layer the source of diffuse light is
-// linear in optical depth along each ray,
+// up) and U (down) of the rays of a fan at the levels. Within a layer the source of diffuse light
+// is linear in optical depth along each ray,
 //   D_i = t D_{i+1} + near J_i + far J_{i+1} + beam,   U_{i+1} = t U_i + near J_{i+1} + far J_i +
 //   beam,
 // with J = sum_l Lambda_l omega_l M_l, M the moments of D and U; the source that the sun's beam
@@ -37,9 +37,9 @@ struct SunCoupling {
     bool at_zenith = false;
     SunSlope slope;  // indices into the solved suns
   };
-  std::vector<Sun> suns;         // of the solved suns
-  std::vector<char> coupled;     // [sun]: whether light from neighbouring places is taken as theirs
-  std::vector<double> step;      // [layer][ray]: psi of a layer, radians
+  std::vector<Sun> suns;      // of the solved suns
+  std::vector<char> coupled;  // [sun]: whether light from neighbouring places is taken as theirs
+  std::vector<double> step;   // [layer][ray]: psi of a layer, radians
 };
 
 class ModePack {
@@ -52,17 +52,17 @@ class ModePack {
   // As if the sky were the same everywhere: the sun turns with the zenith.
   void solve();
   // One step of an iteration that takes the light of neighbouring places under their own sun: first
-  // every pack of the same medium prepares, then each couples to all of them. `packs` hold `at_once`
-  // modes each, ascending, in lanes of `width` wavelengths.
+  // every pack of the same medium prepares, then each couples to all of them. `packs` hold
+  // `at_once` modes each, ascending, in lanes of `width` wavelengths.
   void prepare_coupling(const SunCoupling& coupling);
-  void couple(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs, int at_once,
-              int width);
+  void couple(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs,
+              int at_once, int width);
   // One more order of scattering or reflection, values only: what advance() was called k times for
   // is the field of light that met air or ground k times. Not to be mixed with solve().
   void advance();
 
-  // Of the diffuse field: appends the moments of a lane's mode at a level, [l - m][sun][slice], slice
-  // 0 the value, 1 + p derivatives.
+  // Of the diffuse field: appends the moments of a lane's mode at a level, [l - m][sun][slice],
+  // slice 0 the value, 1 + p derivatives.
   void append_moments(int lane, int level, LargeArray& out) const;
   void append_ground_irradiance(int lane, LargeArray& out) const;  // [sun][slice], mode 0
 
@@ -112,8 +112,8 @@ class ModePack {
   Lanes layer_tangent(int layer, bool looks_up, const Sources& diffuse, bool near) const;
   void set_neighbour(const SunCoupling& coupling, int layer, const Lanes& from_afar,
                      std::size_t parameters, Lanes& to_next, Lanes& to_previous) const;
-  void add_coupling(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs, int at_once,
-                    int width, std::size_t columns, std::size_t kind);
+  void add_coupling(const SunCoupling& coupling, const std::vector<std::optional<ModePack>>& packs,
+                    int at_once, int width, std::size_t columns, std::size_t kind);
 
   const RayFan* fan_;
   const LayerMedium* medium_;
@@ -122,12 +122,12 @@ class ModePack {
   std::vector<Parities> synthesis_, analysis_, omega_;  // per level
   Parities chi_, chi_air_;                              // [l]
   std::vector<Parities> chi_tangent_;                   // per phase parameter
-  Parities sun_basis_;                                                  // [l][sun]
-  Lanes albedo_, albedo_tangent_;  // over pi; 0 in modes above 0
+  Parities sun_basis_;                                  // [l][sun]
+  Lanes albedo_, albedo_tangent_;                       // over pi; 0 in modes above 0
   std::vector<Lanes> reflection_, forward_, backward_;
   std::vector<Lanes> down_source_, up_source_;  // per layer
-  Sources beam_;       // at the rays, per unit of the sun's beam
-  Columns beam_source_;  // its source function
+  Sources beam_;                                // at the rays, per unit of the sun's beam
+  Columns beam_source_;                         // its source function
   Columns values_, tangents_;
   // What the light that enters each layer from its far end becomes at the near end, derived by the
   // sun's place as the next and as the previous mode need it: [values, tangents][down, up][layer].

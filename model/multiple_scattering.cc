@@ -52,8 +52,7 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
   int modes = 0;
   for (const DiffuseField& field : fields_)
     modes = std::max(modes, static_cast<int>(field.moments.size()));
-  const int moments = fields_.front().shape.moments,
-            levels = static_cast<int>(heights_.size());
+  const int moments = fields_.front().shape.moments, levels = static_cast<int>(heights_.size());
   Bundle bundle{paths, {}, {}};
   std::map<double, std::size_t> groups;
   for (std::size_t path = 0; path < paths.size(); ++path) {
@@ -138,7 +137,7 @@ void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeW
       const Node& node = group.nodes[r];
       const double* const lambda = &node.lambda[m * field.shape.moments + m];
       const Dual<N>&air = weights[node.path].air[node.node],
-             &aerosol = weights[node.path].aerosol[node.node];
+            &aerosol = weights[node.path].aerosol[node.node];
       for (std::size_t k = 0; k < own; ++k) {
         const std::size_t l = k + static_cast<std::size_t>(m);
         Dual<N> c = aerosol * optics.moments[l];
@@ -153,8 +152,7 @@ void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeW
     if (parameters > 0) {
       by_sun.resize(suns * own);
       for (std::size_t j = 0; j < suns; ++j) {
-        for (std::size_t k = 0; k < own; ++k)
-          by_sun[j * own + k] = block[(k * suns + j) * slices];
+        for (std::size_t k = 0; k < own; ++k) by_sun[j * own + k] = block[(k * suns + j) * slices];
       }
       const std::size_t columns = rows * parameters;
       change.resize(suns * columns);

@@ -37,9 +37,9 @@ RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int gro
     if (level > 0 && (touched.empty() || level > touched.back())) touched.push_back(level);
   }
   for (int i = 0; i < levels; ++i) {
-    count_.push_back(ground_rays + static_cast<int>(std::upper_bound(touched.begin(),
-                                                                     touched.end(), i) -
-                                                    touched.begin()));
+    count_.push_back(
+        ground_rays +
+        static_cast<int>(std::upper_bound(touched.begin(), touched.end(), i) - touched.begin()));
   }
   mu_.resize(static_cast<std::size_t>(levels) * most());
   weight_.resize(mu_.size());
@@ -77,8 +77,8 @@ RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int gro
 }
 
 // Rays to the ground that do not resolve the band between them and the horizon stand for a part of
-// it already. The weights near the horizon are moved, as little as possible, so that 1, P_2, P_4 and
-// mu integrate to 1, 0, 0 and 1/2: scattering loses nothing.
+// it already. The weights near the horizon are moved, as little as possible, so that 1, P_2, P_4
+// and mu integrate to 1, 0, 0 and 1/2: scattering loses nothing.
 void RayFan::correct_weights(int level) {
   const int rays = count_[level];
   constexpr int kEven = 3;  // P_0, P_2 and P_4

@@ -53,7 +53,8 @@ ViewRays distinct_view_rays(const Shells& shells, const std::vector<double>& hei
   }
   rays.paths.resize(first.size());
   tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t i) {
-    rays.paths[i] = view_path(shells, heights, first[i]->altitude_m, std::cos(first[i]->view_zenith));
+    rays.paths[i] =
+        view_path(shells, heights, first[i]->altitude_m, std::cos(first[i]->view_zenith));
   });
   return rays;
 }
@@ -66,9 +67,8 @@ std::vector<Dual<N>> single_scattering_of(const Shells& shells,
                                           const std::vector<SunAlongRay>& suns) {
   Shared<double> shared;
   std::vector<RayNodes> nodes(rays.paths.size());
-  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
-    nodes[i] = ray_nodes(shells, rays.paths[i].ray, {});
-  });
+  tbb::parallel_for(std::size_t{0}, nodes.size(),
+                    [&](std::size_t i) { nodes[i] = ray_nodes(shells, rays.paths[i].ray, {}); });
   std::vector<Dual<N>> light(suns.size() * optics.size());
   tbb::parallel_for(std::size_t{0}, suns.size(), [&](std::size_t i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
@@ -102,8 +102,8 @@ std::vector<double> multiple_scattering_of(const SkySolution<N>& solution, const
   const MultipleScattering<N> scattering = solution.multiple_scattering();
   constexpr std::size_t kAtOnce = MultipleScattering<N>::kPathsAtOnce;
   tbb::parallel_for(std::size_t{0}, (bundles.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t i) {
-    scattering.add(std::span(bundles).subspan(
-        i * kAtOnce, std::min(kAtOnce, bundles.size() - i * kAtOnce)));
+    scattering.add(
+        std::span(bundles).subspan(i * kAtOnce, std::min(kAtOnce, bundles.size() - i * kAtOnce)));
   });
   return light;
 }
@@ -131,24 +131,26 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
   const bool first = options.order <= 1, further = options.order != 1;
   std::vector<Dual<N>> single(points.size() * optics.size());
   std::optional<SkySolution<N>> solution;
-  tbb::parallel_invoke(
-      [&] { solution.emplace(shells, optics, derivatives.size(), mu_s, options); },
-      [&] {
-        if (first) single = single_scattering_of(shells, optics, rays, suns);
-      });
+  tbb::parallel_invoke([&] { solution.emplace(shells, optics, derivatives.size(), mu_s, options); },
+                       [&] {
+                         if (first) single = single_scattering_of(shells, optics, rays, suns);
+                       });
   const std::size_t slices = 1 + derivatives.size();
   const std::vector<double> multiple =
       multiple_scattering_of(*solution, rays, suns, optics.size() * slices);
 
-  SkyValues values{static_cast<int>(points.size()), static_cast<int>(optics.size()),
-                   static_cast<int>(derivatives.size()), {}, {}};
+  SkyValues values{static_cast<int>(points.size()),
+                   static_cast<int>(optics.size()),
+                   static_cast<int>(derivatives.size()),
+                   {},
+                   {}};
   values.value.resize(points.size() * optics.size());
   values.derivative.resize(values.value.size() * derivatives.size());
   for (std::size_t cell = 0; cell < values.value.size(); ++cell) {
     const std::size_t point = cell / optics.size(), wave = cell % optics.size();
-    const Dual<N> sum = single[cell] + solution->ground(rays.paths[rays.path_of_point[point]],
-                                                        suns[point], static_cast<int>(wave),
-                                                        first, further);
+    const Dual<N> sum =
+        single[cell] + solution->ground(rays.paths[rays.path_of_point[point]], suns[point],
+                                        static_cast<int>(wave), first, further);
     const double* more = further ? &multiple[cell * slices] : nullptr;
     values.value[cell] = sum.v + (more ? more[0] : 0);
     if constexpr (N > 0) {
@@ -162,7 +164,7 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
 }  // namespace
 
 ReferenceModel::ReferenceModel(const ReferenceOptions& options) : options_(options) {
-  check(options.streams >= 2, "streams", options.streams, ">= 2");
+  check(options.streams >= 4, "streams", options.streams, ">= 4");
   check(options.moments >= 3 && options.moments <= 2 * options.streams, "moments", options.moments,
         "in 3 .. 2 streams");
   check(options.levels >= 4, "levels", options.levels, ">= 4");

@@ -16,8 +16,8 @@ struct ReferenceOptions {
   int levels = 28;   // of the diffuse field
   int threads = 1;
   double tolerance = 3e-3;  // of the azimuth modes that are left out
-  // 0: all light. k > 0: only what met air or ground k times; approximate for suns below 86 deg, where
-  // the coupling of neighbouring places is left out of single orders. Values only.
+  // 0: all light. k > 0: only what met air or ground k times; approximate for suns below 86 deg,
+  // where the coupling of neighbouring places is left out of single orders. Values only.
   int order = 0;
 };
 

@@ -106,7 +106,8 @@ std::vector<double> densities(const Profile& profile, const std::vector<double>&
 }  // namespace
 
 RayNodes ray_nodes(const Shells& shells, const ViewRay& ray, const std::vector<double>& edges) {
-  std::vector<double> breaks = shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top));
+  std::vector<double> breaks =
+      shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top));
   breaks.insert(breaks.end(), edges.begin(), edges.end());
   RayNodes nodes;
   for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, ray, breaks), kOrder)) {
@@ -151,8 +152,7 @@ SingleScattering<N> single_scattering(const Optics<N>& optics, const RayNodes& n
   const auto dual = [&](const kernels::RaySums& s, const Profile& profile,
                         const Dual<N>& scale_height) {
     Dual<N> sum(s.plain);
-    const double by_air_height =
-        optics.air.v * s.by_column[3] + optics.ozone.v * s.by_column[5];
+    const double by_air_height = optics.air.v * s.by_column[3] + optics.ozone.v * s.by_column[5];
     const double by_aerosol_height = optics.aerosol_extinction.v * s.by_column[4];
     const double by_own_height =
         profile.is_exponential() ? s.by_height / (scale_height.v * scale_height.v) : 0;

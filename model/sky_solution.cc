@@ -8,22 +8,6 @@
 #include "model/parameter_field.h"
 
 namespace skyfit {
-namespace {
-
-// The first sun of the grid that has light from neighbouring places under their own sun. On a planet
-// whose atmosphere is thin against its radius, as the Earth's, that matters for low suns only (below
-// 0.15 % of the radiance to 80 deg, 0.7 % to 85 deg).
-int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
-  constexpr double kThin = 0.02;  // top height over radius
-  if (shells.top > kThin * shells.bottom_radius) return 0;
-  constexpr double kLow = 86 * std::numbers::pi / 180;
-  int i = 0;
-  while (grid.zenith(i) < kLow) ++i;
-  return i;
-}
-
-}  // namespace
-
 template <int N>
 SkySolution<N>::SkySolution(const Shells& shells, const std::vector<Optics<N>>& optics,
                             std::size_t derivatives, std::span<const double> mu_s_needed,
@@ -47,9 +31,10 @@ SkySolution<N>::SkySolution(const Shells& shells, const std::vector<Optics<N>>& 
     suns.push_back(grid_.mu(i));
   }
   const RayFan fan(shells_.bottom_radius, heights_, options.streams);
-  fields_ = solve_diffuse_fields<N>(shells_, optics_, 1 + static_cast<int>(derivatives),
-                                    heights_, suns, fan, sun_coupling(grid_, solved_, fan, first),
-                                    {options.moments, options.tolerance, std::max(options.order - 1, 0)});
+  fields_ =
+      solve_diffuse_fields<N>(shells_, optics_, 1 + static_cast<int>(derivatives), heights_, suns,
+                              fan, sun_coupling(grid_, solved_, fan, first),
+                              {options.moments, options.tolerance, std::max(options.order - 1, 0)});
 }
 
 template <int N>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace skyfit {
 
@@ -30,6 +31,14 @@ SunGrid::SunGrid() {
       zenith_.push_back(zenith * std::numbers::pi / 180);
   }
   zenith_.push_back(zenith * std::numbers::pi / 180);
+  set_fours();
+}
+
+SunGrid::SunGrid(std::vector<double> zenith) : zenith_(std::move(zenith)), day_(size() - 1) {
+  set_fours();
+}
+
+void SunGrid::set_fours() {
   for (int first = -1; first + 4 <= size(); ++first) {  // -1: one node beyond the zenith
     Four four;
     for (int i = 0; i < 4; ++i) {
@@ -78,8 +87,8 @@ SunStencil SunGrid::stencil(double mu_s) const {
   const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
   const int above =
       static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
-  // Up to 85 deg no node below 85 deg is asked for: suns below are dear, for they come with all their
-  // neighbours (sun_coupling() in model/diffuse_field.h).
+  // Up to 85 deg no node below 85 deg is asked for: suns below are dear, for they come with all
+  // their neighbours (sun_coupling() in model/diffuse_field.h).
   const int last = x <= zenith_[day_] ? day_ : size() - 1;
   const int first = std::min(above - 2, last - 3);
   const Four& four = fours_[static_cast<std::size_t>(first + 1)];

@@ -23,6 +23,8 @@ struct SunSlope {
 class SunGrid {
  public:
   SunGrid();
+  // Any other ascending zenith angles (radians), from 0, at least five.
+  explicit SunGrid(std::vector<double> zenith);
   int size() const { return static_cast<int>(zenith_.size()); }
   double mu(int i) const;
   double zenith(int i) const { return zenith_[i]; }  // radians
@@ -33,10 +35,12 @@ class SunGrid {
   SunStencil stencil(double mu_s) const;
 
  private:
+  void set_fours();
+
   std::vector<double> zenith_;  // radians, ascending, from 0 to below the twilight
-  int day_ = 0;                 // the node at 85 deg
-  // Four neighbours, from the first or from one before it: Lagrange's weight i is factor[i] times the
-  // distances to the other nodes.
+  int day_ = 0;                 // the node at 85 deg; otherwise the last
+  // Four neighbours, from the first or from one before it: Lagrange's weight i is factor[i] times
+  // the distances to the other nodes.
   struct Four {
     std::array<int, 4> index;
     std::array<double, 4> node, factor;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/sun_grid.h"
 #include "model/parameters.h"
+#include "model/sun_grid.h"
 
 namespace skyfit {
 namespace {
@@ -64,7 +64,13 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
                    double mu) {
   ViewPath path;
   path.ray = view_ray(shells.bottom_radius, shells.top, altitude, mu);
-  if (path.ray.length <= 0) return path;
+  if (path.ray.length <= 0) {
+    if (path.ray.hits_ground) {  // the eye is on the ground and looks at it
+      path.nodes = {ray_point(path.ray, shells.bottom_radius, 0)};
+      path.sun_points = path.nodes;
+    }
+    return path;
+  }
   const std::vector<double> s = without_near_pairs(
       shell_crossings(path.ray, shells.bottom_radius, heights), path.ray.tangent_s);
   for (const double x : s) path.nodes.push_back(ray_point(path.ray, shells.bottom_radius, x));

@@ -109,9 +109,9 @@ void MonteCarlo::walk(double height, double mu, const Layer& layer) const {
   for (bool down = mu < 0; i < kLayers;) {
     const double below = half_chord2(heights_[i]);
     down = down && below >= 0;
-    const double next = std::max(
-        s, down ? -along - std::sqrt(below)
-                : -along + std::sqrt(std::max(half_chord2(heights_[i + 1]), 0.0)));
+    const double next =
+        std::max(s, down ? -along - std::sqrt(below)
+                         : -along + std::sqrt(std::max(half_chord2(heights_[i + 1]), 0.0)));
     if (layer(i, s, next - s)) return;
     s = next;
     i += down ? -1 : 1;
@@ -150,8 +150,8 @@ MonteCarloResult MonteCarlo::radiance(const SkyPoint& point, long histories,
   const double bottom = shells_.bottom_radius;
   const Vector sun(std::sin(point.sun_zenith), 0, std::cos(point.sun_zenith));
   const double sine = std::sin(point.view_zenith);
-  const Vector view(sine * std::cos(point.relative_azimuth), sine * std::sin(point.relative_azimuth),
-                    std::cos(point.view_zenith));
+  const Vector view(sine * std::cos(point.relative_azimuth),
+                    sine * std::sin(point.relative_azimuth), std::cos(point.view_zenith));
   const ViewRay ray = view_ray(bottom, shells_.top, point.altitude_m, std::cos(point.view_zenith));
   if (ray.length <= 0) return {0, 0, 0};
   const Vector entry = Vector(0, 0, bottom + point.altitude_m) + ray.entry_distance * view;
@@ -204,8 +204,8 @@ MonteCarloResult MonteCarlo::radiance(const SkyPoint& point, long histories,
         direction = turned(
             direction, by_air ? sample_air(random) : sample_aerosol(optics_.phase, random), random);
       }
-      const double mu = step.hits_ground ? std::max(direction.dot(zenith), 1e-6)
-                                         : direction.dot(zenith);
+      const double mu =
+          step.hits_ground ? std::max(direction.dot(zenith), 1e-6) : direction.dot(zenith);
       step = fly(height, mu, -std::log(random()));
       if (step.distance < 0) break;
     }

@@ -24,7 +24,7 @@ class MonteCarlo {
  private:
   struct History;
   struct Step {
-    double distance;   // -1: left through the top
+    double distance;  // -1: left through the top
     bool hits_ground;
   };
   // The next event of a ray after `depth` of extinction.

@@ -125,8 +125,7 @@ inline MonteCarloCase monte_carlo_case(const std::string& name) {
   return c;
 }
 inline SkyPoint point_of(const Row& row) {
-  return {row.number(1), row.number(2) * kDegree, row.number(3) * kDegree,
-          row.number(4) * kDegree};
+  return {row.number(1), row.number(2) * kDegree, row.number(3) * kDegree, row.number(4) * kDegree};
 }
 
 struct Compared {

@@ -62,12 +62,12 @@ TEST(Truth, MonteCarlo) {
   std::map<std::string, std::vector<Row>> cases;
   for (const Row& row : read_rows("monte_carlo.csv")) cases[row.field[0]].push_back(row);
   const std::map<std::string, Limits> limits = {
-      {"clear-400nm", {0.01, 0.03}},      {"haze-650nm", {0.01, 0.03}},
-      {"peaked-haze", {0.01, 0.03}},      {"low-sun-haze", {0.01, 0.03}},
-      {"twilight-haze", {0.03, 0.08}},    {"twilight-clear", {0.03, 0.08}},
-      {"deep-twilight", {0.04, 0.12}},    {"thick-haze-450nm", {0.01, 0.03}},
-      {"altitude-clear", {0.01, 0.04}},   {"altitude-haze", {0.01, 0.04}},
-      {"space", {0.01, 0.04}},            {"mars", {0.0125, 0.04}}};
+      {"clear-400nm", {0.01, 0.03}},    {"haze-650nm", {0.01, 0.03}},
+      {"peaked-haze", {0.01, 0.03}},    {"low-sun-haze", {0.01, 0.03}},
+      {"twilight-haze", {0.03, 0.08}},  {"twilight-clear", {0.03, 0.08}},
+      {"deep-twilight", {0.04, 0.12}},  {"thick-haze-450nm", {0.01, 0.03}},
+      {"altitude-clear", {0.01, 0.04}}, {"altitude-haze", {0.01, 0.04}},
+      {"space", {0.01, 0.04}},          {"mars", {0.0125, 0.04}}};
   ASSERT_EQ(cases.size(), limits.size());
   const auto model = make_sky_model("reference", 2);
   for (const auto& [name, rows] : cases) {
