@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/kernels.h"
 
-// Sanitizers instrument the functions that choose a clone before they can run.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define SKYFIT_CLONES \
-  __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
-#else
-#define SKYFIT_CLONES
-#endif
+#include "model/clones.h"
 
 namespace skyfit::kernels {
 
