@@ -1,57 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 // The source of multiple scattering as a table: light that has been scattered or reflected before
 // and is scattered here toward the eye, per unit of scattering coefficient (1/sr), of the air and
-// of the aerosol, at the four nodes of a colour rule. From the diffuse field of
-// model/diffuse_field.h.
+// of the aerosol, at four wavelengths. From the diffuse field of model/diffuse_field.h, whose
+// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "model/diffuse_field.h"
+#include "model/reference_model.h"
+#include "model/sun_grid.h"
 
 namespace skyfit {
 
 using NodeOptics = std::array<Optics<0>, 4>;
 
-// How many Legendre moments the phase functions keep; optics_at() wants to know.
-inline constexpr int kSourceMoments = 32;
+// Streams and moments are those of the reference model, so that the two agree; optics_at() wants to
+// know the moments.
+inline constexpr ReferenceOptions kSourceOptions{};
 
 class DiffuseSource {
  public:
-  DiffuseSource(const Shells& shells, const NodeOptics& optics);
+  static constexpr int kPowers = 4;  // of the cosine in a block: 1, c, c^2, c^3
+  // Block b holds the powers 4 b .. 4 b + 3: modes from 12 on change no sky by 0.1 %.
+  static constexpr int kBlocks = 3;
+  // Floats of one block: [wavelength][power].
+  static constexpr std::size_t kBlock = 4 * kPowers;
 
-  // The source at one place and view direction for all suns and azimuths, with a factor per node
-  // for air and aerosol.
-  class Slice {
-   public:
-    // Adds the source times the factors for a local sun and azimuth between sun and view (cosine)
-    // to sum[0..3].
-    void add(double mu_s, double cos_azimuth, float* sum) const;
+  // The field is solved at `levels`, heights that ascend from 0 to the top; the source is kept at
+  // every `step`-th of them.
+  DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& levels,
+                int step);
 
-   private:
-    friend class DiffuseSource;
-    const DiffuseSource* source_ = nullptr;
-    std::vector<float> value_;  // [sun][azimuth][node]
-  };
+  const SunGrid& suns() const { return suns_; }
 
-  // mu is that of the view ray. Factors: scattering coefficients times what the path does to the
-  // light.
-  void slice(double height, double mu, const std::array<double, 4>& air,
-             const std::array<double, 4>& aerosol, Slice& out) const;
+  // The source at a level that is kept toward a view direction (mu is that of the view ray) for all
+  // suns of the grid, with a factor per wavelength for air and aerosol, written to
+  // out[sun][block][wavelength] [power].
+  void slice(int level, double mu, const std::array<double, 4>& air,
+             const std::array<double, 4>& aerosol, std::vector<float>& out) const;
 
  private:
-  struct Stencil {
-    int first;
-    std::array<float, 4> weight;
-  };
-  void tabulate(const Optics<0>& optics, const DiffuseField& field, std::size_t node);
-  std::size_t index(int level, int mu) const;
+  static SunGrid sun_grid();
+  void tabulate(int level, const NodeOptics& optics, const std::vector<DiffuseField>& fields);
+  std::size_t index(int level, int zenith, int blocks) const;
 
-  Shells shells_;
-  std::vector<double> sun_mu_;        // descending cosines of the suns that the field is solved for
-  std::vector<Stencil> stencils_;     // of sun_mu_, at even steps of mu_s from the lowest to 1
-  std::vector<float> air_, aerosol_;  // [level][mu][sun][azimuth][node]
+  SunGrid suns_;
+  int step_;
+  std::vector<float> air_,
+      aerosol_;  // [level / step][zenith][sun][block][wavelength][power]; air: one block
 };
 
 }  // namespace skyfit

@@ -83,6 +83,11 @@ SunSlope SunGrid::slope(int i) const {
   return s;
 }
 
+int SunGrid::below(double mu_s) const {
+  const double x = std::acos(std::clamp(mu_s, -1.0, 1.0));
+  return static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
+}
+
 SunStencil SunGrid::stencil(double mu_s) const {
   const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
   const int above =

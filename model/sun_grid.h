@@ -28,6 +28,8 @@ class SunGrid {
   int size() const { return static_cast<int>(zenith_.size()); }
   double mu(int i) const;
   double zenith(int i) const { return zenith_[i]; }  // radians
+  // The first node whose sun stands lower.
+  int below(double mu_s) const;
   // Of the quartic through the node and its neighbours.
   SunSlope slope(int i) const;
   // Lagrange's cubic in the zenith angle through the four nearest nodes; the last node's value

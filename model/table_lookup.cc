@@ -37,11 +37,10 @@ void accumulate(const Table& table, int x, int y, int z, double weight, NodeValu
   for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * table.rgba[4 * texel + k];
 }
 
-void accumulate(const Table& table, double u, double v, double w, double weight, NodeValues& sum) {
-  const Between x(u, table.width), y(v, table.height), z(w, table.depth);
+void accumulate(const Table& table, const Between& x, const Between& y, const Between& z,
+                double weight, NodeValues& sum) {
   for (const int zi : {z.low, z.high}) {
     const double wz = weight * (zi == z.low ? 1 - z.part : z.part);
-    if (z.low == z.high && zi != z.low) continue;
     accumulate(table, x.low, y.low, zi, wz * (1 - x.part) * (1 - y.part), sum);
     accumulate(table, x.high, y.low, zi, wz * x.part * (1 - y.part), sum);
     accumulate(table, x.low, y.high, zi, wz * (1 - x.part) * y.part, sum);
@@ -50,10 +49,14 @@ void accumulate(const Table& table, double u, double v, double w, double weight,
   }
 }
 
-// Of the cubic through the values at 0, 1, 2 and 3 (Lagrange).
-std::array<double, 4> cubic_weights(double x) {
-  const double a = x - 1, b = x - 2, c = x - 3;
-  return {-a * b * c / 6, x * b * c / 2, -x * a * c / 2, x * a * b / 6};
+double height_coordinate(const AtmosphereTables& tables, double height, int size) {
+  Shared<double> shared;
+  return shared.texture_from_unit(shared.unit_from_height(height, Planet(tables).thickness), size);
+}
+
+double sun_coordinate(double mu_s, int size) {
+  Shared<double> shared;
+  return shared.texture_from_unit(shared.unit_from_sun(mu_s, kTableLowestSun), size);
 }
 
 // Below the lowest sun of the tables the twilight falls by e per degree.
@@ -63,39 +66,67 @@ double deep_twilight(double mu_s) {
 
 }  // namespace
 
+double horizon_cosine(double bottom, double height) {
+  return -Shared<double>{}.horizon_distance(height, bottom) / (bottom + height);
+}
+
+double visible_sun(double bottom, double height, double mu_s) {
+  const double half_disc = bottom / (bottom + height) * kSunRadius;
+  const double above = mu_s - horizon_cosine(bottom, height);
+  const double t = std::clamp(above / (2 * half_disc) + 0.5, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+TablePlace place_along(const AtmosphereTables& tables, const TablePlace& from, double nu,
+                       double distance) {
+  const Planet p(tables);
+  const double h =
+      std::max(Shared<double>{}.height_after(p.bottom, from.height, from.mu, distance), 0.0);
+  const double r = p.bottom + h, r0 = p.bottom + from.height;
+  return {std::min(h, p.thickness), std::clamp((r0 * from.mu + distance) / r, -1.0, 1.0),
+          std::clamp((r0 * from.mu_s + distance * nu) / r, -1.0, 1.0)};
+}
+
+NodeValues lookup_transmittance(const AtmosphereTables& tables, const TablePlace& from,
+                                const TablePlace& to, bool downward) {
+  const double sign = downward ? -1 : 1;
+  const TablePlace &low = downward ? to : from, &high = downward ? from : to;
+  const NodeValues whole = lookup_optical_depth(tables, low.height, sign * low.mu),
+                   rest = lookup_optical_depth(tables, high.height, sign * high.mu);
+  NodeValues value;
+  for (std::size_t k = 0; k < 4; ++k) value[k] = std::exp(-std::max(whole[k] - rest[k], 0.0));
+  return value;
+}
+
 NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, double mu) {
   Shared<double> shared;
   const Planet p(tables);
   const Table& table = tables.optical_depth;
   NodeValues sum{};
-  const double x = shared.unit_from_upward_ray(height, mu, p.bottom, p.thickness);
-  const double y = shared.unit_from_height(height, p.bottom, p.thickness);
-  accumulate(table, shared.texture_from_unit(x, table.width),
-             shared.texture_from_unit(y, table.height), 0.5, 1, sum);
+  const double x = shared.texture_from_unit(
+      shared.unit_from_upward_ray(height, mu, p.bottom, p.thickness), table.width);
+  accumulate(table, Between(x, table.width),
+             Between(height_coordinate(tables, height, table.height), table.height),
+             Between(0.5, 1), 1, sum);
   return sum;
 }
 
 NodeValues lookup_sun_transmittance(const AtmosphereTables& tables, double height, double mu_s) {
   const double bottom = tables.atmosphere.bottom_radius_m;
-  const double sin_horizon = bottom / (bottom + height);
-  const double mu_horizon = -std::sqrt(std::max(1 - sin_horizon * sin_horizon, 0.0));
-  const double half_disc = sin_horizon * kSunRadius;
-  const double t = std::clamp((mu_s - mu_horizon) / (2 * half_disc) + 0.5, 0.0, 1.0);
-  if (t <= 0) return {};
-  NodeValues value = lookup_optical_depth(tables, height, std::max(mu_s, mu_horizon));
-  for (double& v : value) v = t * t * (3 - 2 * t) * std::exp(-v);
+  const double visible = visible_sun(bottom, height, mu_s);
+  if (visible <= 0) return {};
+  NodeValues value =
+      lookup_optical_depth(tables, height, std::max(mu_s, horizon_cosine(bottom, height)));
+  for (double& v : value) v = visible * std::exp(-v);
   return value;
 }
 
 NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, double mu_s) {
-  Shared<double> shared;
-  const Planet p(tables);
   const Table& table = tables.irradiance;
   NodeValues sum{};
-  const double x = shared.unit_from_sun(mu_s, kTableLowestSun, p.bottom, p.thickness);
-  const double y = shared.unit_from_height(height, p.bottom, p.thickness);
-  accumulate(table, shared.texture_from_unit(x, table.width),
-             shared.texture_from_unit(y, table.height), 0.5, deep_twilight(mu_s), sum);
+  accumulate(table, Between(sun_coordinate(mu_s, table.width), table.width),
+             Between(height_coordinate(tables, height, table.height), table.height),
+             Between(0.5, 1), deep_twilight(mu_s), sum);
   return sum;
 }
 
@@ -104,20 +135,25 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   Shared<double> shared;
   const Planet p(tables);
   const TableSizes& s = tables.sizes;
-  const double sun = shared.texture_from_unit(
-      shared.unit_from_sun(mu_s, kTableLowestSun, p.bottom, p.thickness), s.scattering_mu_s);
-  const double slot = shared.unit_from_cosine(nu) * (s.scattering_nu - 1);
-  const double lower = std::clamp(std::floor(slot) - 1, 0.0, s.scattering_nu - 4.0);
-  const double v =
-      shared.texture_from_view(height, mu, hits_ground, s.scattering_mu, p.bottom, p.thickness);
-  const double w = shared.texture_from_unit(shared.unit_from_height(height, p.bottom, p.thickness),
-                                            s.scattering_r);
+  const TablePlace at =
+      place_along(tables, {height, mu, mu_s}, nu,
+                  shared.distance_to_sun_point(height, mu, hits_ground, p.bottom, p.thickness));
+  const double turn = shared.unit_from_azimuth(shared.cosine_of_azimuth(at.mu, at.mu_s, nu)) *
+                      (s.scattering_azimuth - 1);
+  const int first = std::min(static_cast<int>(turn), s.scattering_azimuth - 2);
+  const Between v(shared.texture_from_view(height, mu, hits_ground, s.scattering_ground,
+                                           s.scattering_sky, p.bottom, p.thickness),
+                  s.scattering_ground + s.scattering_sky);
+  const Between w(height_coordinate(tables, height, s.scattering_r), s.scattering_r);
+  Between u(sun_coordinate(at.mu_s, s.scattering_mu_s), s.scattering_mu_s);
+  u.low += first * s.scattering_mu_s;
+  u.high += first * s.scattering_mu_s;
   NodeValues rayleigh{}, mie{};
-  const std::array<double, 4> weight = cubic_weights(slot - lower);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double u = (lower + static_cast<double>(i) + sun) / s.scattering_nu;
-    accumulate(tables.rayleigh_like, u, v, w, weight[i], rayleigh);
-    accumulate(tables.single_mie, u, v, w, weight[i], mie);
+  for (const double weight : {1 - turn + first, turn - first}) {
+    accumulate(tables.rayleigh_like, u, v, w, weight, rayleigh);
+    accumulate(tables.single_mie, u, v, w, weight, mie);
+    u.low += s.scattering_mu_s;
+    u.high += s.scattering_mu_s;
   }
   const double rayleigh_phase =
       shared.rayleigh_phase(tables.atmosphere.rayleigh.depolarisation, nu);
@@ -125,9 +161,10 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   const double length_km =
       1e-3 * (hits_ground ? shared.distance_to_inner_sphere(p.bottom, height, mu, 0.0)
                           : shared.distance_to_outer_sphere(p.bottom, height, mu, p.thickness));
+  const double light = length_km * deep_twilight(at.mu_s);
   NodeValues sum;
   for (std::size_t k = 0; k < 4; ++k)
-    sum[k] = length_km * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);
+    sum[k] = light * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);
   return sum;
 }
 

@@ -8,10 +8,28 @@
 
 namespace skyfit {
 
+// A point on a view ray, as the tables see it: cosines of the zenith angles of view and sun there.
+struct TablePlace {
+  double height, mu, mu_s;
+};
+TablePlace place_along(const AtmosphereTables& tables, const TablePlace& from, double nu,
+                       double distance);
+
+// Between two places on a ray. `downward` when the ray ends on the ground: both ends are then taken
+// as upward rays, so that neither look-up meets the ground.
+NodeValues lookup_transmittance(const AtmosphereTables& tables, const TablePlace& from,
+                                const TablePlace& to, bool downward);
+
+// Cosine of the zenith angle of the horizon.
+double horizon_cosine(double bottom, double height);
+
+// Share of the sun's disc, 0.533 degrees wide, that stands above the horizon.
+double visible_sun(double bottom, double height, double mu_s);
+
 // From a point to the top along a ray that misses the ground.
 NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, double mu);
 
-// Of the sun's beam; the disc, 0.533 degrees wide, sinks behind the horizon over its diameter.
+// Of the sun's beam; the disc sinks behind the horizon over its diameter.
 NodeValues lookup_sun_transmittance(const AtmosphereTables& tables, double height, double mu_s);
 
 // Diffuse, on a horizontal surface that faces up.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Look-up tables of an atmosphere for real-time rendering: four wavelengths in RGBA (the nodes of a
-// ColorRule), values per unit solar irradiance. Mappings: Bruneton 2017, in
+// ColorRule), values per unit solar irradiance. Mappings: after Bruneton 2017, in
 // model/shared/mapping.glsl, shared with the shaders.
 #pragma once
 
@@ -18,7 +18,8 @@ using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blu
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
-  int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 48, scattering_nu = 32;
+  int scattering_r = 32, scattering_ground = 24, scattering_sky = 72;  // rays to ground and to sky
+  int scattering_mu_s = 48, scattering_azimuth = 20;
 };
 
 // width varies fastest; depth = 1 for 2D.
@@ -45,9 +46,10 @@ struct AtmosphereTables {
   Table irradiance;     // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit
                         // solar irradiance
   // The two scattering tables hold natural logarithms: toward sunset light falls exponentially with
-  // the sun's height, which a linear filter then follows. They hold the mean over
-  // the ray, amplitude / length in km, because the amplitude of a ray that ends at its beginning is
-  // 0. 3D textures x: nu * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to
+  // the sun's height, which a linear filter then follows. They hold the mean over the ray,
+  // amplitude / length in km, because the amplitude of a ray that ends at its beginning is 0. Sun
+  // and azimuth are those at the ray's distance_to_sun_point (model/shared/mapping.glsl). 3D
+  // textures x: azimuth * mu_s (mu_s fastest), y: mu, z: r; along the whole ray to the top or to
   // the ground:
   Table rayleigh_like;  // single Rayleigh amplitude + multiple scattering / Rayleigh phase function
                         // (sr^0); light that comes straight from the ground to the eye is not in

@@ -26,15 +26,17 @@ bool ray_hits_ground(Number h, Number mu, Number bottom) {
 
 // Texture coordinate of x in [0, 1] in a table of `size` texels: half a texel, so that 0 and 1 hit texel centres.
 Number texture_from_unit(Number x, Number size) { return 0.5 / size + x * (1.0 - 1.0 / size); }
-Number unit_from_texture(Number u, Number size) { return (u - 0.5 / size) / (1.0 - 1.0 / size); }
 
-Number unit_from_height(Number h, Number bottom, Number thickness) {
-  return horizon_distance(h, bottom) / longest_tangent(bottom, thickness);
+// Heights: about the logarithm of sqrt(h). Dense near the ground, where a ray along the ground changes with sqrt(h);
+// higher up the texels of 32 are 0.1 to 0.2 of their height apart. Deviation: Bruneton 2017 takes sqrt(h), which is coarse
+// within the aerosol.
+Number unit_from_height(Number h, Number thickness) {
+  return log(1.0 + sqrt(max(h / (0.03 * thickness), Number(0.0)))) / 1.913018337454;  // log(1 + sqrt(1 / 0.03))
 }
 
-Number height_from_unit(Number x_r, Number bottom, Number thickness) {
-  Number rho = x_r * longest_tangent(bottom, thickness);
-  return rho * rho / (sqrt(rho * rho + bottom * bottom) + bottom);
+Number height_from_unit(Number x_r, Number thickness) {
+  Number root = exp(x_r * 1.913018337454) - 1.0;
+  return 0.03 * thickness * root * root;
 }
 
 // Rays that leave through the top; this is the whole mapping of the transmittance table and the upper half of the
@@ -70,58 +72,75 @@ Number mu_from_ground_unit(Number x_mu, Number h, Number bottom) {
   return d > Number(0.0) ? clamp(mu, Number(-1.0), Number(1.0)) : Number(-1.0);
 }
 
-// The sun's height: distances from the ground to the top, resolved best near the horizon; mu_s_min is the lowest sun in
-// the table.
-Number sun_curve(Number mu_s, Number bottom, Number thickness) {
-  Number d = distance_to_outer_sphere(bottom, Number(0.0), mu_s, thickness);
-  return (d - thickness) / (longest_tangent(bottom, thickness) - thickness);
+// The sun's height, by t = sqrt(1 - mu_s), which is nearly the zenith angle; finest just below the horizon, where light
+// changes fastest. mu_s_min is the lowest sun in the table. Deviation: Bruneton 2017 takes distances to the top, which
+// leaves 3 of 48 texels for suns within 60 degrees of the zenith.
+Number sun_curve(Number t) {
+  Number x = (1.03 - t) / 0.04;
+  return log(x + sqrt(x * x + 1.0));  // asinh
 }
 
-Number unit_from_sun(Number mu_s, Number mu_s_min, Number bottom, Number thickness) {
-  Number a = sun_curve(max(mu_s, mu_s_min), bottom, thickness);
-  Number lowest = sun_curve(mu_s_min, bottom, thickness);
-  return max(1.0 - a / lowest, Number(0.0)) / (1.0 + a);
+Number unit_from_sun(Number mu_s, Number mu_s_min) {
+  Number lowest = sun_curve(sqrt(1.0 - mu_s_min));
+  Number t = sqrt(max(1.0 - max(mu_s, mu_s_min), Number(0.0)));
+  return (sun_curve(t) - lowest) / (sun_curve(Number(0.0)) - lowest);
 }
 
-Number sun_from_unit(Number x_mu_s, Number mu_s_min, Number bottom, Number thickness) {
-  Number lowest = sun_curve(mu_s_min, bottom, thickness);
-  Number a = lowest * (1.0 - x_mu_s) / (1.0 + x_mu_s * lowest);
-  Number tangent = longest_tangent(bottom, thickness);
-  Number d = thickness + a * (tangent - thickness);
-  Number mu_s = (tangent * tangent - d * d) / (2.0 * bottom * d);
-  return clamp(mu_s, Number(-1.0), Number(1.0));
+Number sun_from_unit(Number x_mu_s, Number mu_s_min) {
+  Number lowest = sun_curve(sqrt(1.0 - mu_s_min));
+  Number e = exp(lowest + x_mu_s * (sun_curve(Number(0.0)) - lowest));
+  Number t = 1.03 - 0.02 * (e - 1.0 / e);  // sinh
+  return clamp(1.0 - t * t, mu_s_min, Number(1.0));
 }
 
-// The angle between sun and view: the sine of its half, finest toward the sun, where the light changes most. Deviation:
-// Bruneton 2017 takes the cosine.
-Number unit_from_cosine(Number cosine) {
-  return 1.0 - sqrt(max(0.5 - 0.5 * cosine, Number(0.0)));
+// The sun's height and azimuth in the scattering table are those at a point of the ray about which most of the light is
+// scattered: along a limb they change by many degrees, and with the azimuth. It is the ground where the ray ends there,
+// otherwise three quarters of the way to the ray's lowest point, rounded off over a hundredth of the radius, so that rays
+// to either side of the horizontal go together. Distance to that point. Deviation: Bruneton 2017 takes the sun at the
+// ray's beginning.
+Number distance_to_sun_point(Number h, Number mu, bool hits_ground, Number bottom, Number thickness) {
+  if (hits_ground) return distance_to_inner_sphere(bottom, h, mu, Number(0.0));
+  Number descent = -(bottom + h) * mu;
+  Number width = 0.01 * bottom;
+  Number root = sqrt(descent * descent + width * width);
+  // The two forms of one root; the sum in each has no cancellation.
+  Number lowest = descent > Number(0.0) ? 0.5 * (descent + root) : 0.5 * width * width / (root - descent);
+  return min(0.75 * lowest, distance_to_outer_sphere(bottom, h, mu, thickness));
 }
-Number cosine_from_unit(Number x) { return 1.0 - 2.0 * (1.0 - x) * (1.0 - x); }
+
+// The sun's azimuth from the view's, 0 toward the sun: what is possible for a view and a sun fills the table, which it
+// does not by nu. Deviation: Bruneton 2017 takes nu.
+Number cosine_of_azimuth(Number mu, Number mu_s, Number nu) {
+  Number sines = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), Number(0.0)));
+  return clamp((nu - mu * mu_s) / max(sines, Number(1e-7)), Number(-1.0), Number(1.0));
+}
+Number unit_from_azimuth(Number cosine) { return acos(cosine) * 0.318309886183790672; }  // 1 / pi
 
 // Rays to the sky, whose brightness changes fastest along the limb: coordinate of the square root of Bruneton's
-// distance, x = s at both ends, 1.6 times as coarse as s at the zenith and 2.5 times as fine at the horizon.
-Number sky_from_root(Number s) { return (1.6 - sqrt(max(2.56 - 2.4 * s, Number(0.0)))) / 1.2; }
-Number root_from_sky(Number x) { return x * (1.6 - 0.6 * x); }
+// distance, x = s at both ends, 1.8 times as coarse as s at the zenith and 5 times as fine at the horizon.
+Number sky_from_root(Number s) { return (1.8 - sqrt(max(3.24 - 3.2 * s, Number(0.0)))) / 1.6; }
+Number root_from_sky(Number x) { return x * (1.8 - 0.8 * x); }
 
-// Texture coordinate of the view zenith in the scattering table: the halves meet at the horizon and share no texel.
-// Deviation: the square root of Bruneton's distance, which spreads the texels over the sky instead of one over the
-// 30 degrees about the zenith.
-Number texture_from_view(Number h, Number mu, bool hits_ground, Number size, Number bottom, Number thickness) {
-  Number half_size = 0.5 * size;
+// Texture coordinate of the view zenith in the scattering table, from the nadir to the zenith: rays to the ground have
+// the first ground_size texels, rays to the sky the other sky_size; the two meet at the horizon and share no texel.
+// Deviation: powers of Bruneton's distances, which spread the texels over the sky instead of one over the 30 degrees
+// about the zenith.
+Number texture_from_view(Number h, Number mu, bool hits_ground, Number ground_size, Number sky_size, Number bottom,
+                         Number thickness) {
   if (hits_ground) {
-    return 0.5 - 0.5 * texture_from_unit(sqrt(unit_from_ground_ray(h, mu, bottom)), half_size);
+    Number ground = pow(unit_from_ground_ray(h, mu, bottom), Number(0.4));
+    return (0.5 + ground * (ground_size - 1.0)) / (ground_size + sky_size);
   }
-  return 0.5 + 0.5 * texture_from_unit(sky_from_root(sqrt(unit_from_upward_ray(h, mu, bottom, thickness))), half_size);
+  Number sky = sky_from_root(sqrt(unit_from_upward_ray(h, mu, bottom, thickness)));
+  return (ground_size + 0.5 + (1.0 - sky) * (sky_size - 1.0)) / (ground_size + sky_size);
 }
 
-Number mu_from_texture(Number u, Number h, Number size, Number bottom, Number thickness) {
-  Number half_size = 0.5 * size;
-  if (u < Number(0.5)) {
-    Number ground = unit_from_texture(1.0 - 2.0 * u, half_size);
-    return mu_from_ground_unit(ground * ground, h, bottom);
+Number mu_from_texture(Number u, Number h, Number ground_size, Number sky_size, Number bottom, Number thickness) {
+  Number texel = u * (ground_size + sky_size) - 0.5;
+  if (texel < ground_size - 0.5) {
+    return mu_from_ground_unit(pow(max(texel, Number(0.0)) / (ground_size - 1.0), Number(2.5)), h, bottom);
   }
-  Number sky = root_from_sky(unit_from_texture(2.0 * u - 1.0, half_size));
+  Number sky = root_from_sky(1.0 - max(texel - ground_size, Number(0.0)) / (sky_size - 1.0));
   return mu_from_upward_unit(sky * sky, h, bottom, thickness);
 }
 

@@ -33,8 +33,8 @@ void set_atmosphere(const AtmosphereTables& tables, GLuint program) {
   uniforms.set("bottom_km", 1e-3 * a.bottom_radius_m);
   uniforms.set("thickness_km", 1e-3 * (a.top_radius_m - a.bottom_radius_m));
   uniforms.set("mu_s_min", kTableLowestSun);
-  uniforms.set("scattering_size", glm::vec4(sizes.scattering_mu_s, sizes.scattering_nu,
-                                            sizes.scattering_mu, sizes.scattering_r));
+  uniforms.set("scattering_size", glm::vec4(sizes.scattering_mu_s, sizes.scattering_azimuth,
+                                            sizes.scattering_ground, sizes.scattering_sky));
   uniforms.set("depolarisation", a.rayleigh.depolarisation);
   uniforms.set("phase_type", static_cast<int>(phase.type));
   uniforms.set("lobe_type", static_cast<int>(phase.lobe));

@@ -23,50 +23,6 @@ layout(location = 1) out float distance_km;
 
 const float kInfinity = uintBitsToFloat(0x7f800000u);
 
-// A point on the view ray, as the tables see it.
-struct Place {
-  float h, mu, mu_s;
-};
-
-Place place_along(Place from, float nu, float d) {
-  float h = max(height_after(bottom_km, from.h, from.mu, d), 0.0);
-  float r = bottom_km + h;
-  float r0 = bottom_km + from.h;
-  return Place(min(h, thickness_km), clamp((r0 * from.mu + d) / r, -1.0, 1.0),
-               clamp((r0 * from.mu_s + d * nu) / r, -1.0, 1.0));
-}
-
-// Both ends as upward rays, so that neither look-up meets the ground.
-vec4 transmittance_between(Place a, Place b, bool downward) {
-  vec4 depth_between = downward ? optical_depth_to_top(b.h, -b.mu) - optical_depth_to_top(a.h, -a.mu)
-                                : optical_depth_to_top(a.h, a.mu) - optical_depth_to_top(b.h, b.mu);
-  return exp(-max(depth_between, 0.0));
-}
-
-// Light scattered toward the eye along the whole ray from a place. Where the sun stands lower than the tables know, the
-// air is in the planet's shadow: the ray goes on, dimmed, to where the tables begin.
-vec4 scattered_beyond(Place from, float nu, bool hits_ground) {
-  if (from.mu_s < mu_s_min) {
-    // (r mu_s + d nu)^2 = mu_s_min^2 (r^2 + 2 r mu d + d^2)
-    float r = bottom_km + from.h;
-    float least = mu_s_min * mu_s_min;
-    float a = nu * nu - least;
-    float b = r * (from.mu_s * nu - least * from.mu);
-    float c = r * r * (from.mu_s * from.mu_s - least);
-    float root = sqrt(max(b * b - a * c, 0.0));
-    float d = c / (root - b);
-    bool reached = b * b > a * c && d > 0.0 && r * from.mu_s + d * nu <= 0.0;
-    float length = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
-                               : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);
-    vec4 faint = deep_twilight(from.mu_s) * radiance(scattering(from.h, from.mu, mu_s_min, nu, hits_ground), nu);
-    if (!reached || d > length) return faint;
-    Place lit = place_along(from, nu, d);
-    return max(faint, transmittance_between(from, lit, hits_ground) *
-                          radiance(scattering(lit.h, lit.mu, mu_s_min, nu, hits_ground), nu));
-  }
-  return radiance(scattering(from.h, from.mu, from.mu_s, nu, hits_ground), nu);
-}
-
 // The sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel.
 vec4 sun_disc(vec3 ray, Place eye) {
   float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
@@ -112,12 +68,12 @@ void main() {
   vec4 nodes = vec4(0.0);
   if (air) {
     if (hits_ground) d = min(d, entry + distance_to_inner_sphere(bottom_km, start.h, start.mu, 0.0));
-    nodes = scattered_beyond(start, nu, hits_ground);
+    nodes = radiance(scattering(start, nu, hits_ground), nu);
   }
   if (d < kInfinity) {
     Place end = air ? place_along(start, nu, max(d - entry, 0.0)) : start;
     vec4 through = transmittance_between(start, end, hits_ground);
-    vec4 beyond = scattered_beyond(end, nu, hits_ground);
+    vec4 beyond = radiance(scattering(end, nu, hits_ground), nu);
     vec3 up = normalize(vec3(0.0, 0.0, r0) + d * ray);
     vec4 reflectance = ground_albedo;
     vec3 normal = up;

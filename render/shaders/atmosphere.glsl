@@ -14,7 +14,7 @@ layout(binding = 4) uniform sampler2D phase_table;  // logarithm of a tabulated 
 uniform float bottom_km;
 uniform float thickness_km;
 uniform float mu_s_min;
-uniform vec4 scattering_size;   // mu_s, nu, mu, r
+uniform vec4 scattering_size;   // mu_s, azimuth, rays to the ground, rays to the sky
 uniform float depolarisation;   // of the air
 uniform int phase_type;         // PhaseType of model/atmosphere.h
 uniform int lobe_type;          // of two lobes
@@ -35,7 +35,7 @@ float aerosol_phase(float nu) {
 }
 
 float height_coordinate(float h, float size) {
-  return texture_from_unit(unit_from_height(h, bottom_km, thickness_km), size);
+  return texture_from_unit(unit_from_height(h, thickness_km), size);
 }
 
 // From the point to the top, for rays that miss the ground.
@@ -61,41 +61,54 @@ float deep_twilight(float mu_s) { return exp(min((mu_s - mu_s_min) * 57.3, 0.0))
 // Diffuse, on a horizontal surface that faces up.
 vec4 sky_irradiance(float h, float mu_s) {
   vec2 size = vec2(textureSize(irradiance_table, 0));
-  float x = texture_from_unit(unit_from_sun(mu_s, mu_s_min, bottom_km, thickness_km), size.x);
+  float x = texture_from_unit(unit_from_sun(mu_s, mu_s_min), size.x);
   return deep_twilight(mu_s) * texture(irradiance_table, vec2(x, height_coordinate(h, size.y)));
+}
+
+// A point on the view ray, as the tables see it.
+struct Place {
+  float h, mu, mu_s;
+};
+
+Place place_along(Place from, float nu, float d) {
+  float h = max(height_after(bottom_km, from.h, from.mu, d), 0.0);
+  float r = bottom_km + h;
+  float r0 = bottom_km + from.h;
+  return Place(min(h, thickness_km), clamp((r0 * from.mu + d) / r, -1.0, 1.0),
+               clamp((r0 * from.mu_s + d * nu) / r, -1.0, 1.0));
 }
 
 struct Scattering {
   vec4 rayleigh_like, single_mie;
 };
 
-// Of the cubic through the values at 0, 1, 2 and 3 (Lagrange).
-vec4 cubic_weights(float x) {
-  float a = x - 1.0, b = x - 2.0, c = x - 3.0;
-  return vec4(-a * b * c / 6.0, x * b * c / 2.0, -x * a * c / 2.0, x * a * b / 6.0);
-}
-
-// Along the whole ray, to the top or to the ground.
-Scattering scattering(float h, float mu, float mu_s, float nu, bool hits_ground) {
-  float u_sun = texture_from_unit(unit_from_sun(mu_s, mu_s_min, bottom_km, thickness_km), scattering_size.x);
-  float slot = unit_from_cosine(nu) * (scattering_size.y - 1.0);
-  float lower = clamp(floor(slot) - 1.0, 0.0, scattering_size.y - 4.0);
-  vec4 weight = cubic_weights(slot - lower);
-  vec3 at = vec3((lower + u_sun) / scattering_size.y,
-                 texture_from_view(h, mu, hits_ground, scattering_size.z, bottom_km, thickness_km),
-                 height_coordinate(h, scattering_size.w));
-  vec4 rayleigh_like = vec4(0.0), single_mie = vec4(0.0);
-  for (int i = 0; i < 4; ++i) {
-    rayleigh_like += weight[i] * texture(rayleigh_like_table, at);
-    single_mie += weight[i] * texture(single_mie_table, at);
-    at.x += 1.0 / scattering_size.y;
-  }
+// Along the whole ray from a place, to the top or to the ground.
+Scattering scattering(Place from, float nu, bool hits_ground) {
+  Place at = place_along(from, nu, distance_to_sun_point(from.h, from.mu, hits_ground, bottom_km, thickness_km));
+  float turn = unit_from_azimuth(cosine_of_azimuth(at.mu, at.mu_s, nu)) * (scattering_size.y - 1.0);
+  float first = min(floor(turn), scattering_size.y - 2.0);
+  float u_sun = texture_from_unit(unit_from_sun(at.mu_s, mu_s_min), scattering_size.x);
+  vec3 near = vec3((first + u_sun) / scattering_size.y,
+                   texture_from_view(from.h, from.mu, hits_ground, scattering_size.z, scattering_size.w, bottom_km,
+                                     thickness_km),
+                   height_coordinate(from.h, float(textureSize(rayleigh_like_table, 0).z)));
+  vec3 far = near + vec3(1.0 / scattering_size.y, 0.0, 0.0);
+  vec4 rayleigh_like = mix(texture(rayleigh_like_table, near), texture(rayleigh_like_table, far), turn - first);
+  vec4 single_mie = mix(texture(single_mie_table, near), texture(single_mie_table, far), turn - first);
   // The tables hold logarithms of the mean over the ray.
-  float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, h, mu, 0.0)
-                                : distance_to_outer_sphere(bottom_km, h, mu, thickness_km);
-  return Scattering(length_km * exp(rayleigh_like), length_km * exp(single_mie));
+  float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
+                                : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);
+  float light = length_km * deep_twilight(at.mu_s);
+  return Scattering(light * exp(rayleigh_like), light * exp(single_mie));
 }
 
 vec4 radiance(Scattering s, float nu) {
   return s.rayleigh_like * rayleigh_phase(depolarisation, nu) + s.single_mie * aerosol_phase(nu);
+}
+
+// Both ends as upward rays, so that neither look-up meets the ground.
+vec4 transmittance_between(Place a, Place b, bool downward) {
+  vec4 depth_between = downward ? optical_depth_to_top(b.h, -b.mu) - optical_depth_to_top(a.h, -a.mu)
+                                : optical_depth_to_top(a.h, a.mu) - optical_depth_to_top(b.h, b.mu);
+  return exp(-max(depth_between, 0.0));
 }

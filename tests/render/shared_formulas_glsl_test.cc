@@ -64,19 +64,19 @@ TEST_F(SharedFormulas, Mappings) {
   const auto outputs =
       run_glsl("#include \"model/shared/geometry.glsl\"\n#include \"model/shared/mapping.glsl\"\n",
                "bool hit = ray_hits_ground(x.x, x.y, 6360.0);\n"
-               "y = vec4(texture_from_view(x.x, x.y, hit, 128.0, 6360.0, 100.0), "
-               "unit_from_height(x.x, 6360.0, 100.0), "
-               "unit_from_sun(x.z, -0.2079, 6360.0, 100.0), hit ? 1.0 : 0.0);",
+               "y = vec4(texture_from_view(x.x, x.y, hit, 32.0, 64.0, 6360.0, 100.0), "
+               "unit_from_height(x.x, 100.0), "
+               "unit_from_sun(x.z, -0.2079), hit ? 1.0 : 0.0);",
                inputs);
   for (std::size_t i = 0; i < inputs.size(); i += 4) {
     const double h = inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
     const bool hit = shared_.ray_hits_ground(h, mu, kBottom);
     EXPECT_EQ(outputs[i + 3] > 0.5f, hit) << "h = " << h << ", mu = " << mu;
-    EXPECT_NEAR(outputs[i], shared_.texture_from_view(h, mu, hit, 128, kBottom, kThickness), kRoot)
+    EXPECT_NEAR(outputs[i], shared_.texture_from_view(h, mu, hit, 32, 64, kBottom, kThickness),
+                kRoot)
         << "h = " << h << ", mu = " << mu;
-    EXPECT_NEAR(outputs[i + 1], shared_.unit_from_height(h, kBottom, kThickness), kCoordinate);
-    EXPECT_NEAR(outputs[i + 2], shared_.unit_from_sun(mu_s, -0.2079, kBottom, kThickness),
-                kCoordinate);
+    EXPECT_NEAR(outputs[i + 1], shared_.unit_from_height(h, kThickness), kCoordinate);
+    EXPECT_NEAR(outputs[i + 2], shared_.unit_from_sun(mu_s, -0.2079), kCoordinate);
   }
 }
 
@@ -112,7 +112,7 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
     return run_glsl("#include \"render/shaders/atmosphere.glsl\"\n",
                     "bool hit = ray_hits_ground(x.x, x.y, bottom_km);\n"
                     "float nu = x.y * x.z + 0.3 * sqrt((1.0 - x.y * x.y) * (1.0 - x.z * x.z));\n"
-                    "if (x.w == 0.0) y = radiance(scattering(x.x, x.y, x.z, nu, hit), nu);\n"
+                    "if (x.w == 0.0) y = radiance(scattering(Place(x.x, x.y, x.z), nu, hit), nu);\n"
                     "if (x.w == 1.0) y = sky_irradiance(x.x, x.z);\n"
                     "if (x.w == 2.0) y = sun_transmittance(x.x, x.z);\n",
                     asked, [&](GLuint program) {

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/bruneton_model.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "model/ray.h"
+#include "model/shared/shared.h"
+#include "model/table_lookup.h"
+
+namespace skyfit {
+namespace {
+
+void check(bool good, const char* name, double value, const char* expected) {
+  if (!good)
+    throw std::invalid_argument(
+        fmt::format("bruneton model: {} = {:.9g}: must be {}", name, value, expected));
+}
+
+void check(const SkyPoint& p) {
+  check(std::isfinite(p.altitude_m) && p.altitude_m >= 0, "altitude_m", p.altitude_m, ">= 0");
+  check(p.sun_zenith >= 0 && p.sun_zenith <= std::numbers::pi, "sun zenith (rad)", p.sun_zenith,
+        "in 0 .. pi");
+  check(p.view_zenith >= 0 && p.view_zenith <= std::numbers::pi, "view zenith (rad)", p.view_zenith,
+        "in 0 .. pi");
+  check(std::isfinite(p.relative_azimuth), "relative azimuth (rad)", p.relative_azimuth, "finite");
+}
+
+void refuse_derivatives(std::span<const Parameter> derivatives) {
+  if (!derivatives.empty())
+    throw std::invalid_argument("bruneton model: has no derivatives; the reference model has");
+}
+
+// Where a point's view ray enters the air, as the tables see it.
+struct Entry {
+  ViewRay ray;
+  TablePlace place;
+  double nu;
+};
+Entry entry_of(const Atmosphere<double>& a, const SkyPoint& point) {
+  const double bottom = a.bottom_radius_m;
+  const double mu = std::cos(point.view_zenith), mu_s = std::cos(point.sun_zenith);
+  const double nu =
+      std::clamp(mu * mu_s + std::sin(point.view_zenith) * std::sin(point.sun_zenith) *
+                                 std::cos(point.relative_azimuth),
+                 -1.0, 1.0);
+  const ViewRay ray = view_ray(bottom, a.top_radius_m - bottom, point.altitude_m, mu);
+  const double r = bottom + ray.entry_height;
+  const double entry_mu_s = ((bottom + point.altitude_m) * mu_s + ray.entry_distance * nu) / r;
+  return {ray, {ray.entry_height, ray.entry_mu, std::clamp(entry_mu_s, -1.0, 1.0)}, nu};
+}
+
+NodeValues radiance_of(const AtmosphereTables& tables, const Entry& e) {
+  NodeValues sum{};
+  if (e.ray.length > 0) {
+    sum =
+        lookup_radiance(tables, e.place.height, e.place.mu, e.place.mu_s, e.nu, e.ray.hits_ground);
+  }
+  if (!e.ray.hits_ground) return sum;
+  const TablePlace ground = place_along(tables, e.place, e.nu, e.ray.length);
+  const NodeValues through = lookup_transmittance(tables, e.place, ground, true),
+                   beam = lookup_sun_transmittance(tables, 0, ground.mu_s),
+                   sky = lookup_irradiance(tables, 0, ground.mu_s);
+  const double reflected = tables.atmosphere.ground_albedo / std::numbers::pi;
+  for (std::size_t k = 0; k < 4; ++k)
+    sum[k] += through[k] * reflected * (beam[k] * std::max(ground.mu_s, 0.0) + sky[k]);
+  return sum;
+}
+
+// Calls use(first wavelength, how many, tables) for every four wavelengths.
+template <class Use>
+void for_every_four(const Atmosphere<double>& atmosphere,
+                    std::span<const WavelengthNode> wavelengths, int threads, const Use& use) {
+  for (std::size_t first = 0; first < wavelengths.size(); first += 4) {
+    const std::size_t count = std::min<std::size_t>(4, wavelengths.size() - first);
+    ColorRule four{};  // no colours are asked for; the last wavelength fills the four
+    for (std::size_t k = 0; k < 4; ++k) four.nodes[k] = wavelengths[first + std::min(k, count - 1)];
+    use(first, count, compute_tables(atmosphere, four, TableSizes{}, threads, {}));
+  }
+}
+
+}  // namespace
+
+BrunetonModel::BrunetonModel(int threads) : threads_(threads) {
+  check(threads >= 1, "threads", threads, ">= 1");
+}
+
+SkyValues BrunetonModel::radiance(const Atmosphere<double>& atmosphere,
+                                  std::span<const WavelengthNode> wavelengths,
+                                  std::span<const SkyPoint> points,
+                                  std::span<const Parameter> derivatives) const {
+  refuse_derivatives(derivatives);
+  validate(atmosphere);
+  for (const SkyPoint& p : points) check(p);
+  SkyValues values{
+      static_cast<int>(points.size()), static_cast<int>(wavelengths.size()), 0, {}, {}};
+  values.value.resize(points.size() * wavelengths.size());
+  for_every_four(atmosphere, wavelengths, threads_,
+                 [&](std::size_t first, std::size_t count, const AtmosphereTables& tables) {
+                   tbb::task_arena(threads_).execute([&] {
+                     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+                       const NodeValues l = radiance_of(tables, entry_of(atmosphere, points[i]));
+                       std::copy_n(l.begin(), count, &values.value[i * wavelengths.size() + first]);
+                     });
+                   });
+                 });
+  return values;
+}
+
+SkyValues BrunetonModel::irradiance(const Atmosphere<double>& atmosphere,
+                                    std::span<const WavelengthNode> wavelengths, double altitude_m,
+                                    double sun_zenith,
+                                    std::span<const Parameter> derivatives) const {
+  refuse_derivatives(derivatives);
+  validate(atmosphere);
+  const SkyPoint toward_sun{altitude_m, sun_zenith, sun_zenith, 0};
+  check(toward_sun);
+  const double thickness = atmosphere.top_radius_m - atmosphere.bottom_radius_m;
+  const Entry sun = entry_of(atmosphere, toward_sun);
+  const double mu_s = std::cos(sun_zenith);
+  SkyValues result{kIrradianceCount, static_cast<int>(wavelengths.size()), 0, {}, {}};
+  result.value.resize(static_cast<std::size_t>(kIrradianceCount) * wavelengths.size());
+  for_every_four(
+      atmosphere, wavelengths, threads_,
+      [&](std::size_t first, std::size_t count, const AtmosphereTables& tables) {
+        NodeValues direct, diffuse{};
+        direct.fill(sun.ray.hits_ground ? 0 : 1);
+        if (sun.ray.length > 0 && !sun.ray.hits_ground) {
+          direct = lookup_optical_depth(tables, sun.place.height, sun.place.mu);
+          for (double& tau : direct) tau = std::exp(-tau);
+        }
+        if (altitude_m < thickness) diffuse = lookup_irradiance(tables, altitude_m, mu_s);
+        for (std::size_t k = 0; k < count; ++k) {
+          const auto put = [&](Irradiance which, double value) {
+            result.value[static_cast<std::size_t>(which) * wavelengths.size() + first + k] = value;
+          };
+          const double horizontal = direct[k] * std::max(mu_s, 0.0);
+          put(kDirectNormal, direct[k]);
+          put(kDirectHorizontal, horizontal);
+          put(kDiffuseHorizontal, diffuse[k]);
+          put(kGlobalHorizontal, horizontal + diffuse[k]);
+        }
+      });
+  return result;
+}
+
+}  // namespace skyfit
