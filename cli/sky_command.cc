@@ -11,6 +11,7 @@
 #include "cli/output.h"
 #include "cli/sky_table.h"
 #include "data_refs/spectra.h"
+#include "model/reference_model.h"
 #include "model/sky_model.h"
 
 namespace skyfit::cli {
@@ -18,12 +19,15 @@ namespace {
 
 constexpr std::size_t kMaxRows = 20'000'000;  // some 3 GB of CSV
 
+constexpr int kMaxOrders = 20;
+
 constexpr double kMaxAltitude = 1e12;  // metres, beyond any atmosphere
 
 struct SkyOptions {
   std::string preset, site_pressure, model = "reference";
   std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength;
   bool luminance = false, color = false, irradiance = false, sigma = false;
+  int orders = 0;
   int threads = default_threads();
 };
 
@@ -67,12 +71,14 @@ SkyTable parse_table(const SkyOptions& options) {
   return options.irradiance ? irradiance_table(data, nm) : radiance_table(data, nm);
 }
 
-std::vector<SkyPoint> points_of(const SkyGrid& grid) {
+// `values` are kept at once for each point.
+std::vector<SkyPoint> points_of(const SkyGrid& grid, std::size_t values) {
   const std::size_t count = grid.altitude_m.size() * grid.sun_zenith_deg.size() *
                             grid.view_zenith_deg.size() * grid.azimuth_deg.size();
-  if (count > kMaxRows) {
+  const std::size_t most = kMaxRows / values;
+  if (count > most) {
     throw std::invalid_argument(
-        fmt::format("{} combinations of the lists: expected at most {}", count, kMaxRows));
+        fmt::format("{} combinations of the lists: expected at most {}", count, most));
   }
   std::vector<SkyPoint> points;
   points.reserve(count);
@@ -101,17 +107,29 @@ void for_each_point(const SkyGrid& grid, const Row& row) {
   }
 }
 
+// The light of each order of scattering at the points.
+std::vector<SkyValues> orders_of(const Atmosphere<double>& atmosphere, const SkyTable& table,
+                                 const std::vector<SkyPoint>& points, int threads) {
+  std::vector<SkyValues> orders;
+  ReferenceOptions options;
+  options.threads = threads;
+  for (options.order = 1; options.order <= table.orders; ++options.order)
+    orders.push_back(ReferenceModel(options).radiance(atmosphere, table.nodes, points, {}));
+  return orders;
+}
+
 void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
-               const SkyTable& table) {
-  const SkyValues sky =
-      model.radiance(atmosphere, table.nodes, points_of(grid), table.derivatives());
+               const SkyTable& table, int threads) {
+  const std::vector<SkyPoint> points = points_of(grid, 1 + table.orders);
+  const SkyValues sky = model.radiance(atmosphere, table.nodes, points, table.derivatives());
+  const std::vector<SkyValues> orders = orders_of(atmosphere, table, points, threads);
   print(header(table, "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,"));
   int point = 0;
   fmt::memory_buffer text;
   for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
     text.clear();
     append_place(table, fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth),
-                 sky, point++, 1, text);
+                 sky, orders, point++, 1, text);
     print({text.data(), text.size()});
   });
 }
@@ -125,8 +143,8 @@ void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
       text.clear();
       append_place(
           table, fmt::format("{:.9g},{:.9g},", altitude, sun),
-          model.irradiance(atmosphere, table.nodes, altitude, radians(sun), table.derivatives()), 0,
-          kIrradianceCount, text);
+          model.irradiance(atmosphere, table.nodes, altitude, radians(sun), table.derivatives()),
+          {}, 0, kIrradianceCount, text);
       print({text.data(), text.size()});
     }
   }
@@ -135,6 +153,9 @@ void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
 void run_sky(const SkyOptions& options) {
   const SkyGrid grid = parse_grid(options);
   SkyTable table = parse_table(options);
+  table.orders = options.orders;
+  if (options.orders > 0 && options.model != "reference")
+    throw UsageError("--model", options.model, "expected reference with --orders");
   Preset preset = preset_named(options.preset);
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
@@ -143,7 +164,7 @@ void run_sky(const SkyOptions& options) {
   if (options.irradiance) {
     print_irradiance(*model, preset.atmosphere, grid, table);
   } else {
-    print_sky(*model, preset.atmosphere, grid, table);
+    print_sky(*model, preset.atmosphere, grid, table, options.threads);
   }
 }
 
@@ -183,15 +204,28 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
                     "IEC 61966-2-1; white D65 of luminance L is R = G = B = L; negative\n"
                     "outside its gamut), all in cd/m^2")
           ->excludes(luminance);
+  auto* const irradiance =
+      command
+          .add_flag("--irradiance", options.irradiance,
+                    "Print direct, diffuse and global irradiance (no view directions): lx,\n"
+                    "or W m^-2 nm^-1 with --wavelength-nm")
+          ->excludes(luminance)
+          ->excludes(color);
+  auto* const sigma =
+      command.add_flag("--sigma", options.sigma,
+                       "Print one standard deviation after each value, from the covariance of a\n"
+                       "fitted preset");
   command
-      .add_flag("--irradiance", options.irradiance,
-                "Print direct, diffuse and global irradiance (no view directions): lx,\n"
-                "or W m^-2 nm^-1 with --wavelength-nm")
-      ->excludes(luminance)
-      ->excludes(color);
-  command.add_flag("--sigma", options.sigma,
-                   "Print one standard deviation after each value, from the covariance of a\n"
-                   "fitted preset");
+      .add_option(
+          "--orders", options.orders,
+          fmt::format("Print the orders of scattering 1 to N, N <= {}, after each value, and\n"
+                      "what is left",
+                      kMaxOrders))
+      ->type_name("N")
+      ->check(CLI::Range(1, kMaxOrders).description(""))
+      ->excludes(color)
+      ->excludes(irradiance)
+      ->excludes(sigma);
   add_threads_option(command, options.threads);
 }
 
@@ -212,11 +246,21 @@ void add_sky_command(CLI::App& app) {
       "covariance in the preset. Parameters that were fixed or at a bound contribute nothing, nor\n"
       "does the luminance scale, which a fit to relative luminances leaves free.\n"
       "\n"
+      "--orders N splits the value, in its unit: order_k is light that met air or ground exactly "
+      "k\n"
+      "times (order 1 is single scattering, and the ground under the sun's beam), order_higher "
+      "the\n"
+      "value less those. Light that an aerosol scatters straight on, in the peak that 16 moments\n"
+      "cannot resolve, has not met it. In twilight (sun below 86 deg) single orders leave out the\n"
+      "coupling of neighbouring places, so that order_higher holds the difference and may be\n"
+      "negative.\n"
+      "\n"
       "Examples:\n"
       "  skyfit sky --preset earth-clear --sun-zenith-deg 30 --view-zenith-deg 0:85:5 "
       "--azimuth-deg 0,180\n"
       "  skyfit sky --preset fitted/preset.json --sun-zenith-deg 0:80:10 --irradiance --sigma\n"
-      "  skyfit sky --preset earth-clear --sun-zenith-deg 88 --view-zenith-deg 85 --color");
+      "  skyfit sky --preset earth-clear --sun-zenith-deg 88 --view-zenith-deg 85 --color\n"
+      "  skyfit sky --preset earth-clear --sun-zenith-deg 60 --view-zenith-deg 0:85:5 --orders 4");
   command->callback([options] { run_sky(*options); });
 }
 

@@ -102,23 +102,34 @@ std::string header(const SkyTable& table, std::string_view place) {
   for (const std::string& column : table.columns) {
     text += column + ",";
     if (table.covariance) text += "sigma_" + column + ",";
+    for (int order = 1; order <= table.orders; ++order) text += fmt::format("order_{},", order);
+    if (table.orders > 0) text += "order_higher,";
   }
   text.back() = '\n';
   return text;
 }
 
-void append_place(const SkyTable& table, std::string_view place, const SkyValues& sky, int first,
-                  int count, fmt::memory_buffer& out) {
+void append_place(const SkyTable& table, std::string_view place, const SkyValues& sky,
+                  std::span<const SkyValues> orders, int first, int count,
+                  fmt::memory_buffer& out) {
   const auto end = std::back_inserter(out);
   for (const SkyLine& line : table.lines) {
     fmt::format_to(end, "{}{}", place, line.prefix);
     std::string_view separator = "";
     for (int point = first; point < first + count; ++point) {
       for (const NodeSum& sum : line.sums) {
-        fmt::format_to(end, "{}{:.9g}", separator, value_of(sum, sky, point));
+        const double value = value_of(sum, sky, point);
+        fmt::format_to(end, "{}{:.9g}", separator, value);
         separator = ",";
-        if (!table.covariance) continue;
-        fmt::format_to(end, ",{:.9g}", sigma_of(sum, sky, point, table.covariance->matrix));
+        if (table.covariance)
+          fmt::format_to(end, ",{:.9g}", sigma_of(sum, sky, point, table.covariance->matrix));
+        double higher = value;
+        for (const SkyValues& order : orders) {
+          const double part = value_of(sum, order, point);
+          higher -= part;
+          fmt::format_to(end, ",{:.9g}", part);
+        }
+        if (!orders.empty()) fmt::format_to(end, ",{:.9g}", higher);
       }
     }
     out.push_back('\n');

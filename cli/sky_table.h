@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,7 @@ struct SkyTable {
   std::vector<WavelengthNode> nodes;
   std::vector<SkyLine> lines;
   std::optional<fit::FittedCovariance> covariance;  // prints one sigma after each value
+  int orders = 0;  // > 0: after each value prints that many orders of scattering, and the rest
 
   std::vector<Parameter> derivatives() const {
     return covariance ? covariance->parameters : std::vector<Parameter>{};
@@ -50,8 +52,9 @@ SkyTable irradiance_table(const SpectralData& data, const std::vector<double>& w
 // append_place().
 std::string header(const SkyTable& table, std::string_view place);
 
-// The lines of the place whose points are first .. first + count - 1 of `sky`.
-void append_place(const SkyTable& table, std::string_view place, const SkyValues& sky, int first,
-                  int count, fmt::memory_buffer& out);
+// The lines of the place whose points are first .. first + count - 1 of `sky`; `orders` holds the
+// same points of each order that the table prints.
+void append_place(const SkyTable& table, std::string_view place, const SkyValues& sky,
+                  std::span<const SkyValues> orders, int first, int count, fmt::memory_buffer& out);
 
 }  // namespace skyfit::cli

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `skyfit sky --color` is the sum over the spectrum that `skyfit sky --wavelength-nm` prints, and
-// `--sigma` is what a covariance of the parameters makes of numerical derivatives of the values.
+// `--sigma` is what a covariance of the parameters makes of numerical derivatives of the values,
+// and
+// `--orders` splits them.
 #include <array>
 #include <cmath>
 #include <map>
@@ -156,6 +158,44 @@ TEST_F(SkyTest, SigmaNeedsACovariance) {
   preset["fit"]["covariance"]["parameters"] = {"mie.phase.g1", "mie.beta"};
   write("names.json", preset.dump());
   refuse("names.json", {"fit.covariance.parameters", "mie.phase.g1"});
+}
+
+TEST_F(SkyTest, OrdersAddUpToTheValueAndFallOff) {
+  for (const auto& [what, name] :
+       {std::pair<std::vector<std::string>, std::string>{{"--luminance"}, "luminance_cd_m2"},
+        {{"--wavelength-nm", "450,600"}, "radiance_per_irradiance_sr"}}) {
+    std::vector<std::string> arguments = {
+        "--preset", "earth-clear",  "--sun-zenith-deg", "20,60,90", "--view-zenith-deg",
+        "0,70,120", "--altitude-m", "1,5000",           "--orders", "3"};
+    arguments.insert(arguments.end(), what.begin(), what.end());
+    const Columns columns = sky(arguments);
+    const std::vector<double>& value = columns.at(name);
+    const std::vector<double>&first = columns.at("order_1"), &second = columns.at("order_2"),
+          &third = columns.at("order_3"), &higher = columns.at("order_higher");
+    EXPECT_FALSE(columns.contains("order_4"));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      EXPECT_NEAR(first[i] + second[i] + third[i] + higher[i], value[i], 1e-8 * value[i]) << i;
+      if (columns.at("sun_zenith_deg")[i] > 86) continue;
+      EXPECT_GT(first[i], second[i]) << i;
+      EXPECT_GT(second[i], third[i]) << i;
+      EXPECT_GT(third[i], higher[i]) << i;
+      EXPECT_GT(higher[i], 0) << i;
+    }
+  }
+}
+
+TEST_F(SkyTest, OrdersAreOfRadianceAndLuminanceOnly) {
+  const auto refuse = [&](const std::string& orders, std::vector<std::string> extra,
+                          const std::vector<std::string>& texts) {
+    extra.insert(extra.begin(), {"sky", "--preset", "earth-clear", "--sun-zenith-deg", "40",
+                                 "--view-zenith-deg", "0", "--orders", orders});
+    expect_refusal(extra, texts);
+  };
+  for (const char* orders : {"0", "-1", "21", "1.5", "many"})
+    refuse(orders, {}, {"--orders", orders, "1 to 20"});
+  for (const char* kind : {"--color", "--irradiance", "--sigma"})
+    refuse("2", {kind}, {"--orders", kind});
+  refuse("2", {"--model", "other"}, {"--model \"other\"", "expected reference with --orders"});
 }
 
 }  // namespace
