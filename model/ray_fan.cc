@@ -12,7 +12,7 @@ namespace {
 
 // Shares of the levels at which a limb ray begins. Three times as many change the multiple
 // scattering seen from 0 .. 20 km and along the limb by less than 1 %.
-constexpr double kLimbLevels[] = {0.2, 0.35, 0.47, 0.6, 0.7, 0.8};
+constexpr double kLimbLevels[] = {0.2, 0.35, 0.47, 0.6, 0.7, 0.8, 0.9};
 
 // P_l(mu), l = 0 .. count - 1.
 Eigen::VectorXd legendre(double mu, int count) {
