@@ -279,12 +279,12 @@ void run_notebook(notebook::Page& page) {
   constexpr int kOrders = 20, kShown = 8, kDrawn = 12;
   const std::vector<SkyPoint> looks = {{0, 60 * kDegree, 0, 0},
                                        {0, 60 * kDegree, 80 * kDegree, 180 * kDegree}};
-  Panel by_order{"order of scattering", {0.5, kDrawn + 0.5}, false, {}, {}};
+  Panel by_order{"", {0.5, kDrawn + 0.5}, false, {}, {}};
   for (int order = 1; order <= kDrawn; ++order)
     by_order.ticks.push_back({1.0 * order, fmt::format("{}", order)});
   std::vector<Panel> order_panels(looks.size(), by_order);
-  order_panels[0].abscissa += ", toward the zenith";
-  order_panels[1].abscissa = "order, 80° from the zenith, sun behind";
+  order_panels[0].abscissa = "order, view zenith 0°";
+  order_panels[1].abscissa = "order, view zenith 80°";
   std::array<std::array<std::array<double, kOrders + 1>, 2>, 3> percent{};  // 0: all orders
   for (std::size_t i = 0; i < airs.size(); ++i) {
     const std::vector<double> whole = radiances(airs[i], looks, standard);
@@ -318,7 +318,7 @@ void run_notebook(notebook::Page& page) {
   std::vector<plot::LegendEntry> order_legend;
   for (std::size_t i = 0; i < airs.size(); ++i)
     order_legend.push_back({plot::Mark::kSolidLine, plot::kCurveColors[i], names[i]});
-  draw_figure(page.scratch("orders.png"), "share of the radiance (%)", {1e-5, 200}, order_panels,
+  draw_figure(page.scratch("orders.png"), "share of the radiance (%)", {1e-6, 200}, order_panels,
               order_legend);
   page.figure(page.scratch("orders.png"));
 
