@@ -185,6 +185,8 @@ SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
           "reference model: the atmosphere has no {} to differentiate by", parameter_info(p).name));
     }
   }
+  if (!derivatives.empty())
+    check(options_.order == 0, "order", options_.order, "0 where derivatives are asked for");
   tbb::task_arena arena(options_.threads);
   return arena.execute([&] {
     return derivatives.empty()
