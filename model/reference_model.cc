@@ -117,11 +117,18 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
   const ViewRays rays =
       distinct_view_rays(shells, level_heights(shells.top, options.levels), points);
   std::vector<SunAlongRay> suns;
-  std::vector<double> mu_s;
+  suns.reserve(points.size());
+  std::vector<SunRange> needed;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
     suns.emplace_back(shells.bottom_radius, path.ray, points[i]);
-    for (const RayPoint& p : path.sun_points) mu_s.push_back(suns.back().mu_s(p));
+    if (path.sun_points.empty()) continue;
+    SunRange range{1, -1};
+    for (const RayPoint& p : path.sun_points) {
+      const double mu_s = suns.back().mu_s(p);
+      range = {std::min(range.lowest, mu_s), std::max(range.highest, mu_s)};
+    }
+    needed.push_back(range);
   }
   std::vector<Optics<N>> optics;
   const auto seeded_atmosphere = seeded<N>(atmosphere, derivatives);
@@ -131,10 +138,11 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
   const bool first = options.order <= 1, further = options.order != 1;
   std::vector<Dual<N>> single(points.size() * optics.size());
   std::optional<SkySolution<N>> solution;
-  tbb::parallel_invoke([&] { solution.emplace(shells, optics, derivatives.size(), mu_s, options); },
-                       [&] {
-                         if (first) single = single_scattering_of(shells, optics, rays, suns);
-                       });
+  tbb::parallel_invoke(
+      [&] { solution.emplace(shells, optics, derivatives.size(), needed, options); },
+      [&] {
+        if (first) single = single_scattering_of(shells, optics, rays, suns);
+      });
   const std::size_t slices = 1 + derivatives.size();
   const std::vector<double> multiple =
       multiple_scattering_of(*solution, rays, suns, optics.size() * slices);

@@ -10,14 +10,17 @@
 namespace skyfit {
 template <int N>
 SkySolution<N>::SkySolution(const Shells& shells, const std::vector<Optics<N>>& optics,
-                            std::size_t derivatives, std::span<const double> mu_s_needed,
+                            std::size_t derivatives, std::span<const SunRange> needed,
                             const ReferenceOptions& options)
     : shells_(shells),
       heights_(level_heights(shells.top, options.levels)),
       solved_(grid_.size(), -1),
       optics_(optics) {
-  for (const double mu_s : mu_s_needed) {
-    for (const int i : grid_.stencil(mu_s).index) solved_[i] = 0;
+  for (const SunRange& range : needed) {
+    const SunStencil high = grid_.stencil(range.highest), low = grid_.stencil(range.lowest);
+    const auto first = *std::ranges::min_element(high.index),
+               last = *std::ranges::max_element(low.index);
+    std::fill(solved_.begin() + first, solved_.begin() + last + 1, 0);
   }
   // Suns that are coupled need their neighbours, down to the dark.
   const int first = first_coupled_sun(grid_, shells_);

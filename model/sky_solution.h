@@ -12,13 +12,18 @@
 
 namespace skyfit {
 
+// Cosines of local sun zenith angles.
+struct SunRange {
+  double lowest, highest;
+};
+
 template <int N>
 class SkySolution {
  public:
-  // Solves the diffuse field for every sun of the grid that `mu_s_needed` touches (cosines of local
-  // sun zenith angles). `optics` stay where they are.
+  // Solves the diffuse field for every sun of the grid that the ranges touch. `optics` stay where
+  // they are.
   SkySolution(const Shells& shells, const std::vector<Optics<N>>& optics, std::size_t derivatives,
-              std::span<const double> mu_s_needed, const ReferenceOptions& options);
+              std::span<const SunRange> needed, const ReferenceOptions& options);
 
   MultipleScattering<N> multiple_scattering() const {
     return {heights_, grid_, solved_, optics_, fields_};
