@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/bruneton_model.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -17,19 +16,8 @@
 namespace skyfit {
 namespace {
 
-void check(bool good, const char* name, double value, const char* expected) {
-  if (!good)
-    throw std::invalid_argument(
-        fmt::format("bruneton model: {} = {:.9g}: must be {}", name, value, expected));
-}
-
-void check(const SkyPoint& p) {
-  check(std::isfinite(p.altitude_m) && p.altitude_m >= 0, "altitude_m", p.altitude_m, ">= 0");
-  check(p.sun_zenith >= 0 && p.sun_zenith <= std::numbers::pi, "sun zenith (rad)", p.sun_zenith,
-        "in 0 .. pi");
-  check(p.view_zenith >= 0 && p.view_zenith <= std::numbers::pi, "view zenith (rad)", p.view_zenith,
-        "in 0 .. pi");
-  check(std::isfinite(p.relative_azimuth), "relative azimuth (rad)", p.relative_azimuth, "finite");
+void check(bool good, std::string_view name, double value, std::string_view expected) {
+  check_model_value("bruneton", good, name, value, expected);
 }
 
 void refuse_derivatives(std::span<const Parameter> derivatives) {
@@ -97,7 +85,7 @@ SkyValues BrunetonModel::radiance(const Atmosphere<double>& atmosphere,
                                   std::span<const Parameter> derivatives) const {
   refuse_derivatives(derivatives);
   validate(atmosphere);
-  for (const SkyPoint& p : points) check(p);
+  for (const SkyPoint& p : points) check_point("bruneton", p);
   SkyValues values{
       static_cast<int>(points.size()), static_cast<int>(wavelengths.size()), 0, {}, {}};
   values.value.resize(points.size() * wavelengths.size());
@@ -120,7 +108,7 @@ SkyValues BrunetonModel::irradiance(const Atmosphere<double>& atmosphere,
   refuse_derivatives(derivatives);
   validate(atmosphere);
   const SkyPoint toward_sun{altitude_m, sun_zenith, sun_zenith, 0};
-  check(toward_sun);
+  check_point("bruneton", toward_sun);
   const double thickness = atmosphere.top_radius_m - atmosphere.bottom_radius_m;
   const Entry sun = entry_of(atmosphere, toward_sun);
   const double mu_s = std::cos(sun_zenith);

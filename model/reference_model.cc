@@ -20,19 +20,8 @@
 namespace skyfit {
 namespace {
 
-void check(bool good, const char* name, double value, const char* expected) {
-  if (!good)
-    throw std::invalid_argument(
-        fmt::format("reference model: {} = {:.9g}: must be {}", name, value, expected));
-}
-
-void check(const SkyPoint& p) {
-  check(std::isfinite(p.altitude_m) && p.altitude_m >= 0, "altitude_m", p.altitude_m, ">= 0");
-  check(p.sun_zenith >= 0 && p.sun_zenith <= std::numbers::pi, "sun zenith (rad)", p.sun_zenith,
-        "in 0 .. pi");
-  check(p.view_zenith >= 0 && p.view_zenith <= std::numbers::pi, "view zenith (rad)", p.view_zenith,
-        "in 0 .. pi");
-  check(std::isfinite(p.relative_azimuth), "relative azimuth (rad)", p.relative_azimuth, "finite");
+void check(bool good, std::string_view name, double value, std::string_view expected) {
+  check_model_value("reference", good, name, value, expected);
 }
 
 // The distinct view rays of a list of points, and which ray each point takes.
@@ -186,7 +175,7 @@ SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
                                    std::span<const SkyPoint> points,
                                    std::span<const Parameter> derivatives) const {
   validate(atmosphere);
-  for (const SkyPoint& p : points) check(p);
+  for (const SkyPoint& p : points) check_point("reference", p);
   for (const Parameter p : derivatives) {
     if (!has_parameter(atmosphere, p)) {
       throw std::invalid_argument(fmt::format(

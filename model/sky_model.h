@@ -66,6 +66,12 @@ class SkyModel {
                                double sun_zenith, std::span<const Parameter> derivatives) const = 0;
 };
 
+// For the models: throws std::invalid_argument "MODEL model: NAME = VALUE: must be EXPECTED" unless
+// `good`; the same for a point that no model can do.
+void check_model_value(std::string_view model, bool good, std::string_view name, double value,
+                       std::string_view expected);
+void check_point(std::string_view model, const SkyPoint& point);
+
 // The names that make_sky_model accepts.
 std::vector<std::string_view> sky_model_names();
 
