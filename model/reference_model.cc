@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "model/parameter_field.h"
+#include "model/phase_moments.h"
 #include "model/single_scattering.h"
 #include "model/sky_solution.h"
 
@@ -22,6 +23,19 @@ namespace {
 
 void check(bool good, std::string_view name, double value, std::string_view expected) {
   check_model_value("reference", good, name, value, expected);
+}
+
+// A forward peak that the moments do not hold (g above some 0.86) is cut off too coarsely: twice
+// the rays and moments. A lobe of g = 0.9 and optical depth 0.3 is then off by 0.7 % at worst
+// instead of 2.4 %.
+ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& atmosphere) {
+  constexpr double kNarrow = 0.1;  // share of the scattering that would be cut off
+  if (options.moments == ReferenceOptions{}.moments &&
+      aerosol_phase_moments(atmosphere.mie.phase, options.moments + 1).back() > kNarrow) {
+    options.streams *= 2;
+    options.moments *= 2;
+  }
+  return options;
 }
 
 // The distinct view rays of a list of points, and which ray each point takes.
@@ -184,11 +198,12 @@ SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
   }
   if (!derivatives.empty())
     check(options_.order == 0, "order", options_.order, "0 where derivatives are asked for");
-  tbb::task_arena arena(options_.threads);
+  const ReferenceOptions options = resolved(options_, atmosphere);
+  tbb::task_arena arena(options.threads);
   return arena.execute([&] {
     return derivatives.empty()
-               ? solve<0>(atmosphere, wavelengths, points, derivatives, options_)
-               : solve<kParameterCount>(atmosphere, wavelengths, points, derivatives, options_);
+               ? solve<0>(atmosphere, wavelengths, points, derivatives, options)
+               : solve<kParameterCount>(atmosphere, wavelengths, points, derivatives, options);
   });
 }
 

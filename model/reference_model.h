@@ -11,9 +11,11 @@
 namespace skyfit {
 
 struct ReferenceOptions {
-  int streams = 8;   // rays to the ground of the diffuse field, per hemisphere; more along the limb
-  int moments = 16;  // of the aerosol's phase function, <= 2 streams
-  int levels = 28;   // of the diffuse field
+  int streams = 8;  // rays to the ground of the diffuse field, per hemisphere; more along the limb
+  // Of the aerosol's phase function, <= 2 streams. The default, and the streams with it, is doubled
+  // for a lobe so narrow that a tenth of its scattering would be cut off.
+  int moments = 16;
+  int levels = 28;  // of the diffuse field
   int threads = 1;
   double tolerance = 3e-3;  // of the azimuth modes that are left out
   // 0: all light. k > 0: only what met air or ground k times; approximate for suns below 86 deg,
