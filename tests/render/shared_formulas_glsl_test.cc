@@ -154,8 +154,8 @@ TEST_F(SharedFormulas, TableLookupsOfTabulatedPhaseAndProfile) {
   Preset preset = shipped("earth-clear");
   AerosolPhase<double>& phase = preset.atmosphere.mie.phase;
   phase.type = PhaseType::kTabulated;
-  phase.table = std::make_shared<const TabulatedPhase>(
-      TwoColumns{{0, 5, 20, 60, 120, 150, 180}, {7.6, 2.28, 0.319, 0.0683, 0.0106, 0.00759, 0.0228}});
+  phase.table = std::make_shared<const TabulatedPhase>(TwoColumns{
+      {0, 5, 20, 60, 120, 150, 180}, {7.6, 2.28, 0.319, 0.0683, 0.0106, 0.00759, 0.0228}});
   preset.atmosphere.mie.profile = std::make_shared<const LinearProfile>(
       TwoColumns{{0, 1e3, 2e3, 3e3, 5e3}, {1, 0.8, 0, 0.3, 0}});
   expect_equal_lookups(tables_of(preset, kSmallTables));
