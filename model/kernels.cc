@@ -51,15 +51,14 @@ void add_scaled(double x, const double* __restrict in, double* __restrict out, s
 }
 
 SKYFIT_CLONES
-void accumulate_suns(const double* __restrict rows, std::size_t slices,
-                     const int* __restrict index, const double* __restrict weight,
-                     const double* __restrict factor, std::size_t points,
-                     double* __restrict out) {
+void accumulate_suns(const double* __restrict rows, std::size_t slices, const int* __restrict index,
+                     const double* __restrict weight, const double* __restrict factor,
+                     std::size_t points, double* __restrict out) {
   for (std::size_t k = 0; k < points; ++k, index += 4, weight += 4, out += slices) {
     const double *a = rows + index[0] * slices, *b = rows + index[1] * slices,
                  *c = rows + index[2] * slices, *d = rows + index[3] * slices;
-    const double wa = factor[k] * weight[0], wb = factor[k] * weight[1],
-                 wc = factor[k] * weight[2], wd = factor[k] * weight[3];
+    const double wa = factor[k] * weight[0], wb = factor[k] * weight[1], wc = factor[k] * weight[2],
+                 wd = factor[k] * weight[3];
     for (std::size_t p = 0; p < slices; ++p)
       out[p] += wa * a[p] + wb * b[p] + wc * c[p] + wd * d[p];
   }

@@ -16,7 +16,7 @@ void multiply(const double* a, const double* b, double* c, std::size_t rows, std
 void add_scaled(double x, const double* in, double* out, std::size_t count);
 
 // For points k: out[k][p] += factor[k] sum_j weight[k][j] rows[index[k][j]][p], j = 0 .. 3.
-void accumulate_suns(const double* rows, std::size_t slices, const int* index,
-                     const double* weight, const double* factor, std::size_t points, double* out);
+void accumulate_suns(const double* rows, std::size_t slices, const int* index, const double* weight,
+                     const double* factor, std::size_t points, double* out);
 
 }  // namespace skyfit::kernels

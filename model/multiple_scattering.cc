@@ -120,7 +120,7 @@ const double* MultipleScattering<N>::block_at(const Group& group, const DiffuseF
 }
 
 template <int N>
-void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeWeights<N>> weights,
+void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights<N>> weights,
                                      int wave, int m) const {
   const DiffuseField& field = fields_[wave];
   const Optics<N>& optics = optics_[wave];
@@ -169,8 +169,7 @@ void MultipleScattering<N>::add_mode(const Bundle& bundle, std::span<const NodeW
       kernels::accumulate_suns(series.data() + r * field.shape.row(), slices, node.index.data(),
                                m % 2 == 0 ? node.even.data() : node.odd.data(),
                                &node.wave_factor[m * (node.index.size() / 4)],
-                               node.index.size() / 4,
-                               const_cast<double*>(bundle.sums[node.path].data()));
+                               node.index.size() / 4, bundle.sums[node.path].data());
     }
   }
 }

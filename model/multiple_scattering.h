@@ -42,8 +42,7 @@ class MultipleScattering {
   struct Group;
   struct Bundle;
   Bundle bundle_of(std::span<const PathWithSuns> paths) const;
-  void add_mode(const Bundle& bundle, std::span<const NodeWeights<N>> weights, int wave,
-                int m) const;
+  void add_mode(Bundle& bundle, std::span<const NodeWeights<N>> weights, int wave, int m) const;
   const double* block_at(const Group& group, const DiffuseField& field, int m,
                          LargeArray& scratch) const;
 

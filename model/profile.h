@@ -27,8 +27,8 @@ class Profile {
   explicit Profile(TabulatedProfile table) : table_(std::move(table)) {}
 
   bool is_exponential() const { return table_ == nullptr; }
-  double scale_height() const { return scale_height_; }     // of an exponential profile
-  const LinearProfile& table() const { return *table_; }    // of one that is not
+  double scale_height() const { return scale_height_; }   // of an exponential profile
+  const LinearProfile& table() const { return *table_; }  // of one that is not
   Density density(double height) const;
   // The same at a level of a grid between its neighbours `low` and `high`: the value of a table is
   // its mean about the level, so that no layer falls between two levels.

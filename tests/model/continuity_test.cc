@@ -25,8 +25,7 @@ Atmosphere<double> haze() {
 
 // The largest difference between a logarithmic step and the mean of the steps before and after.
 double worst_kink(const std::vector<SkyPoint>& points) {
-  const SkyValues sky =
-      make_sky_model("reference", 2)->radiance(haze(), {&kGreen, 1}, points, {});
+  const SkyValues sky = make_sky_model("reference", 2)->radiance(haze(), {&kGreen, 1}, points, {});
   std::vector<double> step;
   for (std::size_t i = 1; i < points.size(); ++i)
     step.push_back(std::log(sky.value[i] / sky.value[i - 1]));
@@ -54,7 +53,9 @@ TEST(Continuity, OfTheViewThroughTheHorizon) {
     std::vector<SkyPoint> points;
     for (double view = 85; view <= 100; view += 0.05)
       points.push_back({altitude, 50 * kDegree, view * kDegree, 1});
-    EXPECT_LT(worst_kink(points), 0.01) << altitude;
+    // The horizon is a kink within the width of a step, softened by some 10 to 60 km of haze.
+    constexpr double kSoftHorizon = 0.01;
+    EXPECT_LT(worst_kink(points), kSoftHorizon) << altitude;
   }
 }
 
@@ -64,7 +65,8 @@ TEST(Continuity, OfTheObserverThroughTheTop) {
     std::vector<SkyPoint> points;
     for (double h = top - 100; h <= top + 100; h += 4)
       points.push_back({h, 50 * kDegree, view * kDegree, 1});
-    EXPECT_LT(worst_kink(points), 1e-5) << view;
+    constexpr double kLastAir = 1e-5;  // the air ends at 4e-6 of its density: a kink, no step
+    EXPECT_LT(worst_kink(points), kLastAir) << view;
   }
 }
 
