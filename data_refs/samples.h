@@ -10,8 +10,9 @@
 namespace skyfit::refs {
 
 enum class Quantity {
-  kLuminance,         // cd/m^2
-  kRelativeLuminance  // up to a factor per sun position
+  kLuminance,          // cd/m^2
+  kRelativeLuminance,  // up to a factor per sun position
+  kSpectralRadiance    // W m^-2 sr^-1 nm^-1, at Sample::wavelength_nm
 };
 
 // Angles in radians; azimuth 0 looks toward the sun's azimuth.
@@ -19,6 +20,7 @@ struct Sample {
   double sun_zenith = 0;
   double view_zenith = 0;
   double relative_azimuth = 0;
+  double wavelength_nm = 0;        // > 0 for a spectral radiance, 0 for the others
   double value = 0;                // > 0, in the unit of the reference's quantity
   std::optional<double> sigma;     // one standard deviation, same unit as value
   double weight = 1;               // >= 0
@@ -26,11 +28,20 @@ struct Sample {
   int scan = 0;                    // samples of one scan share one sun position's luminance scale
 };
 
+// What is known of one scan beside its samples. Instants in UTC.
+struct Scan {
+  std::string name;                   // the file, or "sun zenith 30 deg"
+  std::string time_utc;               // "2013-05-27T13:30:00Z"; empty: not known
+  std::optional<double> sun_azimuth;  // radians clockwise from north
+  double sun_distance_au = 1;         // of the time; 1 where the time is not known
+};
+
 struct Reference {
   std::string name;         // "cie:12", or the file
   std::string description;  // one line, with the source
   Quantity quantity = Quantity::kRelativeLuminance;
   std::vector<Sample> samples;
+  std::vector<Scan> scans;  // indexed by Sample::scan; empty when nothing is known of them
 };
 
 // Angle between the view ray and the direction to the sun, radians.
