@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/arguments.h"
+#include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
 
 namespace skyfit::cli {
@@ -84,7 +85,8 @@ refs::Sampling parse_sampling(const std::string& text) {
 }
 
 bool is_shipped_reference(const std::string& name) {
-  return std::ranges::count(refs::shipped_references(), name, &refs::ReferenceEntry::name) > 0;
+  return refs::is_perez_name(name) ||
+         std::ranges::count(refs::shipped_references(), name, &refs::ReferenceEntry::name) > 0;
 }
 
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

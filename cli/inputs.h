@@ -37,6 +37,7 @@ std::vector<double> parse_sun_zeniths(const std::string& text);
 // "principal" or "tregenza"; throws UsageError.
 refs::Sampling parse_sampling(const std::string& text);
 
+// Analytic: read where the user says.
 bool is_shipped_reference(const std::string& name);
 
 // Threads to use when the user names no number: those of the machine.

@@ -12,6 +12,7 @@
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/references.h"
+#include "data_refs/truth.h"
 
 namespace skyfit::cli {
 namespace {
@@ -23,13 +24,18 @@ struct ReferencesOptions {
 
 void print_list(bool json) {
   auto list = nlohmann::json::array();
-  for (const refs::ReferenceEntry& entry : refs::shipped_references()) {
+  const auto add = [&](std::string_view name, std::string_view description) {
     if (json) {
-      list.push_back({{"name", entry.name}, {"description", entry.description}});
+      list.push_back({{"name", name}, {"description", description}});
     } else {
-      print(fmt::format("{:<26}{}\n", entry.name, entry.description));
+      print(fmt::format("{:<34}{}\n", name, description));
     }
-  }
+  };
+  for (const refs::ReferenceEntry& entry : refs::shipped_references())
+    add(entry.name, entry.description);
+  add("perez:EPSILON,DELTA",
+      "Perez, Seals & Michalsky 1993, all-weather sky: clearness, brightness");
+  for (const refs::TruthEntry& entry : refs::truth_references()) add(entry.name, entry.description);
   if (json) print(list.dump(2) + "\n");
 }
 

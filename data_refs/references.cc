@@ -88,8 +88,6 @@ std::vector<ReferenceEntry> shipped_references() {
   }
   entries.push_back({std::string(kTraditionalOvercast),
                      "CIE traditional overcast sky (Moon & Spencer 1942): (1 + 2 cos Z) / 3"});
-  for (const TruthEntry& truth : truth_references())
-    entries.push_back({std::string(truth.name), std::string(truth.description)});
   return entries;
 }
 
@@ -102,9 +100,11 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
     reference.description = "Perez, Seals & Michalsky 1993, all-weather sky";
     return reference;
   }
+  for (const TruthEntry& truth : truth_references()) {
+    if (truth.name == name) return truth_reference(name);
+  }
   for (const ReferenceEntry& entry : shipped_references()) {
     if (entry.name != name) continue;
-    if (name.starts_with("truth:")) return truth_reference(name);
     expect_suns(name, sun_zenith);
     Reference reference = analytic_reference(name, sun_zenith, sampling);
     reference.name = entry.name;

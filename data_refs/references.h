@@ -20,10 +20,11 @@ struct ReferenceEntry {
   std::string description;  // one line
 };
 
-// The shipped references: cie:1 .. cie:15, cie:traditional-overcast and those of data_refs/truth.h.
+// The analytic references with a name of their own: cie:1 .. cie:15 and cie:traditional-overcast.
 std::vector<ReferenceEntry> shipped_references();
 
-// `name` is a shipped reference, "perez:EPSILON,DELTA" (data_refs/perez_sky.h) or the path of a CSV
+// `name` is a shipped reference, "perez:EPSILON,DELTA"
+// (data_refs/perez_sky.h), one of truth_references() (data_refs/truth.h) or the path of a CSV
 // of samples (columns in data_refs/sample_csv.h). For analytic references the suns (zenith,
 // radians) and the sampling say where they are read; a CSV and a table of truth bring their own.
 // Throws std::invalid_argument / std::runtime_error with one line that names file, line, field,
