@@ -57,6 +57,9 @@ ImportOptions overlaid(const ImportOptions& first, const ImportOptions& second);
 // Throws std::invalid_argument `source:line: name = value: expected ...`.
 ImportOptions parse_sidecar(std::string_view json, std::string_view source);
 
+// Throws std::runtime_error when it cannot be read.
+ImportOptions load_sidecar(const std::filesystem::path& sidecar);
+
 // What `options` and the sidecar of `file`, if there is one, say. Throws std::runtime_error when a
 // sidecar that was named cannot be read.
 ImportOptions with_sidecar(const ImportOptions& options, const std::filesystem::path& file);
