@@ -60,6 +60,8 @@ std::vector<ImportOptionRow> make_table() {
              "Values from here on, in the unit of the file, are not used"),
       number("near_sun_deg", &Options::near_sun_deg, 0, 180, "0 to 180",
              "Samples closer to the sun are not used"),
+      number("band_nm", &Options::band_nm, 1, 100, "1 to 100",
+             "Width of the bands over which a folder of spectra is averaged, else 10"),
   };
 }
 
