@@ -56,12 +56,14 @@ std::vector<ImportOptionRow> make_table() {
            "Where the azimuths of the file start"),
       text("azimuth_turns", &Options::azimuth_turns, "clockwise or counter-clockwise",
            "Seen from above"),
+      text("patch_order", &Options::patch_order, "boustrophedon or rows",
+           "Of a scan of 145 patches: to and fro, or every row from azimuth zero on"),
       number("saturation", &Options::saturation, kSmallest, kInfinity, "a number > 0",
              "Values from here on, in the unit of the file, are not used"),
       number("near_sun_deg", &Options::near_sun_deg, 0, 180, "0 to 180",
              "Samples closer to the sun are not used"),
       number("band_nm", &Options::band_nm, 1, 100, "1 to 100",
-             "Width of the bands over which a folder of spectra is averaged, else 10"),
+             "Width of the bands over which a folder of spectra is averaged, else 5"),
   };
 }
 
@@ -73,6 +75,7 @@ bool is_accepted(const ImportOptionRow& row, const std::string& text) {
   if (row.name == "unit") return find_unit(text).has_value();
   if (row.name == "local_time") return instant(text, 0).has_value();
   if (row.name == "azimuth_zero") return text == "north" || text == "south";
+  if (row.name == "patch_order") return text == "boustrophedon" || text == "rows";
   return text == "clockwise" || text == "counter-clockwise";
 }
 

@@ -24,7 +24,7 @@ struct ExcludedSample {
 };
 
 struct ImportOptions {
-  std::optional<std::string> unit, local_time, azimuth_zero, azimuth_turns;
+  std::optional<std::string> unit, local_time, azimuth_zero, azimuth_turns, patch_order;
   std::optional<double> utc_offset_h, latitude_deg, longitude_deg, elevation_m;
   std::optional<double> sun_zenith_deg, sun_azimuth_deg;
   std::optional<double> saturation, near_sun_deg, band_nm;
