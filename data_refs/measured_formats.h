@@ -6,6 +6,7 @@
 //   sky scanner EKO       eko_csv.h
 //   145 luminances        patch_csv.h
 //   AERONET almucantar    aeronet_csv.h
+//   fisheye image         sky_image.h
 #pragma once
 
 #include <filesystem>
