@@ -89,7 +89,7 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
   };
   for (const refs::ImportOptionRow& row : refs::import_option_table()) {
     if (!row.on_command_line) continue;
-    add(import_option_name(row), arguments.facts[std::string(row.name)],
+    add(import_option_name(row), arguments.facts[row.name],
         fmt::format("{} ({})", row.meaning, row.expectation), row.number ? "NUMBER" : "TEXT");
   }
   add(kExcludeSample, arguments.exclude_samples, "Do not use the samples of these numbers", "LIST");
@@ -101,9 +101,8 @@ refs::ImportOptions parse_import_options(const ImportArguments& arguments) {
   for (const refs::ImportOptionRow& row : refs::import_option_table()) {
     const auto given = arguments.facts.find(row.name);
     if (given == arguments.facts.end() || !given->second) continue;
-    if (!refs::set_import_option(row, *given->second, options)) {
-      throw UsageError(import_option_name(row), *given->second,
-                       fmt::format("expected {}", row.expectation));
+    if (!row.set(*given->second, options)) {
+      throw UsageError(import_option_name(row), *given->second, "expected " + row.expectation);
     }
   }
   if (arguments.exclude_samples) {
