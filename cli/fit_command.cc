@@ -29,14 +29,15 @@ struct FitCommandOptions {
   std::string free, preset, site_pressure, out, exclude_sun = "3";
   std::vector<std::string> fix, prior;
   ImportArguments import;
-  int lobes = 2, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
+  int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads();
   bool no_priors = false, force = false, json = false;
 };
 
-fit::FitOptions fit_options(const FitCommandOptions& options, const CLI::App& command) {
+fit::FitOptions fit_options(const FitCommandOptions& options, const SkyModel& model,
+                            const CLI::App& command) {
   fit::FitOptions result;
-  result.lobes = options.lobes;
+  result.lobes = command.count("--lobes") > 0 ? options.lobes : model.lobes();
   result.starts = options.starts;
   result.max_iterations = options.max_iterations;
   result.exclude_sun = radians(parse_number("--exclude-sun-deg", options.exclude_sun));
@@ -80,12 +81,12 @@ void run_fit(const FitCommandOptions& options, const CLI::App& command) {
       options.out,
       {kPresetFile, kReportFile, kReportTextFile, kSamplesFile, kFigureFiles[0], kFigureFiles[1]},
       options.force);
-  const fit::FitOptions how = fit_options(options, command);
+  const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
+  const fit::FitOptions how = fit_options(options, *model, command);
   const refs::Reference reference =
       refs::load_reference(options.reference, parse_sun_zeniths(options.sun_zenith),
                            parse_sampling(options.sampling), parse_import_options(options.import));
   warn_of_unused_options(command, options.reference);
-  const auto model = make_sky_model(options.model, options.threads);
   const fit::FitResult result = fit_with_progress(reference, *model, how);
   out.publish([&](const std::filesystem::path& staging) {
     write_result(staging, reference, *model, how, result);
@@ -98,8 +99,8 @@ void run_fit(const FitCommandOptions& options, const CLI::App& command) {
 }
 
 void add_problem_options(CLI::App& command, FitCommandOptions& options) {
-  command.add_option("--lobes", options.lobes, "Lobes of the aerosol's phase function: 1 or 2")
-      ->capture_default_str();
+  command.add_option("--lobes", options.lobes, "Lobes of the aerosol's phase function: 1 or 2; by default 2, or the one that\n"
+                     "the model can tell");
   command.add_option("--starts", options.starts, "Starts of the phase parameters")
       ->capture_default_str();
   command.add_option("--max-iterations", options.max_iterations, "Iterations of one start")
