@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/arguments.h"
+#include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
 
 namespace skyfit::cli {
@@ -70,15 +71,16 @@ void add_sampling_options(CLI::App& command, std::string& sampling, std::string&
 }
 
 void warn_of_unused_options(const CLI::App& command, const std::string& reference) {
-  const bool is_shipped = is_shipped_reference(reference);
-  const std::string reason = is_shipped ? "is no measured sky" : "has its own directions";
+  const bool is_measured = !is_shipped_reference(reference) && !refs::is_perez_name(reference);
+  const bool is_analytic = !is_measured && !reference.starts_with("truth:");
   for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
     const bool is_import = option->get_group() == kImportGroup;
     const bool is_sampling =
         option->check_lname("sampling") || option->check_lname("sun-zenith-deg");
-    if (option->count() == 0 || !(is_shipped ? is_import : is_sampling)) continue;
+    if (!(is_import && !is_measured) && !(is_sampling && !is_analytic)) continue;
     fmt::print(stderr, "skyfit: warning: {} is not used: {} {}\n", option->get_name(), reference,
-               reason);
+               is_import ? "is no measured sky" : "has its own directions");
   }
 }
 

@@ -98,9 +98,9 @@ FitOutcome read_fit_outcome(const std::filesystem::path& directory) {
 
 Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,
                          const SkyModel& model) {
-  if (fits.empty() || fits.size() > kMaxCurves)
+  if (fits.empty() || fits.size() > kMapCurves)
     throw std::invalid_argument(
-        fmt::format("figure: {} fits: expected 1 to {}", fits.size(), kMaxCurves));
+        fmt::format("figure: {} fits: expected 1 to {}", fits.size(), kMapCurves));
   const FitRecord first = record_of(fits[0]);
   Comparison comparison;
   comparison.reference_label = "reference " + first.reference;
