@@ -3,6 +3,7 @@
 // sky in any format, as CSV that `fit` reads back.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -22,15 +23,17 @@ struct ReferencesOptions {
 };
 
 void print_list(bool json) {
-  auto list = nlohmann::json::array();
-  for (const refs::ReferenceEntry& entry : refs::shipped_references()) {
-    if (json) {
+  const std::vector<refs::ReferenceEntry> entries = refs::shipped_references();
+  if (json) {
+    auto list = nlohmann::json::array();
+    for (const refs::ReferenceEntry& entry : entries)
       list.push_back({{"name", entry.name}, {"description", entry.description}});
-    } else {
-      print(fmt::format("{:<26}{}\n", entry.name, entry.description));
-    }
+    return print(list.dump(2) + "\n");
   }
-  if (json) print(list.dump(2) + "\n");
+  std::size_t longest = 0;
+  for (const refs::ReferenceEntry& entry : entries) longest = std::max(longest, entry.name.size());
+  for (const refs::ReferenceEntry& entry : entries)
+    print(fmt::format("{:<{}}{}\n", entry.name, longest + 2, entry.description));
 }
 
 void run_references(const ReferencesOptions& options, const CLI::App& command) {

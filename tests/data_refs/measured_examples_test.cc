@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
+#include <ostream>
 #include <string>
 
 #include "data_refs/references.h"
@@ -20,6 +20,8 @@ struct Example {
   Quantity quantity;
   std::size_t samples, used, scans;
   double digits;  // to which the file holds its values, relative
+
+  friend void PrintTo(const Example& example, std::ostream* out) { *out << example.file; }
 };
 
 class MeasuredExamples : public testing::TestWithParam<Example> {};
