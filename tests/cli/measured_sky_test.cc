@@ -34,7 +34,7 @@ TEST_F(MeasuredSkyTest, CheckSaysWhatAScanHolds) {
       kExamples +
           "spectral_scan.csv: valid samples of spectral radiance: 225 (216 with weight; not "
           "used: 9 \"twice too bright, shutter left half open\") at 9 wavelengths from 400 to "
-          "720 nm in 25 directions and 1 scans, sun zenith 43.5108098 to 43.5108098 deg\n"
+          "720 nm in 25 directions and 1 scan, sun zenith 43.5108098 to 43.5108098 deg\n"
           "  spectral_scan.csv: 2024-05-15T08:30:00Z, sun zenith 43.511, azimuth 116.684 deg, "
           "1.01093 au, 225 samples\n");
   const json scan = summary(kExamples + "spectral_scan.csv");
