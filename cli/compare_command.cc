@@ -34,6 +34,7 @@ constexpr const char* kOurs = "model:reference";
 struct CompareOptions {
   std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out;
   std::string exclude_sun = "3";
+  ImportArguments import;
   int starts = 4, threads = default_threads();
   bool fitted = false, force = false, json = false;
 };
@@ -178,8 +179,9 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
       options.reference == kOurs
           ? solved_reference(options, preset)
           : refs::load_reference(options.reference, parse_sun_zeniths(options.sun_zenith),
-                                 parse_sampling(options.sampling));
-  if (options.reference != kOurs) warn_of_unused_sampling(command, options.reference);
+                                 parse_sampling(options.sampling),
+                                 parse_import_options(options.import));
+  if (options.reference != kOurs) warn_of_unused_options(command, options.reference);
   const auto rows = compare_all(options, names, reference, preset);
   const std::string text = fit::comparison_text(reference, rows);
   const nlohmann::json json = fit::comparison_json(reference, rows);
@@ -217,6 +219,7 @@ void add_compare_command(CLI::App& app) {
       ->required()
       ->type_name("NAME|FILE");
   add_sampling_options(*command, options->sampling, options->sun_zenith);
+  add_import_options(*command, options->import);
   command->add_option("--models", options->models, "The models; by default all")
       ->type_name("NAME,NAME");
   command

@@ -12,8 +12,8 @@
 
 #include "data_refs/cie_sky.h"
 #include "data_refs/embedded.h"
+#include "data_refs/measured_formats.h"
 #include "data_refs/perez_sky.h"
-#include "data_refs/sample_csv.h"
 #include "data_refs/sampling.h"
 #include "data_refs/truth.h"
 
@@ -92,7 +92,7 @@ std::vector<ReferenceEntry> shipped_references() {
 }
 
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
-                         Sampling sampling) {
+                         Sampling sampling, const ImportOptions& options) {
   if (is_perez_name(name)) {
     expect_suns(name, sun_zenith);
     Reference reference = analytic_reference(name, sun_zenith, sampling);
@@ -112,10 +112,10 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
     return reference;
   }
   const std::filesystem::path file(name);
-  if (std::filesystem::exists(file)) return load_sample_csv(file);
+  if (std::filesystem::exists(file)) return load_measured_sky(file, options);
   throw std::invalid_argument(
       fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {}, "
-                  "perez:EPSILON,DELTA, a truth: of `skyfit references` or a CSV of samples",
+                  "perez:EPSILON,DELTA, a truth: of `skyfit references` or a measured sky",
                   name, cie_skies().size(), kTraditionalOvercast));
 }
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/import_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "data_refs/csv.h"
+#include "model/preset_reader.h"
+
+namespace skyfit::refs {
+namespace {
+
+constexpr std::string_view kExclude = "exclude_samples", kNote = "note";
+
+void expect_samples(const ImportOptions& options) {
+  for (const ExcludedSample& excluded : options.exclude_samples) {
+    if (excluded.sample >= 0) continue;
+    throw std::invalid_argument(fmt::format("{} = {}: must be >= 0", kExclude, excluded.sample));
+  }
+}
+
+std::vector<ExcludedSample> exclusions(const PresetReader& reader) {
+  std::vector<ExcludedSample> result;
+  for (const auto& [name, ignored] : reader.value().items()) {
+    int sample = -1;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), sample);
+    const std::string reason = reader.text(name);
+    if (error != std::errc{} || end != name.data() + name.size() || sample < 0 || reason.empty())
+      reader.fail_value(name, "the number of a sample and the reason for leaving it out");
+    result.push_back({sample, reason});
+  }
+  return result;
+}
+
+}  // namespace
+
+void validate(const ImportOptions& options) {
+  for (const ImportOptionRow& row : import_option_table()) {
+    const auto fail = [&](std::string_view value) {
+      throw std::invalid_argument(
+          fmt::format("{} = {}: must be {}", row.name, value, row.expectation));
+    };
+    if (row.number != nullptr && options.*row.number && !row.accepts_number(*(options.*row.number)))
+      fail(fmt::format("{:.9g}", *(options.*row.number)));
+    if (row.text != nullptr && options.*row.text && !row.accepts_text(*(options.*row.text)))
+      fail(*(options.*row.text));
+  }
+  expect_samples(options);
+}
+
+ImportOptions overlaid(const ImportOptions& first, const ImportOptions& second) {
+  ImportOptions result = first;
+  for (const ImportOptionRow& row : import_option_table()) {
+    if (row.number != nullptr && !(result.*row.number)) result.*row.number = second.*row.number;
+    if (row.text != nullptr && !(result.*row.text)) result.*row.text = second.*row.text;
+  }
+  result.exclude_samples.insert(result.exclude_samples.end(), second.exclude_samples.begin(),
+                                second.exclude_samples.end());
+  return result;
+}
+
+ImportOptions parse_sidecar(std::string_view json, std::string_view source) {
+  const PresetDocument document(json, source);
+  const PresetReader root = document.root();
+  std::vector<std::string_view> names = {kExclude, kNote};
+  for (const ImportOptionRow& row : import_option_table()) names.push_back(row.name);
+  root.expect_only(names);
+  ImportOptions options;
+  for (const ImportOptionRow& row : import_option_table()) {
+    if (!root.has(row.name)) continue;
+    bool accepted = false;
+    if (row.number != nullptr) {
+      options.*row.number = root.number(row.name);
+      accepted = row.accepts_number(*(options.*row.number));
+    } else {
+      options.*row.text = root.text(row.name);
+      accepted = row.accepts_text(*(options.*row.text));
+    }
+    if (!accepted) root.fail_value(row.name, row.expectation);
+  }
+  if (root.has(kExclude)) options.exclude_samples = exclusions(root.object(kExclude));
+  return options;
+}
+
+ImportOptions load_sidecar(const std::filesystem::path& sidecar) {
+  ImportOptions options =
+      parse_sidecar(read_csv_file(sidecar, "a sidecar (JSON)"), sidecar.string());
+  if (options.mask) options.mask = (sidecar.parent_path() / *options.mask).string();
+  return options;
+}
+
+ImportOptions with_sidecar(const ImportOptions& options, const std::filesystem::path& file) {
+  std::filesystem::path beside = file;
+  if (beside.filename().empty()) beside = beside.parent_path();  // "folder/"
+  beside += ".sidecar.json";
+  if (options.sidecar) return overlaid(options, load_sidecar(*options.sidecar));
+  return std::filesystem::exists(beside) ? overlaid(options, load_sidecar(beside)) : options;
+}
+
+}  // namespace skyfit::refs
