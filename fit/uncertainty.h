@@ -19,12 +19,14 @@ struct Uncertainty {
   double condition_number = 0;  // of the normal matrix with unit diagonal; infinite when singular
 };
 
-// The inverse of J^T J + diag(1 / prior sigma^2) over the parameters that are not at a bound.
-// `jacobian`: whitened residuals per unit of the free parameters.
+// The inverse of J^T J + diag(1 / prior sigma^2) over the variables that are not at a bound.
+// `jacobian`: whitened residuals per unit of the variables.
 //
-// A parameter is not identifiable when its sigma exceeds 0.7 of its prior's (the data then say less
+// A variable is not identifiable when its sigma exceeds 0.7 of its prior's (the data then say less
 // than the prior); without a prior, 0.7 of the standard deviation of a uniform distribution over
 // its bounds; or when it takes part in a direction that neither data nor priors hold.
+Uncertainty uncertainty(const std::vector<Variable>& variables, const Eigen::VectorXd& scaled,
+                        const Eigen::MatrixXd& jacobian);
 Uncertainty uncertainty(const std::vector<FreeParameter>& parameters,
                         const Atmosphere<double>& atmosphere, const Eigen::MatrixXd& jacobian);
 
