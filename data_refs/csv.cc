@@ -25,19 +25,13 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-[[noreturn]] void fail(std::string_view source, int line, std::string_view message) {
-  std::string printable(message);
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
-  std::replace_if(printable.begin(), printable.end(), is_control, '?');
-  throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, printable));
-}
-
 // Reads the quoted field at the front of `rest` and removes it, up to the comma or the end.
 std::string take_quoted(std::string_view& rest, std::string_view source, int line) {
   std::string field;
   std::size_t i = 1;
   for (;; ++i) {
-    if (i == rest.size()) fail(source, line, "expected a closing quote before the end of the line");
+    if (i == rest.size())
+      fail_at(source, line, "expected a closing quote before the end of the line");
     if (rest[i] == '"') {
       if (i + 1 == rest.size() || rest[i + 1] != '"') break;
       ++i;
@@ -46,11 +40,20 @@ std::string take_quoted(std::string_view& rest, std::string_view source, int lin
   }
   rest = trimmed(rest.substr(i + 1));
   if (!rest.empty() && rest.front() != ',')
-    fail(source, line, "expected a comma after a closing quote");
+    fail_at(source, line, "expected a comma after a closing quote");
   return field;
 }
 
-std::vector<std::string> split_record(std::string_view rest, std::string_view source, int line) {
+}  // namespace
+
+void fail_at(std::string_view source, int line, std::string_view message) {
+  std::string printable(message);
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  std::replace_if(printable.begin(), printable.end(), is_control, '?');
+  throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, printable));
+}
+
+std::vector<std::string> csv_fields(std::string_view rest, std::string_view source, int line) {
   std::vector<std::string> fields;
   for (;;) {
     rest = trimmed(rest);
@@ -66,7 +69,13 @@ std::vector<std::string> split_record(std::string_view rest, std::string_view so
   }
 }
 
-}  // namespace
+std::optional<double> csv_number(std::string_view field) {
+  if (field.starts_with('+') && !field.starts_with("+-")) field.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc{} || end != field.data() + field.size()) return {};
+  return value;
+}
 
 CsvTable::CsvTable(std::string_view text, std::string_view source) : source_(source) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
@@ -75,14 +84,15 @@ CsvTable::CsvTable(std::string_view text, std::string_view source) : source_(sou
     const std::string_view content = trimmed(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
     if (content.empty() || content.front() == '#') continue;
-    CsvRecord record{line, split_record(content, source_, line)};
+    CsvRecord record{line, csv_fields(content, source_, line)};
     if (header_.line == 0) {
       header_ = std::move(record);
       continue;
     }
     if (record.fields.size() != header_.fields.size()) {
-      fail(source_, line,
-           fmt::format("expected {} fields, got {}", header_.fields.size(), record.fields.size()));
+      fail_at(
+          source_, line,
+          fmt::format("expected {} fields, got {}", header_.fields.size(), record.fields.size()));
     }
     records_.push_back(std::move(record));
   }
@@ -101,24 +111,28 @@ const std::string& CsvTable::text(const CsvRecord& record, std::string_view colu
 }
 
 double CsvTable::number(const CsvRecord& record, std::string_view column) const {
-  std::string_view field = text(record, column);
-  if (field.starts_with('+') && !field.starts_with("+-")) field.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) {
-    fail_value(record, column, "a finite number");
-  }
-  return value;
+  const std::optional<double> value = csv_number(text(record, column));
+  if (!value || !std::isfinite(*value)) fail_value(record, column, "a finite number");
+  return *value;
 }
 
-void CsvTable::fail_header(std::string_view message) const { fail(source_, header_.line, message); }
+double CsvTable::any_number(const CsvRecord& record, std::string_view column) const {
+  const std::optional<double> value = csv_number(text(record, column));
+  if (!value) fail_value(record, column, "a number, or nan where there is none");
+  return *value;
+}
+
+void CsvTable::fail_header(std::string_view message) const {
+  fail_at(source_, header_.line, message);
+}
 
 void CsvTable::fail_value(const CsvRecord& record, std::string_view column,
                           std::string_view expectation) const {
   constexpr std::size_t kLongest = 60;
   std::string value = text(record, column);
   if (value.size() > kLongest) value = value.substr(0, kLongest) + "...";
-  fail(source_, record.line, fmt::format("{} = \"{}\": expected {}", column, value, expectation));
+  fail_at(source_, record.line,
+          fmt::format("{} = \"{}\": expected {}", column, value, expectation));
 }
 
 std::string read_csv_file(const std::filesystem::path& file, std::string_view expectation) {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,8 @@ class CsvTable {
   const std::string& text(const CsvRecord& record, std::string_view column) const;
   // Throws unless the whole field is a finite number.
   double number(const CsvRecord& record, std::string_view column) const;
+  // Throws unless the whole field is a number; nan and inf are.
+  double any_number(const CsvRecord& record, std::string_view column) const;
 
   [[noreturn]] void fail_header(std::string_view message) const;
   [[noreturn]] void fail_value(const CsvRecord& record, std::string_view column,
@@ -45,6 +48,15 @@ class CsvTable {
   std::vector<CsvRecord> records_;
   std::map<std::string, std::size_t, std::less<>> index_;
 };
+
+// The fields of one line, for files that are no table. Throws as CsvTable does.
+std::vector<std::string> csv_fields(std::string_view content, std::string_view source, int line);
+
+// The number that is the whole of a field, nan and inf included; nothing when it is none.
+std::optional<double> csv_number(std::string_view field);
+
+// Throws std::invalid_argument `source:line: message`, on one line and without control characters.
+[[noreturn]] void fail_at(std::string_view source, int line, std::string_view message);
 
 // The text of a file. Throws std::runtime_error, which names what was expected, when it cannot be
 // read.

@@ -12,7 +12,7 @@
 
 #include "data_refs/cie_sky.h"
 #include "data_refs/embedded.h"
-#include "data_refs/sample_csv.h"
+#include "data_refs/measured_formats.h"
 #include "data_refs/sampling.h"
 
 namespace skyfit::refs {
@@ -84,7 +84,7 @@ std::vector<ReferenceEntry> shipped_references() {
 }
 
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
-                         Sampling sampling) {
+                         Sampling sampling, const ImportOptions& options) {
   for (const ReferenceEntry& entry : shipped_references()) {
     if (entry.name != name) continue;
     expect_suns(name, sun_zenith);
@@ -94,9 +94,9 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
     return reference;
   }
   const std::filesystem::path file(name);
-  if (std::filesystem::exists(file)) return load_sample_csv(file);
+  if (std::filesystem::exists(file)) return load_measured_sky(file, options);
   throw std::invalid_argument(
-      fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {} or a CSV of samples",
+      fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {} or a measured sky",
                   name, cie_skies().size(), kTraditionalOvercast));
 }
 

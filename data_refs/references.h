@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data_refs/import_options.h"
 #include "data_refs/samples.h"
 
 namespace skyfit::refs {
@@ -23,12 +24,13 @@ struct ReferenceEntry {
 // The shipped references: cie:1 .. cie:15 and cie:traditional-overcast.
 std::vector<ReferenceEntry> shipped_references();
 
-// `name` is a shipped reference or the path of a CSV of samples (columns in
-// data_refs/sample_csv.h). For analytic references the suns (zenith, radians) and the sampling say
-// where they are read; a CSV brings its own. Throws std::invalid_argument / std::runtime_error with
-// one line that names file, line, field, value, expectation.
+// `name` is a shipped reference or the path of a measured sky (data_refs/measured_formats.h). For
+// analytic references the suns (zenith, radians) and the sampling say where they are read; a
+// measured sky brings its own, and `options` say what its file leaves open. Throws
+// std::invalid_argument / std::runtime_error with one line that names file, line, field, value,
+// expectation.
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
-                         Sampling sampling);
+                         Sampling sampling, const ImportOptions& options = {});
 
 // Shipped presets: "bodare-2014", "bruneton-2008", "earth-clear", "mars"; JSON text.
 std::vector<std::string> shipped_preset_names();

@@ -21,11 +21,12 @@ struct Sample {
   double view_zenith = 0;
   double relative_azimuth = 0;
   double wavelength_nm = 0;        // > 0 for a spectral radiance, 0 for the others
-  double value = 0;                // > 0, in the unit of the reference's quantity
+  double value = 0;                // in the unit of the reference's quantity; > 0 where it weighs
   std::optional<double> sigma;     // one standard deviation, same unit as value
   double weight = 1;               // >= 0
   std::string zero_weight_reason;  // why weight == 0; empty otherwise
   int scan = 0;                    // samples of one scan share one sun position's luminance scale
+  int direction = 0;               // its number in a measured scan; many wavelengths share one
 };
 
 // What is known of one scan beside its samples. Instants in UTC.
@@ -34,6 +35,7 @@ struct Scan {
   std::string time_utc;               // "2013-05-27T13:30:00Z"; empty: not known
   std::optional<double> sun_azimuth;  // radians clockwise from north
   double sun_distance_au = 1;         // of the time; 1 where the time is not known
+  std::optional<double> elevation_m;  // of the site above the sea
 };
 
 struct Reference {

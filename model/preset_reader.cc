@@ -164,7 +164,7 @@ std::string PresetDocument::place(std::string_view path) const {
 PresetReader::PresetReader(const PresetDocument& document, const json& value, std::string path)
     : document_(document), value_(value), path_(std::move(path)) {}
 
-void PresetReader::expect_only(std::initializer_list<std::string_view> fields) const {
+void PresetReader::expect_only(std::span<const std::string_view> fields) const {
   for (const auto& [name, ignored] : value_.items()) {
     if (std::find(fields.begin(), fields.end(), name) != fields.end()) continue;
     const std::string path = path_of(name);

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -41,7 +42,10 @@ class PresetReader {
   bool has(std::string_view field) const { return value_.contains(field); }
 
   // Refuses fields that are not in the list.
-  void expect_only(std::initializer_list<std::string_view> fields) const;
+  void expect_only(std::span<const std::string_view> fields) const;
+  void expect_only(std::initializer_list<std::string_view> fields) const {
+    expect_only(std::span(fields.begin(), fields.size()));
+  }
 
   PresetReader object(std::string_view field) const;
   bool has_object(std::string_view field) const {

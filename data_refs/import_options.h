@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a file of a measured sky may leave open: where and when it was measured, in which unit, how
+// its azimuths run, which samples are not to be used. One table names every such fact; it is read
+// from the head of the file (`# name=value name=value`), from a sidecar file and from the command
+// line, and each overrules the ones before it.
+//
+// The sidecar of sky.csv is sky.csv.sidecar.json (of a folder: folder.sidecar.json): a JSON object
+// with the names of the table, "exclude_samples": {"0": "why sample 0 is not used"}, and "note" for
+// the reader.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace skyfit::refs {
+
+struct ExcludedSample {
+  int sample;  // its number in the file, or from 0 in the order of the file
+  std::string reason;
+};
+
+struct ImportOptions {
+  std::optional<std::string> unit, local_time, azimuth_zero, azimuth_turns;
+  std::optional<double> utc_offset_h, latitude_deg, longitude_deg, elevation_m;
+  std::optional<double> sun_zenith_deg, sun_azimuth_deg;
+  std::optional<double> saturation, near_sun_deg;
+  std::vector<ExcludedSample> exclude_samples;
+  std::optional<std::filesystem::path> sidecar;  // in the place of the one beside the file
+};
+
+// A row holds either a number or a text.
+struct ImportOptionRow {
+  std::string_view name;         // "latitude_deg"; --latitude-deg on the command line
+  std::string_view expectation;  // "-90 to 90"
+  std::string_view meaning;
+  std::optional<double> ImportOptions::*number = nullptr;
+  double lower = 0, upper = 0;  // of the number
+  std::optional<std::string> ImportOptions::*text = nullptr;
+  bool on_command_line = true;
+};
+
+std::span<const ImportOptionRow> import_option_table();
+
+// Sets what the text says; false when it is not what the row expects.
+bool set_import_option(const ImportOptionRow& row, std::string_view text, ImportOptions& options);
+
+// Throws std::invalid_argument `latitude_deg = 95: must be -90 to 90`.
+void validate(const ImportOptions& options);
+
+// `first` where it says something, `second` elsewhere. Exclusions are joined.
+ImportOptions overlaid(const ImportOptions& first, const ImportOptions& second);
+
+// Throws std::invalid_argument `source:line: name = value: expected ...`.
+ImportOptions parse_sidecar(std::string_view json, std::string_view source);
+
+// What `options` and the sidecar of `file`, if there is one, say. Throws std::runtime_error when a
+// sidecar that was named cannot be read.
+ImportOptions with_sidecar(const ImportOptions& options, const std::filesystem::path& file);
+
+}  // namespace skyfit::refs

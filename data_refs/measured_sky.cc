@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/measured_sky.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "data_refs/solar_position.h"
+#include "data_refs/spectra.h"
+
+namespace skyfit::refs {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+[[noreturn]] void fail(std::string_view place, const std::string& message) {
+  throw std::invalid_argument(fmt::format("{}: {}", place, message));
+}
+
+std::optional<Instant> time_of(const ImportOptions& facts, std::string_view place) {
+  if (!facts.local_time) return {};
+  if (!facts.utc_offset_h)
+    fail(place, "utc_offset_h: not stated, expected the hours that local_time is ahead of UTC");
+  const std::optional<Instant> time = instant(*facts.local_time, *facts.utc_offset_h);
+  if (!time)
+    fail(place, fmt::format("local_time = {}: expected YYYY-MM-DDTHH:MM:SS", *facts.local_time));
+  return time;
+}
+
+// Throws when the stated sun is another one.
+void expect_agreement(const ImportOptions& facts, const SolarPosition& sun, Instant time,
+                      std::string_view place) {
+  if (!facts.sun_zenith_deg) return;
+  Sample between;  // the angle between two suns, as that between sun and view
+  between.sun_zenith = sun.zenith;
+  between.view_zenith = *facts.sun_zenith_deg * kDegree;
+  if (facts.sun_azimuth_deg)
+    between.relative_azimuth = *facts.sun_azimuth_deg * kDegree - sun.azimuth;
+  const double apart_deg = scattering_angle(between) / kDegree;
+  if (apart_deg <= kSunAgreement_deg) return;
+  fail(place,
+       fmt::format("sun_zenith_deg = {:.9g}: expected the sun of {} at this site, zenith {:.3f} "
+                   "and azimuth {:.3f} deg, within {} deg; it is {:.2f} deg away",
+                   *facts.sun_zenith_deg, iso_text(time), sun.zenith / kDegree,
+                   sun.azimuth / kDegree, kSunAgreement_deg, apart_deg));
+}
+
+[[noreturn]] void fail_without_sun(const ImportOptions& facts, std::string_view place) {
+  std::vector<std::string_view> missing;
+  if (!facts.local_time) missing.push_back("local_time");
+  if (!facts.latitude_deg) missing.push_back("latitude_deg");
+  if (!facts.longitude_deg) missing.push_back("longitude_deg");
+  fail(place,
+       fmt::format("the sun is not known: expected {}, or sun_zenith_deg and sun_azimuth_deg",
+                   fmt::join(missing, ", ")));
+}
+
+// E.g. "1 scan", "2 scans"
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place) {
+  ScanSun result;
+  result.time = time_of(facts, place);
+  if (result.time) result.distance_au = sun_distance_au(*result.time);
+  if (result.time && facts.latitude_deg && facts.longitude_deg) {
+    const SolarPosition sun =
+        solar_position(*result.time, {*facts.latitude_deg * kDegree, *facts.longitude_deg * kDegree,
+                                      facts.elevation_m.value_or(0)});
+    expect_agreement(facts, sun, *result.time, place);
+    result.zenith = sun.zenith;
+    result.azimuth = sun.azimuth;
+  } else if (facts.sun_zenith_deg && facts.sun_azimuth_deg) {
+    result.zenith = *facts.sun_zenith_deg * kDegree;
+    result.azimuth = *facts.sun_azimuth_deg * kDegree;
+  } else {
+    fail_without_sun(facts, place);
+  }
+  if (!(result.zenith < 90 * kDegree)) {
+    fail(place,
+         fmt::format("sun_zenith_deg = {:.6g}{}: expected a sun above the horizon",
+                     result.zenith / kDegree, result.time ? " at " + iso_text(*result.time) : ""));
+  }
+  return result;
+}
+
+Unit stated_unit(const ScanHeader& header, const ImportOptions& options, std::string_view source,
+                 std::initializer_list<Quantity> quantities) {
+  const auto unit_from = [&](const std::string& text, std::string_view place) {
+    const std::optional<Unit> unit = find_unit(text);
+    if (!unit || std::ranges::count(quantities, unit->quantity) == 0)
+      fail(place, fmt::format("unit = \"{}\": expected one of {}", text, unit_names(quantities)));
+    return *unit;
+  };
+  const std::optional<std::string>& in_file = header.facts.unit;
+  if (!in_file && !options.unit)
+    fail(source, fmt::format("unit: not stated, expected one of {}", unit_names(quantities)));
+  const std::string place = header.place(source, "unit");
+  const Unit unit = in_file ? unit_from(*in_file, place) : unit_from(*options.unit, source);
+  if (options.unit && unit_from(*options.unit, source).name != unit.name) {
+    fail(place, fmt::format("unit = \"{}\": expected \"{}\", as options or sidecar state", *in_file,
+                            *options.unit));
+  }
+  return unit;
+}
+
+MeasuredSky::MeasuredSky(std::string source, const Unit& unit, const ImportOptions& facts,
+                         AzimuthSense sense)
+    : unit_(unit), facts_(facts), sense_(sense) {
+  if (facts.azimuth_zero) sense_.from_south = *facts.azimuth_zero == "south";
+  if (facts.azimuth_turns) sense_.counter_clockwise = *facts.azimuth_turns == "counter-clockwise";
+  reference_.name = std::move(source);
+  reference_.quantity = unit.quantity;
+}
+
+void MeasuredSky::begin_scan(std::string name, const ScanSun& sun) {
+  Scan scan;
+  scan.name = std::move(name);
+  if (sun.time) scan.time_utc = iso_text(*sun.time);
+  scan.sun_azimuth = sun.azimuth;
+  scan.sun_distance_au = sun.distance_au;
+  scan.elevation_m = facts_.elevation_m;
+  reference_.scans.push_back(std::move(scan));
+  sun_ = sun;
+}
+
+void MeasuredSky::add(const Reading& reading) {
+  const double from_north_deg = (sense_.counter_clockwise ? -1 : 1) * reading.view_azimuth_deg +
+                                (sense_.from_south ? 180 : 0);
+  Sample sample;
+  sample.scan = static_cast<int>(reference_.scans.size()) - 1;
+  sample.direction = reading.number;
+  sample.sun_zenith = sun_.zenith;
+  sample.view_zenith = reading.view_zenith_deg * kDegree;
+  sample.relative_azimuth =
+      std::remainder(from_north_deg * kDegree - sun_.azimuth, 2 * std::numbers::pi);
+  sample.wavelength_nm = reading.wavelength_nm;
+  sample.value = reading.value * unit_.factor;
+  sample.zero_weight_reason = flaw_of(reading, sample);
+  if (!sample.zero_weight_reason.empty()) sample.weight = 0;
+  numbers_.insert(reading.number);
+  reference_.samples.push_back(std::move(sample));
+}
+
+std::string MeasuredSky::flaw_of(const Reading& reading, const Sample& sample) const {
+  static const Spectrum& known = standard_spectral_data().solar_irradiance;
+  for (const ExcludedSample& excluded : facts_.exclude_samples) {
+    if (excluded.sample == reading.number) return excluded.reason;
+  }
+  if (!reading.flaw.empty()) return reading.flaw;
+  if (!(reading.view_zenith_deg < 90)) return "outside the sky";
+  if (reading.wavelength_nm > 0 && (reading.wavelength_nm < known.wavelength_nm.front() ||
+                                    reading.wavelength_nm > known.wavelength_nm.back()))
+    return "wavelength outside the model's spectra";
+  if (!std::isfinite(reading.value)) return "not finite";
+  if (!(reading.value > 0)) return "not positive";
+  if (facts_.saturation && reading.value >= *facts_.saturation) return "saturated";
+  if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kDegree)
+    return "near the sun";
+  return {};
+}
+
+Reference MeasuredSky::finish() {
+  for (const ExcludedSample& excluded : facts_.exclude_samples) {
+    if (numbers_.contains(excluded.sample)) continue;
+    fail(reference_.name,
+         fmt::format("exclude_samples = {}: expected the number of a sample", excluded.sample));
+  }
+  const auto used =
+      std::ranges::count_if(reference_.samples, [](const Sample& s) { return s.weight > 0; });
+  if (used == 0) {
+    fail(reference_.name,
+         fmt::format("none of {} can be used, expected at least 1: {}",
+                     counted(reference_.samples.size(), "sample"),
+                     reference_.samples.empty() ? "there is none"
+                                                : reference_.samples.front().zero_weight_reason));
+  }
+  reference_.description =
+      fmt::format("{} of {} in {} directions and {} from {}",
+                  counted(reference_.samples.size(), "sample"), quantity_name(unit_.quantity),
+                  numbers_.size(), counted(reference_.scans.size(), "scan"), reference_.name);
+  return std::move(reference_);
+}
+
+}  // namespace skyfit::refs

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every reader of a measured sky shares: the sun of a scan, and how readings become the
+// samples of a Reference. A reading that cannot be used stays, with weight 0 and a reason.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "data_refs/civil_time.h"
+#include "data_refs/import_options.h"
+#include "data_refs/samples.h"
+#include "data_refs/scan_header.h"
+#include "data_refs/units.h"
+
+namespace skyfit::refs {
+
+// Of one scan. Radians, azimuth clockwise from north.
+struct ScanSun {
+  double zenith = 0, azimuth = 0;
+  double distance_au = 1;
+  std::optional<Instant> time;
+};
+
+// From time and place; a sun that is stated beside them must agree within kSunAgreement_deg. Where
+// time or place is missing, the stated one. Throws std::invalid_argument that begins with `place`
+// when neither is known, they disagree or the sun is below the horizon.
+inline constexpr double kSunAgreement_deg = 0.25;  // one minute of time; the sun's radius
+ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place);
+
+// The unit of the values, from the file or from the options, which may not contradict each other;
+// it must be of one of the quantities. Throws std::invalid_argument that lists the accepted units.
+Unit stated_unit(const ScanHeader& header, const ImportOptions& options, std::string_view source,
+                 std::initializer_list<Quantity> quantities);
+
+struct Reading {
+  int number = 0;                                    // of the direction in the file
+  double view_zenith_deg = 0, view_azimuth_deg = 0;  // azimuth as the file counts it
+  double wavelength_nm = 0;
+  double value = 0;  // in the unit of the file
+  std::string flaw;  // what the reader knows against it
+};
+
+// How a format counts azimuths when the facts do not say.
+struct AzimuthSense {
+  bool from_south = false, counter_clockwise = false;
+};
+
+class MeasuredSky {
+ public:
+  MeasuredSky(std::string source, const Unit& unit, const ImportOptions& facts,
+              AzimuthSense sense = {});
+
+  // The readings that follow are of this scan.
+  void begin_scan(std::string name, const ScanSun& sun);
+  void add(const Reading& reading);
+
+  // Throws std::invalid_argument when no sample has a weight or an excluded one does not exist.
+  Reference finish();
+
+ private:
+  std::string flaw_of(const Reading& reading, const Sample& sample) const;
+
+  Unit unit_;
+  ImportOptions facts_;
+  AzimuthSense sense_;
+  Reference reference_;
+  ScanSun sun_;            // of the last scan
+  std::set<int> numbers_;  // of all directions that were read
+};
+
+}  // namespace skyfit::refs

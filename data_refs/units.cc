@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/units.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <regex>
+#include <vector>
+
+namespace skyfit::refs {
+namespace {
+
+constexpr auto kSpectral = Quantity::kSpectralRadiance;
+constexpr std::array kUnits = {Unit{"W m-2 sr-1 nm-1", kSpectral, 1},
+                               Unit{"mW m-2 sr-1 nm-1", kSpectral, 1e-3},
+                               Unit{"W m-2 sr-1 um-1", kSpectral, 1e-3},
+                               Unit{"uW cm-2 sr-1 nm-1", kSpectral, 1e-2},
+                               Unit{"cd m-2", Quantity::kLuminance, 1},
+                               Unit{"kcd m-2", Quantity::kLuminance, 1e3},
+                               Unit{"relative", Quantity::kRelativeLuminance, 1}};
+
+using Exponents = std::map<std::string, int>;
+
+// "W/(m^2 sr)" is W: 1, m: -2, sr: -1; nothing when the text is no product of powers.
+std::optional<Exponents> exponents(std::string_view text) {
+  static const std::regex factor(R"(([A-Za-z]+)(?:\^?(-?\d))?)");
+  Exponents result;
+  int sign = 1;
+  bool in_parentheses = false;
+  while (!text.empty()) {
+    std::cmatch match;
+    if (std::regex_search(text.begin(), text.end(), match, factor,
+                          std::regex_constants::match_continuous)) {
+      result[match[1]] += sign * (match[2].matched ? std::stoi(match[2]) : 1);
+      text.remove_prefix(static_cast<std::size_t>(match.length()));
+      if (!in_parentheses) sign = 1;
+      continue;
+    }
+    switch (text.front()) {
+      case ' ':
+      case '*':
+        break;
+      case '/':
+        sign = -1;
+        break;
+      case '(':
+        in_parentheses = true;
+        break;
+      case ')':
+        in_parentheses = false;
+        sign = 1;
+        break;
+      default:
+        return {};
+    }
+    text.remove_prefix(1);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::span<const Unit> units() { return kUnits; }
+
+std::string unit_names(std::initializer_list<Quantity> quantities) {
+  std::vector<std::string_view> names;
+  for (const Unit& unit : kUnits) {
+    if (quantities.size() == 0 || std::ranges::count(quantities, unit.quantity) > 0)
+      names.push_back(unit.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::optional<Unit> find_unit(std::string_view text) {
+  const std::optional<Exponents> wanted = exponents(text);
+  if (!wanted) return {};
+  const auto unit = std::ranges::find_if(
+      kUnits, [&](const Unit& candidate) { return exponents(candidate.name) == wanted; });
+  return unit == kUnits.end() ? std::nullopt : std::optional<Unit>(*unit);
+}
+
+std::string_view quantity_name(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kLuminance:
+      return "luminance";
+    case Quantity::kRelativeLuminance:
+      return "relative luminance";
+    case Quantity::kSpectralRadiance:
+      return "spectral radiance";
+  }
+  return {};
+}
+
+}  // namespace skyfit::refs
