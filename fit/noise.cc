@@ -78,14 +78,18 @@ double effective_count(const std::vector<Scan>& scans, double length) {
 
 }  // namespace
 
+double independent_samples(const Observations& observations, const Eigen::VectorXd& residual) {
+  const std::vector<Scan> scans = split(observations, residual);
+  return effective_count(scans, correlation_length(scans));
+}
+
 Noise estimate_noise(const Observations& observations, const Eigen::VectorXd& residual,
                      int free_parameters) {
   const double count = observations.count();
   const double variance = observations.weight.dot(residual.cwiseAbs2()) / observations.weight.sum();
   const double freedom = std::max(1.0, count - observations.scans - free_parameters);
-  const std::vector<Scan> scans = split(observations, residual);
   Noise noise;
-  noise.effective_samples = effective_count(scans, correlation_length(scans));
+  noise.effective_samples = independent_samples(observations, residual);
   noise.sigma_log = std::max(
       kSmallestSigmaLog, std::sqrt(variance * count / freedom * count / noise.effective_samples));
   return noise;

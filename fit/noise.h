@@ -28,4 +28,7 @@ struct Noise {
 Noise estimate_noise(const Observations& observations, const Eigen::VectorXd& residual,
                      int free_parameters);
 
+// N_eff of the residuals alone.
+double independent_samples(const Observations& observations, const Eigen::VectorXd& residual);
+
 }  // namespace skyfit::fit
