@@ -155,6 +155,7 @@ void add_blocks(const LeastSquares& problem, Prepared& prepared, ceres::Problem&
   double* const scaled = prepared.scaled().data();
   int first = 0;
   for (const int count : problem.blocks) {
+    if (count == 0) continue;
     ceres_problem.AddResidualBlock(BlockCost::Create(&prepared, first, count, variables),
                                    block_loss(problem, count).release(), scaled);
     first += count;

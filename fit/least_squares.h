@@ -32,7 +32,8 @@ enum class Loss { kNone, kHuber, kCauchy };
 
 struct LeastSquares {
   ResidualFunction* function;
-  std::vector<int> blocks;  // sizes of consecutive blocks of residuals, their sum is all of them
+  std::vector<int>
+      blocks;  // sizes of consecutive blocks of residuals, their sum is all of them; may be 0
   std::vector<Variable> variables;
   Loss loss = Loss::kNone;
   double loss_width = 3;  // in sigmas

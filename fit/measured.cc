@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "fit/measured_problem.h"
 #include "fit/preset_record.h"
@@ -70,38 +71,47 @@ Eigen::VectorXd search(const MeasuredProblem& problem, const MeasuredOptions& op
   return best;
 }
 
-// Repeats the fit with the factor on sigma that the residuals show until the two agree.
+ScanNoise noise_at(const MeasuredProblem& problem, const ScanData& data,
+                   const Eigen::VectorXd& scaled, MeasuredResult& result) {
+  ++result.model_evaluations;
+  return scan_noise(data, problem.residuals(data, scaled, 1),
+                    static_cast<int>(problem.unknowns.size()));
+}
+
+// Some wavelengths, repeated with the factor on sigma that the residuals show until the two agree;
+// then all of them.
 Eigen::VectorXd refine(const MeasuredProblem& problem, const MeasuredOptions& options,
                        Eigen::VectorXd scaled, MeasuredResult& result) {
-  const int unknowns = static_cast<int>(problem.unknowns.size());
-  for (int round = 0; round < kFactorRounds; ++round) {
-    report(options, 0.6 + 0.08 * round, "refining the best start");
-    if (!options.noise_is_stated) {
-      const ScanNoise noise =
-          scan_noise(problem.fitted, problem.residuals(problem.fitted, scaled, 1), unknowns);
-      ++result.model_evaluations;
-      const double before = result.sigma_factor;
-      result.sigma_factor = noise.factor;
-      result.effective_samples = noise.effective_samples;
-      if (round > 0 && std::abs(noise.factor / before - 1) < kFactorAgrees) break;
-    }
-    const Minimum minimum = problem.solve(problem.fitted, scaled, result.sigma_factor,
-                                          {options.common.max_iterations, kTolerance});
+  const auto solve = [&](const ScanData& data, double factor) {
+    const Minimum minimum =
+        problem.solve(data, scaled, factor, {options.common.max_iterations, kTolerance});
     count_work(result, minimum);
     scaled = minimum.scaled;
     result.converged = minimum.converged;
     result.termination = minimum.termination;
-    if (options.noise_is_stated) {
-      result.effective_samples = static_cast<double>(problem.fitted.rows.size());
-      break;
-    }
+  };
+  double factor = 1;
+  for (int round = 0; round < kFactorRounds && !options.noise_is_stated; ++round) {
+    report(options, 0.6 + 0.05 * round, "refining the best start");
+    const double before =
+        std::exchange(factor, noise_at(problem, problem.medium, scaled, result).factor);
+    if (round > 0 && std::abs(factor / before - 1) < kFactorAgrees) break;
+    solve(problem.medium, factor);
   }
+  report(options, 0.8, "refining with all wavelengths");
+  result.effective_samples = static_cast<double>(problem.fitted.rows.size());
+  if (!options.noise_is_stated) {
+    const ScanNoise noise = noise_at(problem, problem.fitted, scaled, result);
+    result.sigma_factor = noise.factor;
+    result.effective_samples = noise.effective_samples;
+  }
+  solve(problem.fitted, result.sigma_factor);
   return scaled;
 }
 
 void describe_uncertainty(const MeasuredProblem& problem, const Eigen::VectorXd& scaled,
                           MeasuredResult& result) {
-  const SkyState start = start_state(problem.start, problem.scans());
+  const SkyState& start = problem.start;
   const SkyState fitted = with_unknowns(start, problem.unknowns, scaled);
   const RowValues values = row_values(*problem.model, problem.fitted, fitted, problem.unknowns);
   ++result.derivative_evaluations;
@@ -148,7 +158,7 @@ std::vector<double> per_sample(const MeasuredProblem& problem, const SkyState& s
 void describe_values(const MeasuredProblem& problem, const refs::Reference& reference,
                      const SpectralData& spectra, const Eigen::VectorXd& scaled,
                      const MeasuredOptions& options, MeasuredResult& result) {
-  const SkyState start = start_state(problem.start, problem.scans());
+  const SkyState& start = problem.start;
   const SkyState fitted = with_unknowns(start, problem.unknowns, scaled);
   result.start_model = per_sample(problem, start, reference.samples.size());
   result.model = per_sample(problem, fitted, reference.samples.size());

@@ -11,7 +11,7 @@
 namespace skyfit::fit {
 namespace {
 
-constexpr int kSearchChannels = 5;
+constexpr int kSearchChannels = 5, kMediumChannels = 12;
 
 class ScanResiduals : public ResidualFunction {
  public:
@@ -132,7 +132,7 @@ void check_counts(const refs::Reference& reference, const MeasuredProblem& probl
 }  // namespace
 
 SkyState MeasuredProblem::state(const Eigen::VectorXd& scaled) const {
-  return with_unknowns(start_state(start, scans()), unknowns, scaled);
+  return with_unknowns(start, unknowns, scaled);
 }
 
 Whitened MeasuredProblem::whitened(const ScanData& data, const RowValues& values,
@@ -169,6 +169,8 @@ MeasuredProblem measured_problem(const refs::Reference& reference, const Spectra
   MeasuredProblem problem;
   problem.model = &model;
   problem.fitted = scan_data(reference, spectra, selection);
+  selection.largest_channels = kMediumChannels;
+  problem.medium = scan_data(reference, spectra, selection);
   selection.largest_channels = kSearchChannels;
   problem.coarse = scan_data(reference, spectra, selection);
   problem.all = scan_data(reference, spectra, {true, 0, options.noise, 0});
@@ -177,7 +179,7 @@ MeasuredProblem measured_problem(const refs::Reference& reference, const Spectra
   const FitOptions common = with_default_parameters(options.common, spectral, base);
   const std::vector<FreeParameter> parameters = choose_free_parameters(common, base);
   problem.starts = choose_starts(base, parameters, common.starts, options.common.start.has_value());
-  problem.start = problem.starts.front().atmosphere;
+  problem.start = start_state(problem.starts.front().atmosphere, problem.scans());
   add_atmosphere(options, parameters, problem.scans(), problem.unknowns);
   add_instruments(options, problem.scans(), problem.unknowns);
   problem.loss = options.loss;

@@ -20,9 +20,10 @@ struct Whitened {
 struct MeasuredProblem {
   const SkyModel* model;
   ScanData fitted;  // the samples that are fitted
+  ScanData medium;  // some wavelengths of them, for what is repeated
   ScanData coarse;  // few wavelengths of them, for the search among the starts
   ScanData all;     // every sample of the reference
-  Atmosphere<double> start;
+  SkyState start;
   std::vector<Unknown> unknowns;
   std::vector<Start> starts;
   Loss loss = Loss::kNone;

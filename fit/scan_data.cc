@@ -83,6 +83,17 @@ ScanInfo scan_info(const refs::Reference& reference, const refs::Sample& sample)
   return info;
 }
 
+// In the order of their numbers, used or not.
+std::vector<ScanInfo> all_scans(const refs::Reference& reference) {
+  std::map<int, ScanInfo> scans;
+  for (const refs::Sample& sample : reference.samples) {
+    if (!scans.contains(sample.scan)) scans[sample.scan] = scan_info(reference, sample);
+  }
+  std::vector<ScanInfo> result;
+  for (const auto& [number, info] : scans) result.push_back(info);
+  return result;
+}
+
 double sigma_of(const refs::Sample& sample, const NoiseModel& noise) {
   const double sigma =
       sample.sigma ? *sample.sigma : std::hypot(noise.floor, noise.relative * sample.value);
@@ -106,11 +117,10 @@ void add_rows(ScanData& data, const refs::Reference& reference, std::vector<std:
     const refs::Sample& sample = reference.samples[i];
     const auto channel = channel_of.find(sample.wavelength_nm);
     if (channel == channel_of.end()) continue;
-    if (data.scans.empty() || data.scans.back().number != sample.scan)
-      data.scans.push_back(scan_info(reference, sample));
-    if (sample.sun_zenith != data.scans.back().sun_zenith)
+    const auto info = std::ranges::find(data.scans, sample.scan, &ScanInfo::number);
+    if (sample.sun_zenith != info->sun_zenith)
       fail(reference, i, "sun_zenith", sample.sun_zenith, "that of its scan (radians)");
-    const int scan = static_cast<int>(data.scans.size()) - 1;
+    const int scan = static_cast<int>(info - data.scans.begin());
     const SkyPoint point = sky_point(sample);
     if (data.looks.empty() || data.looks.back().scan != scan ||
         data.looks.back().stated.view_zenith != point.view_zenith ||
@@ -147,6 +157,7 @@ ScanData scan_data(const refs::Reference& reference, const SpectralData& spectra
     wavelengths.insert(reference.samples[i].wavelength_nm);
   }
   ScanData data;
+  data.scans = all_scans(reference);
   if (reference.quantity == refs::Quantity::kSpectralRadiance) {
     add_spectral_channels(data, reference, spectra,
                           wavelengths_of(wavelengths, selection.largest_channels));

@@ -46,9 +46,9 @@ struct ScanRow {
 struct ScanData {
   std::vector<WavelengthNode> nodes;
   std::vector<Channel> channels;  // ascending wavelength
-  std::vector<ScanInfo> scans;
-  std::vector<Look> looks;    // sorted by scan
-  std::vector<ScanRow> rows;  // sorted by look, then channel
+  std::vector<ScanInfo> scans;    // all of the reference, also those without a row
+  std::vector<Look> looks;        // sorted by scan
+  std::vector<ScanRow> rows;      // sorted by look, then channel
   std::vector<int> rows_per_look() const;
 };
 
