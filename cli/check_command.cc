@@ -1,27 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// `skyfit check`: reads a preset or a file of samples the way the other commands do and says what
-// it holds.
+// `skyfit check`: reads a preset, a measured sky or its sidecar the way the other commands do and
+// says what it holds.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/references.h"
 #include "data_refs/table_csv.h"
+#include "data_refs/units.h"
 #include "model/preset.h"
 
 namespace skyfit::cli {
 namespace {
 
-// A preset is a JSON object; samples are CSV.
+using nlohmann::json;
+
+constexpr std::string_view kSidecarEnd = ".sidecar.json";
+
+// A preset is a JSON object.
 bool looks_like_json(const std::filesystem::path& file) {
   if (file.extension() == ".json") return true;
   std::ifstream in(file);
@@ -29,55 +37,142 @@ bool looks_like_json(const std::filesystem::path& file) {
   return in >> first && first == '{';
 }
 
-nlohmann::json summary_of_preset(const std::string& file) {
+json summary_of_preset(const std::string& file) {
   const Preset preset = load_preset(file, refs::load_table_csv);
   return {
       {"file", file}, {"kind", "preset"}, {"name", preset.name}, {"fitted", !preset.fit.is_null()}};
 }
 
-nlohmann::json summary_of_samples(const std::string& file) {
-  const refs::Reference reference = refs::load_reference(file, {}, refs::Sampling::kPrincipalPlane);
-  std::set<int> scans;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  std::ptrdiff_t weighted = 0;
-  for (const refs::Sample& sample : reference.samples) {
-    scans.insert(sample.scan);
-    low = std::min(low, degrees(sample.sun_zenith));
-    high = std::max(high, degrees(sample.sun_zenith));
-    if (sample.weight > 0) ++weighted;
-  }
-  return {{"file", file},
-          {"kind", "samples"},
-          {"quantity",
-           reference.quantity == refs::Quantity::kLuminance ? "luminance" : "relative luminance"},
-          {"samples", reference.samples.size()},
-          {"samples_with_weight", weighted},
-          {"scans", scans.size()},
-          {"sun_zenith_deg", {low, high}}};
+json summary_of_sidecar(const std::string& file) {
+  const refs::ImportOptions options = refs::load_sidecar(file);
+  return {
+      {"file", file}, {"kind", "sidecar"}, {"excluded_samples", options.exclude_samples.size()}};
 }
 
-std::string line_of(const nlohmann::json& summary) {
+// One entry per scan.
+json scans_of(const refs::Reference& reference) {
+  std::map<int, std::pair<std::size_t, double>> scans;  // samples and sun zenith
+  for (const refs::Sample& sample : reference.samples) {
+    auto& [samples, sun_zenith] = scans[sample.scan];
+    ++samples;
+    sun_zenith = sample.sun_zenith;
+  }
+  json list = json::array();
+  for (const auto& [index, scan] : scans) {
+    json entry = {{"samples", scan.first}, {"sun_zenith_deg", degrees(scan.second)}};
+    const auto known = static_cast<std::size_t>(index);
+    if (known < reference.scans.size()) {
+      const refs::Scan& facts = reference.scans[known];
+      entry["name"] = facts.name;
+      if (!facts.time_utc.empty()) entry["time_utc"] = facts.time_utc;
+      if (facts.sun_azimuth) entry["sun_azimuth_deg"] = degrees(*facts.sun_azimuth);
+      entry["sun_distance_au"] = facts.sun_distance_au;
+      if (facts.elevation_m) entry["elevation_m"] = *facts.elevation_m;
+    }
+    list.push_back(entry);
+  }
+  return list;
+}
+
+json summary_of_samples(const std::string& file, const refs::ImportOptions& options) {
+  const refs::Reference reference =
+      refs::load_reference(file, {}, refs::Sampling::kPrincipalPlane, options);
+  std::set<double> suns, wavelengths;
+  std::set<std::pair<double, double>> directions;
+  std::map<std::string, std::size_t> not_used;
+  std::size_t weighted = 0;
+  for (const refs::Sample& sample : reference.samples) {
+    suns.insert(degrees(sample.sun_zenith));
+    directions.emplace(sample.view_zenith, sample.relative_azimuth);
+    if (sample.wavelength_nm > 0) wavelengths.insert(sample.wavelength_nm);
+    if (sample.weight > 0)
+      ++weighted;
+    else
+      ++not_used[sample.zero_weight_reason];
+  }
+  const json scans = scans_of(reference);
+  return {{"file", file},
+          {"kind", "samples"},
+          {"quantity", refs::quantity_name(reference.quantity)},
+          {"samples", reference.samples.size()},
+          {"samples_with_weight", weighted},
+          {"samples_not_used", not_used},
+          {"directions", directions.size()},
+          {"wavelengths_nm", wavelengths},
+          {"scans", scans.size()},
+          {"scan_list", scans},
+          {"sun_zenith_deg", {*suns.begin(), *suns.rbegin()}}};
+}
+
+// "; not used: 41 known wrong, 3 not positive"
+std::string not_used_text(const json& summary) {
+  std::vector<std::string> reasons;
+  for (const auto& [reason, count] : summary["samples_not_used"].items())
+    reasons.push_back(fmt::format("{} \"{}\"", count.get<std::size_t>(), reason));
+  return reasons.empty() ? "" : fmt::format("; not used: {}", fmt::join(reasons, ", "));
+}
+
+std::string wavelengths_text(const json& summary) {
+  const json& wavelengths = summary["wavelengths_nm"];
+  if (wavelengths.empty()) return "";
+  return fmt::format(" at {} wavelengths from {:.9g} to {:.9g} nm", wavelengths.size(),
+                     wavelengths.front().get<double>(), wavelengths.back().get<double>());
+}
+
+// Of each scan whose time or azimuth is known.
+std::string scan_lines(const json& summary) {
+  constexpr std::size_t kMostLines = 20;
+  std::string text;
+  std::size_t lines = 0;
+  for (const json& scan : summary["scan_list"]) {
+    if (!scan.contains("sun_azimuth_deg")) continue;
+    if (++lines > kMostLines) continue;
+    text += fmt::format("  {}: {}sun zenith {:.3f}, azimuth {:.3f} deg, {:.5f} au, {} samples\n",
+                        scan["name"].get<std::string>(),
+                        scan.contains("time_utc") ? scan["time_utc"].get<std::string>() + ", " : "",
+                        scan["sun_zenith_deg"].get<double>(), scan["sun_azimuth_deg"].get<double>(),
+                        scan["sun_distance_au"].get<double>(), scan["samples"].get<std::size_t>());
+  }
+  if (lines > kMostLines)
+    text += fmt::format("  and {} more (all of them with --json)\n", lines - kMostLines);
+  return text;
+}
+
+std::string text_of(const json& summary) {
   const std::string file = summary["file"];
   if (summary["kind"] == "preset") {
     return fmt::format("{}: valid preset \"{}\"{}\n", file, summary["name"].get<std::string>(),
                        summary["fitted"].get<bool>() ? ", the result of a fit" : "");
   }
+  if (summary["kind"] == "sidecar") {
+    return fmt::format("{}: valid sidecar, {} excluded samples\n", file,
+                       summary["excluded_samples"].get<std::size_t>());
+  }
   return fmt::format(
-      "{}: valid samples of {}: {} ({} with weight) in {} scans, sun zenith {:.9g} to {:.9g} deg\n",
-      file, summary["quantity"].get<std::string>(), summary["samples"].get<std::size_t>(),
-      summary["samples_with_weight"].get<std::size_t>(), summary["scans"].get<std::size_t>(),
-      summary["sun_zenith_deg"][0].get<double>(), summary["sun_zenith_deg"][1].get<double>());
+             "{}: valid samples of {}: {} ({} with weight{}){} in {} directions and {} scans, sun "
+             "zenith {:.9g} to {:.9g} deg\n",
+             file, summary["quantity"].get<std::string>(), summary["samples"].get<std::size_t>(),
+             summary["samples_with_weight"].get<std::size_t>(), not_used_text(summary),
+             wavelengths_text(summary), summary["directions"].get<std::size_t>(),
+             summary["scans"].get<std::size_t>(), summary["sun_zenith_deg"][0].get<double>(),
+             summary["sun_zenith_deg"][1].get<double>()) +
+         scan_lines(summary);
 }
 
-void run_check(const std::string& file, bool json) {
-  if (!std::filesystem::is_regular_file(file)) {
-    throw std::runtime_error(
-        fmt::format("{}: expected a preset (.json) or samples (.csv), {}", file,
-                    std::filesystem::exists(file) ? "this is no file" : "there is no such file"));
+void run_check(const std::string& file, const refs::ImportOptions& options, bool as_json) {
+  if (!std::filesystem::exists(file)) {
+    throw std::runtime_error(fmt::format(
+        "{}: expected a preset (.json) or a measured sky, there is no such file", file));
   }
-  const nlohmann::json summary =
-      looks_like_json(file) ? summary_of_preset(file) : summary_of_samples(file);
-  print(json ? summary.dump(2) + "\n" : line_of(summary));
+  json summary;
+  if (file.ends_with(kSidecarEnd)) {
+    summary = summary_of_sidecar(file);
+  } else if (std::filesystem::is_regular_file(file) && looks_like_json(file)) {
+    summary = summary_of_preset(file);
+  } else {
+    summary = summary_of_samples(file, options);
+  }
+  print(as_json ? summary.dump(2) + "\n" : text_of(summary));
 }
 
 }  // namespace
@@ -85,17 +180,24 @@ void run_check(const std::string& file, bool json) {
 void add_check_command(CLI::App& app) {
   struct Options {
     std::string file;
+    ImportArguments import;
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand(
-      "check", "Says whether a preset or a file of samples is valid, and what it holds.");
-  command->add_option("file", options->file, "preset.json or samples as CSV")
+      "check", "Says whether a preset or a measured sky is valid, and what it holds.");
+  command
+      ->add_option("file", options->file,
+                   "preset.json, a measured sky in any format that skyfit reads, or its sidecar")
       ->required()
       ->type_name("FILE");
+  add_import_options(*command, options->import);
   command->add_flag("--json", options->json, "Print the summary as JSON");
-  command->footer("Example: skyfit check fitted/preset.json");
-  command->callback([options] { run_check(options->file, options->json); });
+  command->footer(
+      "Examples:\n  skyfit check fitted/preset.json\n  skyfit check scan.csv --exclude-sample 0");
+  command->callback([options] {
+    run_check(options->file, parse_import_options(options->import), options->json);
+  });
 }
 
 }  // namespace skyfit::cli

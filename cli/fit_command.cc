@@ -28,6 +28,7 @@ struct FitCommandOptions {
   std::string reference, sampling = "principal", sun_zenith = "0:80:10", model = "reference";
   std::string free, preset, site_pressure, out, exclude_sun = "3";
   std::vector<std::string> fix, prior;
+  ImportArguments import;
   int lobes = 2, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads();
   bool no_priors = false, force = false, json = false;
@@ -80,9 +81,10 @@ void run_fit(const FitCommandOptions& options, const CLI::App& command) {
       {kPresetFile, kReportFile, kReportTextFile, kSamplesFile, kFigureFiles[0], kFigureFiles[1]},
       options.force);
   const fit::FitOptions how = fit_options(options, command);
-  const refs::Reference reference = refs::load_reference(
-      options.reference, parse_sun_zeniths(options.sun_zenith), parse_sampling(options.sampling));
-  warn_of_unused_sampling(command, options.reference);
+  const refs::Reference reference =
+      refs::load_reference(options.reference, parse_sun_zeniths(options.sun_zenith),
+                           parse_sampling(options.sampling), parse_import_options(options.import));
+  warn_of_unused_options(command, options.reference);
   const auto model = make_sky_model(options.model, options.threads);
   const fit::FitResult result = fit_with_progress(reference, *model, how);
   out.publish([&](const std::filesystem::path& staging) {
@@ -135,11 +137,12 @@ void add_fit_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("fit", "Fits an atmosphere to a reference.");
   command
       ->add_option("--reference", options->reference,
-                   "Shipped reference (skyfit references) or a CSV of samples")
+                   "Shipped reference (skyfit references) or a measured sky")
       ->required()
       ->type_name("NAME|FILE");
   add_sampling_options(*command, options->sampling, options->sun_zenith);
   add_problem_options(*command, *options);
+  add_import_options(*command, options->import);
   command->add_option("--model", options->model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <thread>
@@ -12,6 +13,19 @@
 #include "data_refs/table_csv.h"
 
 namespace skyfit::cli {
+namespace {
+
+constexpr const char *kExcludeSample = "--exclude-sample",
+                     *kImportGroup = "Measured skies, where the file or its sidecar does not say";
+
+// "latitude_deg" is --latitude-deg.
+std::string import_option_name(const refs::ImportOptionRow& row) {
+  std::string name = fmt::format("--{}", row.name);
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
+}  // namespace
 
 Preset preset_named(const std::string& name_or_file) {
   const std::vector<std::string> shipped = refs::shipped_preset_names();
@@ -55,13 +69,54 @@ void add_sampling_options(CLI::App& command, std::string& sampling, std::string&
       ->capture_default_str();
 }
 
-void warn_of_unused_sampling(const CLI::App& command, const std::string& reference) {
-  if (is_shipped_reference(reference)) return;
-  for (const char* option : {"--sampling", "--sun-zenith-deg"}) {
-    if (command.count(option) == 0) continue;
-    fmt::print(stderr, "skyfit: warning: {} is not used: {} has its own directions\n", option,
-               reference);
+void warn_of_unused_options(const CLI::App& command, const std::string& reference) {
+  const bool is_shipped = is_shipped_reference(reference);
+  const std::string reason = is_shipped ? "is no measured sky" : "has its own directions";
+  for (const CLI::Option* option : command.get_options()) {
+    const bool is_import = option->get_group() == kImportGroup;
+    const bool is_sampling =
+        option->check_lname("sampling") || option->check_lname("sun-zenith-deg");
+    if (option->count() == 0 || !(is_shipped ? is_import : is_sampling)) continue;
+    fmt::print(stderr, "skyfit: warning: {} is not used: {} {}\n", option->get_name(), reference,
+               reason);
   }
+}
+
+void add_import_options(CLI::App& command, ImportArguments& arguments) {
+  const auto add = [&](const std::string& name, std::optional<std::string>& text,
+                       const std::string& meaning, const std::string& type) {
+    command.add_option(name, text, meaning)->type_name(type)->group(kImportGroup);
+  };
+  for (const refs::ImportOptionRow& row : refs::import_option_table()) {
+    if (!row.on_command_line) continue;
+    add(import_option_name(row), arguments.facts[std::string(row.name)],
+        fmt::format("{} ({})", row.meaning, row.expectation), row.number ? "NUMBER" : "TEXT");
+  }
+  add(kExcludeSample, arguments.exclude_samples, "Do not use the samples of these numbers", "LIST");
+  add("--sidecar", arguments.sidecar, "In the place of FILE.sidecar.json", "FILE");
+}
+
+refs::ImportOptions parse_import_options(const ImportArguments& arguments) {
+  refs::ImportOptions options;
+  for (const refs::ImportOptionRow& row : refs::import_option_table()) {
+    const auto given = arguments.facts.find(row.name);
+    if (given == arguments.facts.end() || !given->second) continue;
+    if (!refs::set_import_option(row, *given->second, options)) {
+      throw UsageError(import_option_name(row), *given->second,
+                       fmt::format("expected {}", row.expectation));
+    }
+  }
+  if (arguments.exclude_samples) {
+    for (const double sample : parse_list_within(kExcludeSample, *arguments.exclude_samples, 0,
+                                                 kMaxListValues, "the number of a sample")) {
+      if (sample != std::floor(sample))
+        throw UsageError(kExcludeSample, *arguments.exclude_samples, "expected whole numbers");
+      options.exclude_samples.push_back(
+          {static_cast<int>(sample), std::string("excluded by ") + kExcludeSample});
+    }
+  }
+  if (arguments.sidecar) options.sidecar = *arguments.sidecar;
+  return options;
 }
 
 std::vector<double> parse_sun_zeniths(const std::string& text) {

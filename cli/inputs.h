@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,9 +27,19 @@ std::optional<double> parse_site_pressure(const std::string& text);
 // functions below.
 void add_sampling_options(CLI::App& command, std::string& sampling, std::string& sun_zenith);
 
-// Warns on stderr when the user gave one of these options for a file of samples, which has its own
-// directions.
-void warn_of_unused_sampling(const CLI::App& command, const std::string& reference);
+// Warns on stderr of options that were given but are not used: of sampling for a measured sky,
+// which has its own directions, and for measured skies where the reference is a shipped one.
+void warn_of_unused_options(const CLI::App& command, const std::string& reference);
+
+// What the options for measured skies (data_refs/import_options.h) were given, by name.
+struct ImportArguments {
+  std::map<std::string, std::optional<std::string>, std::less<>> facts;
+  std::optional<std::string> exclude_samples, sidecar;
+};
+void add_import_options(CLI::App& command, ImportArguments& arguments);
+
+// Throws UsageError.
+refs::ImportOptions parse_import_options(const ImportArguments& arguments);
 
 // Radians; the sun of a daytime reference stands above the horizon: 0 <= angle < 90 degrees. Throws
 // UsageError.

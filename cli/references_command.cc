@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// `skyfit references`: lists the shipped references or prints the samples of one as CSV that `fit`
-// reads back.
+// `skyfit references`: lists the shipped references or prints the samples of one, or of a measured
+// sky in any format, as CSV that `fit` reads back.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/references.h"
+#include "data_refs/sample_csv.h"
 
 namespace skyfit::cli {
 namespace {
 
 struct ReferencesOptions {
   std::string name, sampling = "principal", sun_zenith = "0:80:10";
+  ImportArguments import;
   bool json = false;
 };
 
@@ -33,28 +33,13 @@ void print_list(bool json) {
   if (json) print(list.dump(2) + "\n");
 }
 
-void print_samples(const refs::Reference& reference) {
-  const bool sigma =
-      std::ranges::all_of(reference.samples, [](const auto& s) { return s.sigma.has_value(); });
-  print(fmt::format(
-      "# {}: {}\nsun_zenith_deg,view_zenith_deg,relative_azimuth_deg,{}{},weight,scan\n",
-      reference.name, reference.description,
-      reference.quantity == refs::Quantity::kLuminance ? "luminance_cd_m2" : "relative_luminance",
-      sigma ? ",sigma" : ""));
-  for (const refs::Sample& sample : reference.samples) {
-    print(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}{},{:.9g},{}\n", degrees(sample.sun_zenith),
-                      degrees(sample.view_zenith), degrees(sample.relative_azimuth), sample.value,
-                      sigma ? fmt::format(",{:.9g}", *sample.sigma) : "", sample.weight,
-                      sample.scan));
-  }
-}
-
 void run_references(const ReferencesOptions& options, const CLI::App& command) {
   if (options.name.empty()) return print_list(options.json);
-  const refs::Reference reference = refs::load_reference(
-      options.name, parse_sun_zeniths(options.sun_zenith), parse_sampling(options.sampling));
-  warn_of_unused_sampling(command, options.name);
-  print_samples(reference);
+  const refs::Reference reference =
+      refs::load_reference(options.name, parse_sun_zeniths(options.sun_zenith),
+                           parse_sampling(options.sampling), parse_import_options(options.import));
+  warn_of_unused_options(command, options.name);
+  print(refs::sample_csv_text(reference));
 }
 
 }  // namespace
@@ -63,12 +48,15 @@ void add_references_command(CLI::App& app) {
   const auto options = std::make_shared<ReferencesOptions>();
   CLI::App* const command = app.add_subcommand(
       "references", "Lists the shipped references, or prints the samples of one as CSV.");
-  command->add_option("name", options->name, "A shipped reference or a CSV of samples")
+  command->add_option("name", options->name, "A shipped reference or a measured sky")
       ->type_name("NAME");
   add_sampling_options(*command, options->sampling, options->sun_zenith);
+  add_import_options(*command, options->import);
   command->add_flag("--json", options->json, "Print the list as JSON");
   command->footer(
-      "Example: skyfit references cie:12 --sampling tregenza --sun-zenith-deg 30,60 > sky.csv");
+      "Examples:\n"
+      "  skyfit references cie:12 --sampling tregenza --sun-zenith-deg 30,60 > sky.csv\n"
+      "  skyfit references scan.csv --exclude-sample 0 > sky.csv");
   command->callback([options, command] { run_references(*options, *command); });
 }
 

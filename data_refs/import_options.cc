@@ -60,6 +60,8 @@ std::vector<ImportOptionRow> make_table() {
              "Values from here on, in the unit of the file, are not used"),
       number("near_sun_deg", &Options::near_sun_deg, 0, 180, "0 to 180",
              "Samples closer to the sun are not used"),
+      number("band_nm", &Options::band_nm, 1, 100, "1 to 100",
+             "Width of the bands over which a folder of spectra is averaged, else 10"),
   };
 }
 
@@ -159,13 +161,16 @@ ImportOptions parse_sidecar(std::string_view json, std::string_view source) {
   return options;
 }
 
+ImportOptions load_sidecar(const std::filesystem::path& sidecar) {
+  return parse_sidecar(read_csv_file(sidecar, "a sidecar (JSON)"), sidecar.string());
+}
+
 ImportOptions with_sidecar(const ImportOptions& options, const std::filesystem::path& file) {
-  std::filesystem::path sidecar = file;
-  if (sidecar.filename().empty()) sidecar = sidecar.parent_path();  // "folder/"
-  sidecar = options.sidecar.value_or(sidecar += ".sidecar.json");
-  if (!options.sidecar && !std::filesystem::exists(sidecar)) return options;
-  return overlaid(options,
-                  parse_sidecar(read_csv_file(sidecar, "a sidecar (JSON)"), sidecar.string()));
+  std::filesystem::path beside = file;
+  if (beside.filename().empty()) beside = beside.parent_path();  // "folder/"
+  beside += ".sidecar.json";
+  if (options.sidecar) return overlaid(options, load_sidecar(*options.sidecar));
+  return std::filesystem::exists(beside) ? overlaid(options, load_sidecar(beside)) : options;
 }
 
 }  // namespace skyfit::refs

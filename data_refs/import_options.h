@@ -27,7 +27,7 @@ struct ImportOptions {
   std::optional<std::string> unit, local_time, azimuth_zero, azimuth_turns;
   std::optional<double> utc_offset_h, latitude_deg, longitude_deg, elevation_m;
   std::optional<double> sun_zenith_deg, sun_azimuth_deg;
-  std::optional<double> saturation, near_sun_deg;
+  std::optional<double> saturation, near_sun_deg, band_nm;
   std::vector<ExcludedSample> exclude_samples;
   std::optional<std::filesystem::path> sidecar;  // in the place of the one beside the file
 };
@@ -56,6 +56,9 @@ ImportOptions overlaid(const ImportOptions& first, const ImportOptions& second);
 
 // Throws std::invalid_argument `source:line: name = value: expected ...`.
 ImportOptions parse_sidecar(std::string_view json, std::string_view source);
+
+// Throws std::runtime_error when it cannot be read.
+ImportOptions load_sidecar(const std::filesystem::path& sidecar);
 
 // What `options` and the sidecar of `file`, if there is one, say. Throws std::runtime_error when a
 // sidecar that was named cannot be read.

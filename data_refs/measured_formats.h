@@ -2,6 +2,7 @@
 // The formats of measured skies, recognised by what a file holds, not by its name:
 //   CSV of samples        sample_csv.h
 //   spectral scan, CSV    spectral_scan_csv.h
+//   the same, a folder    spectral_scan_folder.h
 #pragma once
 
 #include <filesystem>

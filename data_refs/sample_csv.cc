@@ -5,29 +5,32 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "data_refs/civil_time.h"
 #include "data_refs/csv.h"
+#include "data_refs/sample_csv_columns.h"
+#include "data_refs/units.h"
 
 namespace skyfit::refs {
+
+using namespace sample_csv;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
 
-constexpr std::string_view kSunZenith = "sun_zenith_deg", kViewZenith = "view_zenith_deg",
-                           kRelativeAzimuth = "relative_azimuth_deg",
-                           kSunAzimuth = "sun_azimuth_deg", kViewAzimuth = "view_azimuth_deg",
-                           kLuminance = "luminance_cd_m2", kRelative = "relative_luminance",
-                           kSigma = "sigma", kWeight = "weight", kScan = "scan";
-constexpr std::array kColumns = {kSunZenith,   kViewZenith, kRelativeAzimuth, kSunAzimuth,
-                                 kViewAzimuth, kLuminance,  kRelative,        kSigma,
-                                 kWeight,      kScan};
+// The table has one of them.
+const ValueColumn& value_column(const CsvTable& table) {
+  return *std::ranges::find_if(kValueColumns,
+                               [&](const ValueColumn& column) { return table.has(column.name); });
+}
 
 void expect_columns(const CsvTable& table) {
   for (const std::string& column : table.columns()) {
@@ -47,39 +50,51 @@ void expect_columns(const CsvTable& table) {
              view = table.has(kViewAzimuth);
   expect(relative ? !sun && !view : sun && view,
          "either relative_azimuth_deg or both of sun_azimuth_deg and view_azimuth_deg");
-  expect(table.has(kLuminance) != table.has(kRelative),
-         "exactly one of luminance_cd_m2 and relative_luminance");
+  const auto values = std::ranges::count_if(
+      kValueColumns, [&](const ValueColumn& column) { return table.has(column.name); });
+  expect(values == 1,
+         "exactly one of luminance_cd_m2, relative_luminance and spectral_radiance_w_m2_sr_nm");
+  expect(table.has(kWavelength) == (value_column(table).quantity == Quantity::kSpectralRadiance),
+         "wavelength_nm with a spectral radiance, and only there");
 }
 
 // One record of the table, column by column.
 class SampleReader {
  public:
   explicit SampleReader(const CsvTable& table)
-      : table_(table), value_column_(table.has(kLuminance) ? kLuminance : kRelative) {}
+      : table_(table), value_column_(value_column(table).name) {}
 
   Sample read(const CsvRecord& record) {
     Sample sample;
     sample.sun_zenith =
         kDegree * checked(record, kSunZenith, "0 <= sun_zenith_deg < 90, a sun above the horizon",
                           [](double deg) { return deg >= 0 && deg < 90; });
-    sample.view_zenith = kDegree * checked(record, kViewZenith,
-                                           "0 <= view_zenith_deg < 90, a view above the horizon",
-                                           [](double deg) { return deg >= 0 && deg < 90; });
     sample.relative_azimuth = kDegree * relative_azimuth_deg(record);
     const auto positive = [](double x) { return x > 0; };
-    sample.value = checked(record, value_column_, "a number > 0", positive);
-    if (table_.has(kSigma)) sample.sigma = checked(record, kSigma, "a number > 0", positive);
-    if (table_.has(kWeight)) {
+    if (table_.has(kWeight))
       sample.weight = checked(record, kWeight, "a number >= 0", [](double x) { return x >= 0; });
-      if (sample.weight == 0) sample.zero_weight_reason = "weight 0 in the file";
+    if (sample.weight == 0) sample.zero_weight_reason = reason(record);
+    sample.view_zenith = kDegree * view_zenith_deg(record, sample.weight == 0);
+    sample.value = sample.weight == 0 ? table_.any_number(record, value_column_)
+                                      : checked(record, value_column_, "a number > 0", positive);
+    if (table_.has(kWavelength))
+      sample.wavelength_nm = checked(record, kWavelength, "a number > 0", positive);
+    if (table_.has(kSigma)) sample.sigma = checked(record, kSigma, "a number > 0", positive);
+    if (table_.has(kDirection)) {
+      sample.direction =
+          static_cast<int>(checked(record, kDirection, "a whole number >= 0", [](double x) {
+            return x >= 0 && x < 1e9 && x == std::floor(x);
+          }));
     }
-    const auto next_scan = static_cast<int>(scans_.size());
-    sample.scan = scans_.emplace(scan_label(record, sample), next_scan).first->second;
+    const std::string label = scan_label(record);
+    const auto [scan, is_new] = index_of_scan_.emplace(label, static_cast<int>(scans_.size()));
+    if (is_new) scans_.push_back(scan_of(record, label));
+    sample.scan = scan->second;
     return sample;
   }
 
   // That were met so far.
-  std::size_t scans() const { return scans_.size(); }
+  const std::vector<Scan>& scans() const { return scans_; }
 
  private:
   template <class Holds>
@@ -88,6 +103,15 @@ class SampleReader {
     const double value = table_.number(record, column);
     if (!holds(value)) table_.fail_value(record, column, expectation);
     return value;
+  }
+
+  double view_zenith_deg(const CsvRecord& record, bool is_unused) const {
+    if (is_unused) {
+      return checked(record, kViewZenith, "0 to 180",
+                     [](double deg) { return deg >= 0 && deg <= 180; });
+    }
+    return checked(record, kViewZenith, "0 <= view_zenith_deg < 90, a view above the horizon",
+                   [](double deg) { return deg >= 0 && deg < 90; });
   }
 
   double azimuth_deg(const CsvRecord& record, std::string_view column) const {
@@ -103,18 +127,47 @@ class SampleReader {
     return std::remainder(deg, 360.0);
   }
 
-  std::string scan_label(const CsvRecord& record, const Sample& sample) const {
+  std::string scan_label(const CsvRecord& record) const {
     if (table_.has(kScan)) {
       if (table_.text(record, kScan).empty()) table_.fail_value(record, kScan, "a label");
       return table_.text(record, kScan);
     }
-    const double azimuth = table_.has(kSunAzimuth) ? table_.number(record, kSunAzimuth) : 0.0;
-    return fmt::format("{} {}", sample.sun_zenith, azimuth);
+    const std::string zenith = fmt::format("sun zenith {} deg", table_.text(record, kSunZenith));
+    if (!table_.has(kSunAzimuth)) return zenith;
+    return fmt::format("{}, azimuth {} deg", zenith, table_.text(record, kSunAzimuth));
+  }
+
+  std::string reason(const CsvRecord& record) const {
+    if (table_.has(kReason) && !table_.text(record, kReason).empty())
+      return table_.text(record, kReason);
+    return "weight 0 in the file";
+  }
+
+  Scan scan_of(const CsvRecord& record, const std::string& label) const {
+    Scan scan;
+    scan.name = label;
+    if (table_.has(kTime)) scan.time_utc = time(record);
+    if (table_.has(kSunAzimuth)) scan.sun_azimuth = kDegree * azimuth_deg(record, kSunAzimuth);
+    if (table_.has(kDistance)) {
+      scan.sun_distance_au =
+          checked(record, kDistance, "a number > 0", [](double x) { return x > 0; });
+    }
+    if (table_.has(kElevation)) scan.elevation_m = table_.number(record, kElevation);
+    return scan;
+  }
+
+  std::string time(const CsvRecord& record) const {
+    std::string text = table_.text(record, kTime);
+    if (text.empty()) return text;
+    if (!text.ends_with('Z') || !instant(text.substr(0, text.size() - 1), 0))
+      table_.fail_value(record, kTime, "YYYY-MM-DDTHH:MM:SSZ");
+    return text;
   }
 
   const CsvTable& table_;
   std::string_view value_column_;
-  std::map<std::string, int> scans_;  // in the order of their first sample
+  std::map<std::string, int> index_of_scan_;
+  std::vector<Scan> scans_;  // in the order of their first sample
 };
 
 }  // namespace
@@ -124,7 +177,7 @@ Reference parse_sample_csv(std::string_view text, std::string_view source) {
   expect_columns(table);
   Reference reference;
   reference.name = source;
-  reference.quantity = table.has(kLuminance) ? Quantity::kLuminance : Quantity::kRelativeLuminance;
+  reference.quantity = value_column(table).quantity;
   SampleReader reader(table);
   for (const CsvRecord& record : table.records()) reference.samples.push_back(reader.read(record));
   const auto used = std::count_if(reference.samples.begin(), reference.samples.end(),
@@ -133,9 +186,10 @@ Reference parse_sample_csv(std::string_view text, std::string_view source) {
     throw std::invalid_argument(
         fmt::format("{}: {} samples with a weight > 0, expected at least 1", source, used));
   }
-  reference.description = fmt::format(
-      "{} samples of {} in {} scans from {}", reference.samples.size(),
-      table.has(kLuminance) ? "luminance" : "relative luminance", reader.scans(), source);
+  reference.description =
+      fmt::format("{} samples of {} in {} scans from {}", reference.samples.size(),
+                  quantity_name(reference.quantity), reader.scans().size(), source);
+  reference.scans = reader.scans();
   return reference;
 }
 

@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// A CSV of luminance samples becomes a Reference. Columns, in any order (data_refs/examples/ has a
-// file that shows them):
-//   sun_zenith_deg       0 <= . < 90: the sun stands above the horizon
-//   view_zenith_deg      0 <= . < 90
-//   relative_azimuth_deg -360 .. 360, 0 = toward the sun; or sun_azimuth_deg and view_azimuth_deg,
-//   in one sense of turning luminance_cd_m2      > 0; or relative_luminance > 0, free up to a
-//   factor per scan sigma                optional, > 0: one standard deviation in the unit of the
-//   luminance weight               optional, >= 0, 1 when absent; 0 leaves the sample out scan
-//   optional label; samples of one scan share a luminance scale. When absent, every sun position is
-//                        a scan.
+// A CSV of samples becomes a Reference, and a Reference such a CSV. Columns, in any order
+// (data_refs/examples/ has a file that shows them):
+//   sun_zenith_deg        0 <= . < 90: the sun stands above the horizon
+//   view_zenith_deg       0 <= . < 90
+//   relative_azimuth_deg  -360 .. 360, 0 = toward the sun; or sun_azimuth_deg and view_azimuth_deg,
+//                         in one sense of turning
+// and exactly one of
+//   luminance_cd_m2       > 0
+//   relative_luminance    > 0, free up to a factor per scan
+//   spectral_radiance_w_m2_sr_nm  > 0, with wavelength_nm > 0
+// Optional:
+//   sigma                 > 0: one standard deviation in the unit of the value
+//   weight                >= 0, 1 when absent; 0 leaves the sample out, which may then have any
+//                         value and a view zenith to 180
+//   zero_weight_reason    why the weight is 0
+//   direction             a whole number >= 0: that of the direction in its scan
+//   scan                  label; samples of one scan share a luminance scale. When absent, every
+//                         sun position is a scan
+//   time_utc, sun_distance_au, elevation_m   of the scan, as its first sample says
 // Format of the text: data_refs/csv.h.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "data_refs/samples.h"
@@ -25,5 +35,9 @@ Reference parse_sample_csv(std::string_view text, std::string_view source);
 
 // Throws std::runtime_error when the file cannot be read.
 Reference load_sample_csv(const std::filesystem::path& file);
+
+// With the columns that the reference has something to say in; numbers have nine digits. Its name
+// and description are a comment.
+std::string sample_csv_text(const Reference& reference);
 
 }  // namespace skyfit::refs

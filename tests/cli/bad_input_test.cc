@@ -48,7 +48,7 @@ TEST_F(BadInputTest, MissingFiles) {
   expect_refusal({"check", "missing.json"}, {"missing.json", "no such file"});
   expect_refusal({"check", "missing.csv"}, {"missing.csv", "no such file"});
   write("folder/file", "");
-  expect_refusal({"check", "folder"}, {"folder", "this is no file"});
+  expect_refusal({"check", "folder"}, {"folder", "no measured sky"});
   expect_refusal({"plot", "missing", "--out", "figure.svg"}, {"missing"});
   expect_refusal(
       {"sky", "--preset", "missing.json", "--sun-zenith-deg", "0", "--view-zenith-deg", "0"},

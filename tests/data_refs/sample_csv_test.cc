@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 
 #include "data_refs/references.h"
 
@@ -92,9 +93,61 @@ TEST(SampleCsv, ColumnsMustBeTheKnownOnes) {
   EXPECT_THAT(complaint(columns + "sun_azimuth_deg,luminance_cd_m2\n"), HasSubstr(azimuths));
   EXPECT_THAT(complaint(columns + "relative_azimuth_deg,sun_azimuth_deg,luminance_cd_m2\n"),
               HasSubstr(azimuths));
-  const std::string luminances = "expected exactly one of luminance_cd_m2 and relative_luminance";
+  const std::string luminances =
+      "expected exactly one of luminance_cd_m2, relative_luminance and "
+      "spectral_radiance_w_m2_sr_nm";
   EXPECT_THAT(complaint(columns + "relative_azimuth_deg\n"), HasSubstr(luminances));
   EXPECT_THAT(complaint(kHeader + ",relative_luminance\n"), HasSubstr(luminances));
+}
+
+TEST(SampleCsv, WavelengthBelongsToASpectralRadiance) {
+  const std::string expected = "expected wavelength_nm with a spectral radiance, and only there";
+  EXPECT_THAT(complaint(kHeader + ",wavelength_nm\n"), HasSubstr(expected));
+  EXPECT_THAT(complaint("sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,"
+                        "spectral_radiance_w_m2_sr_nm\n"),
+              HasSubstr(expected));
+}
+
+// What the writer leaves the reader finds, to nine digits.
+TEST(SampleCsv, IsReadBackAsItWasWritten) {
+  constexpr double kNineDigits = 1e-8;
+  Reference written;
+  written.name = "scan.csv";
+  written.quantity = Quantity::kSpectralRadiance;
+  written.scans = {{"scan, the first", "2020-06-21T09:00:00Z", 2.1, 1.0163, 450.0},
+                   {"second", "", 2.2, 1, {}}};
+  for (int i = 0; i < 4; ++i) {
+    Sample sample;
+    sample.sun_zenith = 0.6;
+    sample.view_zenith = 0.3 * i;
+    sample.relative_azimuth = 1.5 * i - 3;
+    sample.wavelength_nm = 400 + 10 * i;
+    sample.value = i == 1 ? -1 : 0.1 * (i + 1);
+    sample.weight = i == 1 ? 0 : 1;
+    if (i == 1) sample.zero_weight_reason = "a \"bird\", or so";
+    sample.scan = i / 2;
+    sample.direction = i;
+    written.samples.push_back(sample);
+  }
+  const Reference read = parse_sample_csv(sample_csv_text(written), "copy.csv");
+  EXPECT_EQ(read.quantity, written.quantity);
+  ASSERT_EQ(read.samples.size(), written.samples.size());
+  for (std::size_t i = 0; i < read.samples.size(); ++i) {
+    const Sample &a = read.samples[i], &b = written.samples[i];
+    EXPECT_NEAR(a.view_zenith, b.view_zenith, kNineDigits);
+    EXPECT_NEAR(std::remainder(a.relative_azimuth - b.relative_azimuth, 360 * kDegree), 0,
+                kNineDigits);
+    EXPECT_EQ(std::tie(a.wavelength_nm, a.weight, a.zero_weight_reason, a.scan, a.direction),
+              std::tie(b.wavelength_nm, b.weight, b.zero_weight_reason, b.scan, b.direction));
+    EXPECT_NEAR(a.value / b.value, 1, kNineDigits);
+  }
+  ASSERT_EQ(read.scans.size(), 2u);
+  EXPECT_EQ(read.scans[0].name, "scan, the first");
+  EXPECT_EQ(read.scans[0].time_utc, "2020-06-21T09:00:00Z");
+  EXPECT_NEAR(read.scans[0].sun_distance_au, 1.0163, kNineDigits);
+  EXPECT_NEAR(*read.scans[0].sun_azimuth, 2.1, kNineDigits);
+  EXPECT_EQ(read.scans[0].elevation_m, 450);
+  EXPECT_EQ(read.scans[1].time_utc, "");
 }
 
 TEST(SampleCsv, ValuesMustBeInRange) {

@@ -122,8 +122,7 @@ TEST(SpectralScan, SuspectSamplesStayWithAReason) {
 
 TEST(SpectralScan, SunIsComputedAndCheckedAgainstTheStatedOne) {
   const std::string rest = kUnit + kColumns + kRecords;
-  EXPECT_EQ(complaint(kPlace + "# sun_zenith_deg=33.90 sun_azimuth_deg=126\n" + rest),
-            "accepted");
+  EXPECT_EQ(complaint(kPlace + "# sun_zenith_deg=33.90 sun_azimuth_deg=126\n" + rest), "accepted");
   EXPECT_THAT(complaint(kPlace + "# sun_zenith_deg=40.1 sun_azimuth_deg=127\n" + rest),
               StartsWith("scan.csv:2: sun_zenith_deg = 40.1: expected the sun of "
                          "2020-06-21T09:00:00Z at this site"));

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The columns of a CSV of samples, which its reader and its writer share (meaning: sample_csv.h).
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "data_refs/samples.h"
+
+namespace skyfit::refs::sample_csv {
+
+inline constexpr std::string_view kSunZenith = "sun_zenith_deg", kViewZenith = "view_zenith_deg",
+                                  kRelativeAzimuth = "relative_azimuth_deg",
+                                  kSunAzimuth = "sun_azimuth_deg",
+                                  kViewAzimuth = "view_azimuth_deg", kWavelength = "wavelength_nm",
+                                  kSigma = "sigma", kWeight = "weight",
+                                  kReason = "zero_weight_reason", kDirection = "direction",
+                                  kScan = "scan", kTime = "time_utc", kDistance = "sun_distance_au",
+                                  kElevation = "elevation_m";
+
+struct ValueColumn {
+  std::string_view name;
+  Quantity quantity;
+};
+inline constexpr std::array kValueColumns = {
+    ValueColumn{"luminance_cd_m2", Quantity::kLuminance},
+    ValueColumn{"relative_luminance", Quantity::kRelativeLuminance},
+    ValueColumn{"spectral_radiance_w_m2_sr_nm", Quantity::kSpectralRadiance}};
+
+inline constexpr std::array kColumns = {kSunZenith,
+                                        kViewZenith,
+                                        kRelativeAzimuth,
+                                        kSunAzimuth,
+                                        kViewAzimuth,
+                                        kValueColumns[0].name,
+                                        kValueColumns[1].name,
+                                        kValueColumns[2].name,
+                                        kWavelength,
+                                        kSigma,
+                                        kWeight,
+                                        kReason,
+                                        kDirection,
+                                        kScan,
+                                        kTime,
+                                        kDistance,
+                                        kElevation};
+
+}  // namespace skyfit::refs::sample_csv
