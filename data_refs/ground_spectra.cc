@@ -24,7 +24,8 @@ CsvTable shipped_table() { return CsvTable(embedded_text(kFile), kFile); }
 
 std::vector<std::string> ground_names() {
   std::vector<std::string> names = {std::string(kFlat)};
-  for (const std::string& column : shipped_table().columns()) {
+  const CsvTable table = shipped_table();
+  for (const std::string& column : table.columns()) {
     if (column != kWavelength) names.push_back(column);
   }
   return names;

@@ -146,22 +146,13 @@ void describe_uncertainty(const MeasuredProblem& problem, const Eigen::VectorXd&
     result.loss_weight[row.sample] = weights[static_cast<std::size_t>(row.look)];
 }
 
-std::vector<double> per_sample(const MeasuredProblem& problem, const SkyState& state,
-                               std::size_t samples) {
-  const RowValues values = row_values(*problem.model, problem.all, state, {});
-  std::vector<double> result(samples, kNan);
-  for (std::size_t r = 0; r < problem.all.rows.size(); ++r)
-    result[problem.all.rows[r].sample] = values.value(static_cast<Eigen::Index>(r));
-  return result;
-}
-
 void describe_values(const MeasuredProblem& problem, const refs::Reference& reference,
                      const SpectralData& spectra, const Eigen::VectorXd& scaled,
                      const MeasuredOptions& options, MeasuredResult& result) {
   const SkyState& start = problem.start;
   const SkyState fitted = with_unknowns(start, problem.unknowns, scaled);
-  result.start_model = per_sample(problem, start, reference.samples.size());
-  result.model = per_sample(problem, fitted, reference.samples.size());
+  result.start_model = sample_values(problem, start, reference.samples.size());
+  result.model = sample_values(problem, fitted, reference.samples.size());
   result.model_evaluations += 2;
   const auto errors = [&](const std::vector<double>& model, int scan) {
     return measured_errors(reference, model, spectra, options.common.exclude_sun, scan);

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
 namespace skyfit::fit {
 namespace {
 
-constexpr int kSearchChannels = 5, kMediumChannels = 12;
+constexpr int kSearchChannels = 5;
 
 class ScanResiduals : public ResidualFunction {
  public:
@@ -160,6 +161,15 @@ Minimum MeasuredProblem::solve(const ScanData& data, const Eigen::VectorXd& star
 
 std::vector<double> MeasuredProblem::loss_weights(const Eigen::VectorXd& residual) const {
   return fit::loss_weights(least_squares(*this, fitted, nullptr), residual);
+}
+
+std::vector<double> sample_values(const MeasuredProblem& problem, const SkyState& state,
+                                  std::size_t samples) {
+  const RowValues values = row_values(*problem.model, problem.all, state, {});
+  std::vector<double> result(samples, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t r = 0; r < problem.all.rows.size(); ++r)
+    result[problem.all.rows[r].sample] = values.value(static_cast<Eigen::Index>(r));
+  return result;
 }
 
 MeasuredProblem measured_problem(const refs::Reference& reference, const SpectralData& spectra,

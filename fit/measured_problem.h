@@ -11,6 +11,8 @@
 
 namespace skyfit::fit {
 
+inline constexpr int kMediumChannels = 12;  // wavelengths of what is repeated
+
 // (model - measured) / (factor sigma) per row.
 struct Whitened {
   Eigen::VectorXd residual;
@@ -43,6 +45,10 @@ struct MeasuredProblem {
 // Throws std::invalid_argument as fit_measured() does.
 MeasuredProblem measured_problem(const refs::Reference& reference, const SpectralData& spectra,
                                  const SkyModel& model, const MeasuredOptions& options);
+
+// The model's value of every sample of the reference, with the instrument.
+std::vector<double> sample_values(const MeasuredProblem& problem, const SkyState& state,
+                                  std::size_t samples);
 
 // The preset of the first scan with the record of the fit.
 Preset measured_preset(const refs::Reference& reference, const SkyModel& model,
