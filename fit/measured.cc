@@ -20,11 +20,11 @@ namespace skyfit::fit {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr int kSearchIterations = 20;      // what does not settle by then is compared as it is
-constexpr double kSearchTolerance = 1e-3;  // relative change of the cost
-constexpr double kTolerance = 1e-7;
+constexpr int kSearchIterations = 30;      // what does not settle by then is compared as it is
+constexpr double kSearchTolerance = 1e-4;  // relative change of the cost
+constexpr double kTolerance = 1e-5;
 constexpr double kFactorAgrees = 0.05;  // relative change of the factor that is not worth a refit
-constexpr int kFactorRounds = 4;
+constexpr int kFactorRounds = 5;
 
 void report(const MeasuredOptions& options, double fraction, const std::string& status) {
   if (options.common.progress) options.common.progress(fraction, status);
@@ -78,10 +78,15 @@ ScanNoise noise_at(const MeasuredProblem& problem, const ScanData& data,
                     static_cast<int>(problem.unknowns.size()));
 }
 
-// Some wavelengths, repeated with the factor on sigma that the residuals show until the two agree;
+struct Refined {
+  Eigen::VectorXd scaled;
+  ScanNoise noise;
+};
+
+// Few wavelengths, repeated with the factor on sigma that the residuals show until the two agree;
 // then all of them.
-Eigen::VectorXd refine(const MeasuredProblem& problem, const MeasuredOptions& options,
-                       Eigen::VectorXd scaled, MeasuredResult& result) {
+Refined refine(const MeasuredProblem& problem, const MeasuredOptions& options,
+               Eigen::VectorXd scaled, MeasuredResult& result) {
   const auto solve = [&](const ScanData& data, double factor) {
     const Minimum minimum =
         problem.solve(data, scaled, factor, {options.common.max_iterations, kTolerance});
@@ -90,34 +95,48 @@ Eigen::VectorXd refine(const MeasuredProblem& problem, const MeasuredOptions& op
     result.converged = minimum.converged;
     result.termination = minimum.termination;
   };
+  // First as if the residuals were independent: a poor fit's agree more, and a factor from them
+  // would let the priors keep it poor.
   double factor = 1;
   for (int round = 0; round < kFactorRounds && !options.noise_is_stated; ++round) {
     report(options, 0.6 + 0.05 * round, "refining the best start");
+    const ScanNoise noise = noise_at(problem, problem.coarse, scaled, result);
     const double before =
-        std::exchange(factor, noise_at(problem, problem.medium, scaled, result).factor);
-    if (round > 0 && std::abs(factor / before - 1) < kFactorAgrees) break;
-    solve(problem.medium, factor);
+        std::exchange(factor, round == 0 ? noise.independent_factor : noise.factor);
+    if (round > 1 && std::abs(factor / before - 1) < kFactorAgrees) break;
+    solve(problem.coarse, factor);
   }
   report(options, 0.8, "refining with all wavelengths");
-  result.effective_samples = static_cast<double>(problem.fitted.rows.size());
-  if (!options.noise_is_stated) {
-    const ScanNoise noise = noise_at(problem, problem.fitted, scaled, result);
-    result.sigma_factor = noise.factor;
-    result.effective_samples = noise.effective_samples;
-  }
-  solve(problem.fitted, result.sigma_factor);
-  return scaled;
+  ScanNoise noise;
+  noise.effective_samples = static_cast<double>(problem.fitted.rows.size());
+  if (!options.noise_is_stated) noise = noise_at(problem, problem.fitted, scaled, result);
+  result.sigma_factor = noise.factor;
+  result.effective_samples = noise.effective_samples;
+  solve(problem.fitted, noise.factor);
+  return {scaled, noise};
+}
+
+// The fit weighs with sigma * factor; the residuals vary as the noise says.
+Uncertainty uncertainty_at(const MeasuredProblem& problem, const Eigen::VectorXd& scaled,
+                           const Whitened& white, const ScanNoise& noise) {
+  const std::vector<Variable> variables(problem.unknowns.begin(), problem.unknowns.end());
+  const Eigen::MatrixXd& jacobian = white.jacobian_per_unit;
+  const Uncertainty independent = uncertainty(variables, scaled, jacobian);
+  if (noise.factor == noise.independent_factor) return independent;
+  const double variance = std::pow(noise.independent_factor / noise.factor, 2);
+  return with_correlated_residuals(
+      independent, variables, scaled,
+      variance * jacobian.transpose() * times_correlation(problem.fitted, noise, jacobian));
 }
 
 void describe_uncertainty(const MeasuredProblem& problem, const Eigen::VectorXd& scaled,
-                          MeasuredResult& result) {
+                          const ScanNoise& noise, MeasuredResult& result) {
   const SkyState& start = problem.start;
   const SkyState fitted = with_unknowns(start, problem.unknowns, scaled);
   const RowValues values = row_values(*problem.model, problem.fitted, fitted, problem.unknowns);
   ++result.derivative_evaluations;
   const Whitened white = problem.whitened(problem.fitted, values, result.sigma_factor);
-  const Uncertainty uncertain = uncertainty({problem.unknowns.begin(), problem.unknowns.end()},
-                                            scaled, white.jacobian_per_unit);
+  const Uncertainty uncertain = uncertainty_at(problem, scaled, white, noise);
   Eigen::VectorXd units(static_cast<Eigen::Index>(uncertain.inside.size()));
   for (std::size_t u = 0; u < problem.unknowns.size(); ++u) {
     const Unknown& unknown = problem.unknowns[u];
@@ -185,9 +204,9 @@ MeasuredResult fit_measured(const refs::Reference& reference, const SpectralData
   validate(options);
   const MeasuredProblem problem = measured_problem(reference, spectra, model, options);
   MeasuredResult result;
-  const Eigen::VectorXd scaled = refine(problem, options, search(problem, options, result), result);
+  const auto [scaled, noise] = refine(problem, options, search(problem, options, result), result);
   describe_values(problem, reference, spectra, scaled, options, result);
-  describe_uncertainty(problem, scaled, result);
+  describe_uncertainty(problem, scaled, noise, result);
   result.preset = measured_preset(reference, model, options, result);
   report(options, 1, "done");
   result.wall_seconds =

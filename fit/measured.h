@@ -9,7 +9,8 @@
 // A smooth sky's misfit by another is not noise. Unless the noise is stated, sigma is multiplied
 // with a factor that the residuals show: sqrt(chi^2 / degrees of freedom * N / N_eff), N_eff the
 // number of independent samples of a field that is correlated over angle and wavelength
-// (scan_noise.h), and the fit is repeated with it so that priors weigh what they say.
+// (scan_noise.h), and the fit is repeated with it so that priors weigh what they say. The
+// covariance is that of this estimate under residuals that are so correlated.
 #pragma once
 
 #include <Eigen/Core>

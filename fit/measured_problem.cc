@@ -12,7 +12,12 @@
 namespace skyfit::fit {
 namespace {
 
-constexpr int kSearchChannels = 5;
+constexpr int kSearchChannels = 6;
+
+// The aureole within 10 deg of the sun, which a pointing error of a degree changes by a tenth,
+// would otherwise draw the forward lobe to its bound. 0.88 +- 0.05 spans the forward lobes that
+// describe fine and coarse aerosol together.
+constexpr Prior kForwardLobePrior{0.88, 0.05};
 
 class ScanResiduals : public ResidualFunction {
  public:
@@ -105,8 +110,14 @@ void add_instruments(const MeasuredOptions& options, int scans, std::vector<Unkn
 // The table's, and of spectra the wavelength dependence too.
 FitOptions with_default_parameters(const FitOptions& options, bool spectral,
                                    const Atmosphere<double>& atmosphere) {
-  if (options.free || !spectral) return options;
   FitOptions result = options;
+  const bool g1_is_free = options.free
+                              ? std::ranges::count(*options.free, Parameter::kMiePhaseG1) > 0
+                              : has_parameter(atmosphere, Parameter::kMiePhaseG1) &&
+                                    !options.fix.contains(Parameter::kMiePhaseG1);
+  if (options.use_priors && g1_is_free)
+    result.priors.emplace(Parameter::kMiePhaseG1, kForwardLobePrior);
+  if (options.free || !spectral) return result;
   result.free.emplace();
   for (const ParameterInfo& info : parameter_table()) {
     const bool free = info.free_by_default || info.id == Parameter::kMieAngstromExponent;

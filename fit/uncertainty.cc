@@ -91,6 +91,31 @@ Uncertainty uncertainty(const std::vector<Variable>& variables, const Eigen::Vec
   return result;
 }
 
+Uncertainty with_correlated_residuals(const Uncertainty& independent,
+                                      const std::vector<Variable>& variables,
+                                      const Eigen::VectorXd& scaled, const Eigen::MatrixXd& m) {
+  Uncertainty result = independent;
+  if (independent.covariance.size() == 0) return result;
+  Eigen::MatrixXd middle = m(independent.inside, independent.inside);
+  for (std::size_t k = 0; k < independent.inside.size(); ++k) {
+    const std::optional<Prior>& prior = variables[independent.inside[k]].prior;
+    const auto i = static_cast<Eigen::Index>(k);
+    if (prior) middle(i, i) += 1 / (prior->sigma * prior->sigma);
+  }
+  result.covariance = independent.covariance * middle * independent.covariance;
+  const Eigen::VectorXd sigma = result.covariance.diagonal().cwiseSqrt();
+  const Eigen::VectorXd inverse = sigma.cwiseInverse();
+  result.correlation = inverse.asDiagonal() * result.covariance * inverse.asDiagonal();
+  for (std::size_t k = 0; k < independent.inside.size(); ++k) {
+    const int p = independent.inside[k];
+    const double without =
+        sigma_without_data(variables[p], variables[p].value_per_scaled(scaled(p)));
+    result.sigma[p] = sigma(static_cast<Eigen::Index>(k));
+    result.identifiable[p] = result.sigma[p] < kLargestShareOfPrior * without;
+  }
+  return result;
+}
+
 Uncertainty uncertainty(const std::vector<FreeParameter>& parameters,
                         const Atmosphere<double>& atmosphere, const Eigen::MatrixXd& jacobian) {
   return uncertainty(std::vector<Variable>(parameters.begin(), parameters.end()),

@@ -27,6 +27,13 @@ struct Uncertainty {
 // its bounds; or when it takes part in a direction that neither data nor priors hold.
 Uncertainty uncertainty(const std::vector<Variable>& variables, const Eigen::VectorXd& scaled,
                         const Eigen::MatrixXd& jacobian);
+// The same for residuals whose covariance is not the unit matrix: A^-1 (M + P) A^-1 with A = J^T J
+// + P, P the priors' inverse variances and M = J^T covariance J over all variables. Nothing changes
+// where the matrix of `independent` is singular.
+Uncertainty with_correlated_residuals(const Uncertainty& independent,
+                                      const std::vector<Variable>& variables,
+                                      const Eigen::VectorXd& scaled, const Eigen::MatrixXd& m);
+
 Uncertainty uncertainty(const std::vector<FreeParameter>& parameters,
                         const Atmosphere<double>& atmosphere, const Eigen::MatrixXd& jacobian);
 

@@ -15,12 +15,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// - Azimuth offset: a compass or an unlevelled tripod is wrong by 10 deg without anybody noticing.
+// - Azimuth offset: a compass beside a metal tripod may be wrong by anything; the sky says it
+// better.
 // - Tilt: a spirit level holds 1 deg.
 // - Scale: radiance calibrations of field spectrometers claim 5 %.
 constexpr std::array<InstrumentInfo, kInstrumentCount> kTable = {{
     {Instrument::kAzimuthOffset, "instrument.azimuth_offset", "deg", kDegree, 0, -60 * kDegree,
-     60 * kDegree, Prior{0, 10 * kDegree}, "true minus stated azimuth, clockwise"},
+     60 * kDegree, Prior{0, 30 * kDegree}, "true minus stated azimuth, clockwise"},
     {Instrument::kTiltNorth, "instrument.tilt_north", "deg", kDegree, 0, -10 * kDegree,
      10 * kDegree, Prior{0, 1 * kDegree}, "lean of the instrument's axis toward north"},
     {Instrument::kTiltEast, "instrument.tilt_east", "deg", kDegree, 0, -10 * kDegree, 10 * kDegree,
