@@ -161,8 +161,11 @@ void describe_uncertainty(const MeasuredProblem& problem, const Eigen::VectorXd&
                   : kNan;
   const std::vector<double> weights = problem.loss_weights(white.residual);
   result.loss_weight.assign(result.model.size(), kNan);
-  for (const ScanRow& row : problem.fitted.rows)
+  result.sigma.assign(result.model.size(), kNan);
+  for (const ScanRow& row : problem.fitted.rows) {
     result.loss_weight[row.sample] = weights[static_cast<std::size_t>(row.look)];
+    result.sigma[row.sample] = row.sigma * noise.independent_factor;
+  }
 }
 
 void describe_values(const MeasuredProblem& problem, const refs::Reference& reference,

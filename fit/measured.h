@@ -43,7 +43,10 @@ enum class Pointing {
 
 struct MeasuredOptions {
   // The atmosphere's parameters, starts, limits and threads. Without `free` the table's, and for
-  // spectral radiances the Angstrom exponent as well.
+  // spectral radiances the Angstrom exponent as well; with an empty list none: the start is
+  // evaluated, with the instrument's unknowns fitted. The forward lobe g1 gets a prior. Where
+  // neither a preset nor a pressure is given, the air has the standard pressure of the elevation
+  // that the scans state.
   FitOptions common;
   std::set<Parameter> per_scan;  // of the free ones: one unknown per scan
   Calibration calibration = Calibration::kAbsolute;
@@ -53,6 +56,8 @@ struct MeasuredOptions {
   bool noise_is_stated = false;  // true: sigma is taken at its word
   Loss loss = Loss::kNone;
   double loss_width = 3;  // sigmas
+  std::optional<std::shared_ptr<const GroundSpectrum>>
+      ground;  // in place of the start's; null: grey
 };
 // Throws std::invalid_argument, one line that names the option.
 void validate(const MeasuredOptions& options);
@@ -96,7 +101,9 @@ struct MeasuredResult {
   MeasuredErrors start_errors, errors;
   std::vector<ScanOutcome> scans;
   std::vector<double> model, start_model;  // per sample of the reference, with the instrument
-  std::vector<double> loss_weight;         // per sample; NaN where the sample was not fitted
+  // Per sample; NaN where the sample was not fitted. sigma: the assumed one times the root mean
+  // square of the whitened residuals, what one sample scatters by.
+  std::vector<double> loss_weight, sigma;
   std::vector<StartSummary> starts;
   bool converged = false;
   std::string termination;

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "fit/derived.h"
+
 namespace skyfit::fit {
 namespace {
 
@@ -127,6 +129,16 @@ FitOptions with_default_parameters(const FitOptions& options, bool spectral,
   return result;
 }
 
+// Of the site, when every scan states the same.
+std::optional<double> common_elevation(const refs::Reference& reference) {
+  std::optional<double> elevation;
+  for (const refs::Scan& scan : reference.scans) {
+    if (!scan.elevation_m || (elevation && *elevation != *scan.elevation_m)) return {};
+    elevation = scan.elevation_m;
+  }
+  return elevation;
+}
+
 void check_counts(const refs::Reference& reference, const MeasuredProblem& problem,
                   const MeasuredOptions& options) {
   if (problem.fitted.rows.empty()) {
@@ -167,6 +179,10 @@ Eigen::VectorXd MeasuredProblem::residuals(const ScanData& data, const Eigen::Ve
 Minimum MeasuredProblem::solve(const ScanData& data, const Eigen::VectorXd& start_scaled,
                                double factor, const SolverLimits& limits) const {
   ScanResiduals function(*this, data, factor);
+  if (unknowns.empty()) {
+    const Residuals as_is = function.evaluate(start_scaled, false);
+    return {start_scaled, 0.5 * as_is.value.squaredNorm(), 0, 1, 0, true, "NOTHING IS FREE"};
+  }
   return minimise(least_squares(*this, data, &function), start_scaled, limits);
 }
 
@@ -195,10 +211,18 @@ MeasuredProblem measured_problem(const refs::Reference& reference, const Spectra
   selection.largest_channels = kSearchChannels;
   problem.coarse = scan_data(reference, spectra, selection);
   problem.all = scan_data(reference, spectra, {true, 0, options.noise, 0});
+  Atmosphere<double> given = start_atmosphere(options.common);
+  if (const auto elevation = common_elevation(reference);
+      elevation && !options.common.start && !options.common.site_pressure_hpa) {
+    given.rayleigh.site_pressure_hpa = standard_pressure_hpa(*elevation);
+  }
+  if (options.ground) given.ground_spectrum = *options.ground;
+  const bool evaluate_only = options.common.free && options.common.free->empty();
   const Atmosphere<double> base = with_fixed_values(
-      with_lobes(start_atmosphere(options.common), options.common.lobes), options.common);
+      evaluate_only ? given : with_lobes(given, options.common.lobes), options.common);
   const FitOptions common = with_default_parameters(options.common, spectral, base);
-  const std::vector<FreeParameter> parameters = choose_free_parameters(common, base);
+  const std::vector<FreeParameter> parameters =
+      evaluate_only ? std::vector<FreeParameter>{} : choose_free_parameters(common, base);
   problem.starts = choose_starts(base, parameters, common.starts, options.common.start.has_value());
   problem.start = start_state(problem.starts.front().atmosphere, problem.scans());
   add_atmosphere(options, parameters, problem.scans(), problem.unknowns);
