@@ -29,6 +29,20 @@ Eigen::VectorXd scaled_solution(const MeasuredResult& result) {
   return scaled;
 }
 
+// What is fitted again, and the factor on its sigma. Where neighbouring wavelengths agree, few of
+// them hold what all do, and weigh as all did; where noise is stated all are taken.
+struct Repeated {
+  const ScanData& data;
+  double factor;
+};
+Repeated repeated(const MeasuredProblem& problem, const MeasuredOptions& options,
+                  const MeasuredResult& result) {
+  if (options.noise_is_stated) return {problem.fitted, result.sigma_factor};
+  return {problem.medium,
+          result.sigma_factor * std::sqrt(static_cast<double>(problem.medium.rows.size()) /
+                                          static_cast<double>(problem.fitted.rows.size()))};
+}
+
 SolverLimits limits_of(const MeasuredOptions& options) {
   return {options.common.max_iterations, kTolerance};
 }
@@ -157,17 +171,17 @@ HoldOut held_out(const refs::Reference& reference, const SpectralData& spectra,
   const refs::Reference kept = without(reference, marked, false);
   const refs::Reference held = without(reference, marked, true);
   const MeasuredProblem problem = measured_problem(kept, spectra, model, options);
-  const Minimum minimum = problem.solve(problem.medium, scaled_solution(result),
-                                        result.sigma_factor, limits_of(options));
+  const auto [data, factor] = repeated(problem, options, result);
+  const Minimum minimum = problem.solve(data, scaled_solution(result), factor, limits_of(options));
   SkyState state = problem.state(minimum.scaled);
   std::vector<bool> left_out(state.instrument.size(), true);
   for (const Look& look : problem.fitted.looks)
     left_out[static_cast<std::size_t>(look.scan)] = false;
   share_instrument(state, left_out);
   HoldOut outcome{name, errors_at(problem, held, spectra, options, state), {}};
-  outcome.pointed = errors_at(
-      problem, held, spectra, options,
-      with_own_pointing(problem, held, spectra, options, state, result.sigma_factor, left_out));
+  outcome.pointed =
+      errors_at(problem, held, spectra, options,
+                with_own_pointing(problem, held, spectra, options, state, factor, left_out));
   return outcome;
 }
 
@@ -184,14 +198,14 @@ Profile profile_likelihood(const refs::Reference& reference, const SpectralData&
   MeasuredProblem others = whole;
   others.unknowns.erase(others.unknowns.begin() + static_cast<std::ptrdiff_t>(index));
   Profile profile{std::string(name), std::string(unknown.unit()), {}, {}, {}, {}};
+  const auto [data, factor] = repeated(others, options, result);
   for (const double scaled : scaled_grid(result.unknowns[index], solution(at))) {
     others.start =
         with_unknowns(whole.state(solution), {unknown}, Eigen::VectorXd::Constant(1, scaled));
     const double value = unknown.value(scaled);
     const double pull = unknown.prior ? (value - unknown.prior->mean) / unknown.prior->sigma : 0.0;
-    const Minimum minimum =
-        others.solve(others.medium, scaled_values(others.unknowns, others.start),
-                     result.sigma_factor, limits_of(options));
+    const Minimum minimum = others.solve(data, scaled_values(others.unknowns, others.start), factor,
+                                         limits_of(options));
     profile.value.push_back(value / unknown.unit_value());
     profile.chi_square.push_back(2 * minimum.cost + pull * pull);
   }
@@ -206,16 +220,16 @@ Bootstrap bootstrap(const refs::Reference& reference, const SpectralData& spectr
                     const SkyModel& model, const MeasuredOptions& options,
                     const MeasuredResult& result, int repetitions, std::uint64_t seed) {
   const MeasuredProblem problem = measured_problem(reference, spectra, model, options);
+  const auto [data, factor] = repeated(problem, options, result);
   const Eigen::VectorXd solution = scaled_solution(result);
   const std::size_t count = problem.unknowns.size();
   std::mt19937_64 generator(seed);
   Bootstrap outcome{repetitions, 0, std::vector(count, 0.0), std::vector(count, 0.0)};
   std::vector<Eigen::VectorXd> values;
   for (int k = 0; k < repetitions; ++k) {
-    const ScanData data = resampled(problem.medium, generator);
+    const ScanData drawn = resampled(data, generator);
     try {
-      const Minimum minimum =
-          problem.solve(data, solution, result.sigma_factor, limits_of(options));
+      const Minimum minimum = problem.solve(drawn, solution, factor, limits_of(options));
       Eigen::VectorXd value(static_cast<Eigen::Index>(count));
       for (std::size_t u = 0; u < count; ++u) {
         const auto i = static_cast<Eigen::Index>(u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a fit of measured skies can be trusted: the likelihood along one unknown, fits of
 // resampled directions, and the errors of samples that were not fitted. All repeat the fit from the
-// solution with at most 12 wavelengths; directions are taken with all their wavelengths.
+// solution, with at most 12 wavelengths unless the noise is stated.
 #pragma once
 
 #include <cstdint>
