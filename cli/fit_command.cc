@@ -33,14 +33,15 @@ struct FitCommandOptions {
   std::vector<std::string> fix, prior;
   ImportArguments import;
   MeasuredArguments measured;
-  int lobes = 2, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
+  int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads();
   bool no_priors = false, force = false, json = false;
 };
 
-fit::FitOptions fit_options(const FitCommandOptions& options, const CLI::App& command) {
+fit::FitOptions fit_options(const FitCommandOptions& options, const SkyModel& model,
+                            const CLI::App& command) {
   fit::FitOptions result;
-  result.lobes = options.lobes;
+  result.lobes = command.count("--lobes") > 0 ? options.lobes : model.lobes();
   result.starts = options.starts;
   result.max_iterations = options.max_iterations;
   result.exclude_sun = radians(parse_number("--exclude-sun-deg", options.exclude_sun));
@@ -113,13 +114,14 @@ std::vector<std::string> result_files() {
 void run_fit(FitCommandOptions options, const CLI::App& command) {
   const ResultDirectory out(options.out, result_files(), options.force);
   const std::map<fit::Instrument, Prior> instrument_priors = take_instrument_priors(options.prior);
-  fit::FitOptions how = fit_options(options, command);
+  const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
+  const fit::FitOptions how = fit_options(options, *model, command);
   const refs::Reference reference = load_references(options, command);
   if (is_measured_fit(command, reference)) {
     fit::MeasuredOptions measured;
     measured.common = how;
     measured.instrument_priors = instrument_priors;
-    run_measured_fit(options.measured, reference, measured, options.model, options.json, out);
+    run_measured_fit(options.measured, reference, measured, *model, options.json, out);
     return;
   }
   if (!instrument_priors.empty()) {
@@ -127,7 +129,6 @@ void run_fit(FitCommandOptions options, const CLI::App& command) {
                      std::string(fit::instrument_info(instrument_priors.begin()->first).name),
                      "expected an absolute or spectral reference with an instrument's prior");
   }
-  const auto model = make_sky_model(options.model, options.threads);
   const fit::FitResult result = fit_with_progress(reference, *model, how);
   out.publish([&](const std::filesystem::path& staging) {
     write_result(staging, reference, *model, how, result);
@@ -140,8 +141,8 @@ void run_fit(FitCommandOptions options, const CLI::App& command) {
 }
 
 void add_problem_options(CLI::App& command, FitCommandOptions& options) {
-  command.add_option("--lobes", options.lobes, "Lobes of the aerosol's phase function: 1 or 2")
-      ->capture_default_str();
+  command.add_option("--lobes", options.lobes, "Lobes of the aerosol's phase function: 1 or 2; by default 2, or the one that\n"
+                     "the model can tell");
   command.add_option("--starts", options.starts, "Starts of the phase parameters")
       ->capture_default_str();
   command.add_option("--max-iterations", options.max_iterations, "Iterations of one start")

@@ -216,11 +216,10 @@ std::map<fit::Instrument, Prior> take_instrument_priors(std::vector<std::string>
 }
 
 void run_measured_fit(const MeasuredArguments& arguments, refs::Reference reference,
-                      fit::MeasuredOptions options, const std::string& model_name, bool json,
+                      fit::MeasuredOptions options, const SkyModel& model, bool json,
                       const ResultDirectory& out) {
   apply(arguments, options);
   if (!arguments.keep_absorption_bands) refs::mask_absorption_bands(reference);
-  const auto model = make_sky_model(model_name, options.common.threads);
   fit::MeasuredResult result;
   fit::MeasuredChecks checks;
   {
@@ -228,9 +227,9 @@ void run_measured_fit(const MeasuredArguments& arguments, refs::Reference refere
     options.common.progress = [&](double fraction, const std::string& status) {
       progress.show(fraction, status);
     };
-    result = fit::fit_measured(reference, refs::standard_spectral_data(), *model, options);
+    result = fit::fit_measured(reference, refs::standard_spectral_data(), model, options);
     options.common.progress = {};
-    checks = checks_of(arguments, reference, *model, options, result);
+    checks = checks_of(arguments, reference, model, options, result);
   }
   const std::string report = fit::report_json(result, checks).dump(2) + "\n";
   out.publish([&](const std::filesystem::path& staging) {

@@ -32,7 +32,7 @@ std::map<fit::Instrument, Prior> take_instrument_priors(std::vector<std::string>
 
 // Fits, publishes the result and prints the report. Throws UsageError or what the fit throws.
 void run_measured_fit(const MeasuredArguments& arguments, refs::Reference reference,
-                      fit::MeasuredOptions options, const std::string& model, bool json,
+                      fit::MeasuredOptions options, const SkyModel& model, bool json,
                       const ResultDirectory& out);
 
 }  // namespace skyfit::cli

@@ -23,7 +23,7 @@ void run_plot(const PlotOptions& options) {
   std::vector<plot::FitOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(plot::read_fit_outcome(directory));
-  const auto model = make_sky_model("reference", options.threads);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), options.threads);
   plot::write_comparison(
       plot::comparison_of(fits, refs::standard_spectral_data(), *model),
       std::vector<std::filesystem::path>(options.out.begin(), options.out.end()));

@@ -160,7 +160,7 @@ void run_sky(const SkyOptions& options) {
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
     preset.atmosphere.rayleigh.site_pressure_hpa = *pressure;
-  const auto model = make_sky_model(options.model, options.threads);
+  const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
   if (options.irradiance) {
     print_irradiance(*model, preset.atmosphere, grid, table);
   } else {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# A room of the house is one static library of the .cc files in its folder: skyfit_room(model LINK ...) makes
-# skyfit::model.
+# A room of the house is one static library of the .cc files in its folder, and in those that FOLDERS names:
+# skyfit_room(model LINK ...) makes skyfit::model.
 
 add_library(skyfit_warnings INTERFACE)
 target_compile_options(skyfit_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
@@ -9,8 +9,12 @@ if(SKYFIT_WERROR)
 endif()
 
 function(skyfit_room name)
-  cmake_parse_arguments(ROOM "" "" "LINK;PRIVATE_LINK" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  cmake_parse_arguments(ROOM "" "" "FOLDERS;LINK;PRIVATE_LINK" ${ARGN})
+  set(patterns *.cc)
+  foreach(folder IN LISTS ROOM_FOLDERS)
+    list(APPEND patterns ${folder}/*.cc)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   add_library(skyfit_${name} STATIC ${sources})
   add_library(skyfit::${name} ALIAS skyfit_${name})
   set_target_properties(skyfit_${name} PROPERTIES EXPORT_NAME ${name})

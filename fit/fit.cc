@@ -72,6 +72,10 @@ void check_counts(const Task& task) {
 Task make_task(const refs::Reference& reference, const SpectralData& spectra, const SkyModel& model,
                const FitOptions& options) {
   validate(options);
+  if (options.lobes > model.lobes()) {
+    throw std::invalid_argument(fmt::format("fit.lobes = {}: must be at most {} for the {} model",
+                                            options.lobes, model.lobes(), model.name()));
+  }
   Task task{reference,
             model,
             options,
@@ -82,7 +86,7 @@ Task make_task(const refs::Reference& reference, const SpectralData& spectra, co
             {},
             {}};
   const Atmosphere<double> base = with_fixed_values(with_lobes(task.start, options.lobes), options);
-  task.parameters = choose_free_parameters(options, base);
+  task.parameters = choose_free_parameters(options, model, base);
   task.starts = choose_starts(base, task.parameters, options.starts, options.start.has_value());
   if (!options.start) task.start = task.starts.front().atmosphere;
   for (const auto& [id, value] : options.fix) {

@@ -49,9 +49,14 @@ bool is_free(const FitOptions& options, const ParameterInfo& info) {
   return std::find(options.free->begin(), options.free->end(), info.id) != options.free->end();
 }
 
-void check_names(const FitOptions& options, const Atmosphere<double>& atmosphere) {
+void check_names(const FitOptions& options, const SkyModel& model,
+                 const Atmosphere<double>& atmosphere) {
   for (const Parameter id : options.free.value_or(std::vector<Parameter>{})) {
     require_parameter(atmosphere, id, "free");
+    if (!model.can_fit(id)) {
+      throw std::invalid_argument(fmt::format("fit.free: {}: the {} model cannot tell it",
+                                              parameter_info(id).name, model.name()));
+    }
     if (options.fix.contains(id)) {
       throw std::invalid_argument(
           fmt::format("fit.free: {}: also fixed, must be one of the two", parameter_info(id).name));
@@ -132,12 +137,15 @@ FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior) {
   return {{info.lower, info.upper, is_scale(id) && info.lower > 0, prior}, id};
 }
 
-std::vector<FreeParameter> choose_free_parameters(const FitOptions& options,
+std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, const SkyModel& model,
                                                   const Atmosphere<double>& atmosphere) {
-  check_names(options, atmosphere);
+  check_names(options, model, atmosphere);
   std::vector<FreeParameter> result;
   for (const ParameterInfo& info : parameter_table()) {
-    if (!has_parameter(atmosphere, info.id) || !is_free(options, info)) continue;
+    if (!has_parameter(atmosphere, info.id) || !model.can_fit(info.id) ||
+        !is_free(options, info)) {
+      continue;
+    }
     const FreeParameter parameter = free_parameter(info.id, prior_of(options, info));
     check_start(parameter, get_parameter(atmosphere, info.id));
     result.push_back(parameter);

@@ -34,10 +34,11 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
 // one lobe made two with it as the stronger one. A tabulated phase function stays.
 Atmosphere<double> with_lobes(const Atmosphere<double>& atmosphere, int lobes);
 
-// Throws std::invalid_argument when nothing is free, when options name a parameter that the
-// atmosphere does not have or contradict each other, when a prior's parameter is not free, and when
+// Of those that the model can fit. Throws std::invalid_argument when nothing is free, when options
+// name a parameter that the atmosphere does not have or the model cannot fit, or contradict
+// each other, when a prior's parameter is not free, and when
 // the value of a free parameter is outside its bounds.
-std::vector<FreeParameter> choose_free_parameters(const FitOptions& options,
+std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, const SkyModel& model,
                                                   const Atmosphere<double>& atmosphere);
 
 std::vector<Parameter> ids(const std::vector<FreeParameter>& parameters);

@@ -110,12 +110,13 @@ void add_instruments(const MeasuredOptions& options, int scans, std::vector<Unkn
 }
 
 // The table's, and of spectra the wavelength dependence too.
-FitOptions with_default_parameters(const FitOptions& options, bool spectral,
+FitOptions with_default_parameters(const FitOptions& options, const SkyModel& model, bool spectral,
                                    const Atmosphere<double>& atmosphere) {
   FitOptions result = options;
   const bool g1_is_free = options.free
                               ? std::ranges::count(*options.free, Parameter::kMiePhaseG1) > 0
                               : has_parameter(atmosphere, Parameter::kMiePhaseG1) &&
+                         model.can_fit(Parameter::kMiePhaseG1) &&
                                     !options.fix.contains(Parameter::kMiePhaseG1);
   if (options.use_priors && g1_is_free)
     result.priors.emplace(Parameter::kMiePhaseG1, kForwardLobePrior);
@@ -123,7 +124,7 @@ FitOptions with_default_parameters(const FitOptions& options, bool spectral,
   result.free.emplace();
   for (const ParameterInfo& info : parameter_table()) {
     const bool free = info.free_by_default || info.id == Parameter::kMieAngstromExponent;
-    if (free && has_parameter(atmosphere, info.id) && !options.fix.contains(info.id))
+    if (free && has_parameter(atmosphere, info.id) && model.can_fit(info.id) && !options.fix.contains(info.id))
       result.free->push_back(info.id);
   }
   return result;
@@ -220,9 +221,9 @@ MeasuredProblem measured_problem(const refs::Reference& reference, const Spectra
   const bool evaluate_only = options.common.free && options.common.free->empty();
   const Atmosphere<double> base = with_fixed_values(
       evaluate_only ? given : with_lobes(given, options.common.lobes), options.common);
-  const FitOptions common = with_default_parameters(options.common, spectral, base);
+  const FitOptions common = with_default_parameters(options.common, model, spectral, base);
   const std::vector<FreeParameter> parameters =
-      evaluate_only ? std::vector<FreeParameter>{} : choose_free_parameters(common, base);
+      evaluate_only ? std::vector<FreeParameter>{} : choose_free_parameters(common, model, base);
   problem.starts = choose_starts(base, parameters, common.starts, options.common.start.has_value());
   problem.start = start_state(problem.starts.front().atmosphere, problem.scans());
   add_atmosphere(options, parameters, problem.scans(), problem.unknowns);

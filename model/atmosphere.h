@@ -33,6 +33,7 @@ struct PowerLaw {
   double wavelength_nm = 550;
   T value{};     // 1/m at wavelength_nm
   T exponent{};  // > 0: bluer is stronger
+  bool operator==(const PowerLaw&) const = default;
 };
 
 template <class T>
@@ -43,6 +44,7 @@ struct Rayleigh {
   // At h = 0; the coefficient is that of the standard pressure and goes as the pressure.
   double site_pressure_hpa = kStandardPressureHpa;
   TabulatedProfile profile = nullptr;
+  bool operator==(const Rayleigh&) const = default;
 };
 
 // The aerosol's phase function; all forms integrate to 1 over the sphere, g > 0 scatters forward.
@@ -54,6 +56,7 @@ struct AerosolPhase {
   T g1{0.8}, g2{0.3}, weight{0.5};                        // two lobes only; weight is that of g1
   PhaseType lobe = PhaseType::kCornetteShanks;            // or kHenyeyGreenstein
   std::shared_ptr<const TabulatedPhase> table = nullptr;  // kTabulated only
+  bool operator==(const AerosolPhase&) const = default;
 };
 
 template <class T>
@@ -63,6 +66,7 @@ struct Mie {
   T scale_height_m{1200.0};
   AerosolPhase<T> phase;
   TabulatedProfile profile = nullptr;
+  bool operator==(const Mie&) const = default;
 };
 
 template <class T>
@@ -70,6 +74,7 @@ struct Ozone {
   T column_du{300.0};  // vertical column, Dobson units; 1 DU = 2.687e20 molecules / m^2
   OzoneProfile profile = OzoneProfile::kTent;
   TabulatedProfile table = nullptr;  // kTabulated only; its column is column_du
+  bool operator==(const Ozone&) const = default;
 };
 
 template <class T>
@@ -81,6 +86,7 @@ struct Atmosphere {
   Ozone<T> ozone;
   T ground_albedo{0.1};  // Lambertian, at 550 nm
   std::shared_ptr<const GroundSpectrum> ground_spectrum = nullptr;  // null: grey
+  bool operator==(const Atmosphere&) const = default;
 };
 
 // "one lobe", "two lobes" or "a tabulated phase function".

@@ -96,8 +96,9 @@ struct Optics {
   }
 };
 
+// With the true phase function, nothing of its peak cut off; without its moments.
 template <int N>
-Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, int moment_count) {
+Optics<N> uncut_optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node) {
   constexpr double kMoleculesPerDobson = 2.687e20;  // 1/m^2
   auto at = [&](const PowerLaw<Dual<N>>& law) {
     return law.value * exp(law.exponent * -std::log(node.wavelength_nm / law.wavelength_nm));
@@ -109,19 +110,26 @@ Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, in
   o.depolarisation = a.rayleigh.depolarisation;
   o.air_moments = rayleigh_moments(o.depolarisation);
   o.phase = a.mie.phase;
-  o.moments = aerosol_phase_moments(a.mie.phase, moment_count + 1);
-  const Dual<N> cut = o.moments.back();
-  o.moments.pop_back();
-  for (Dual<N>& chi : o.moments) chi = (chi - cut) / (Dual<N>(1.0) - cut);
-  o.aerosol_scattering = at(a.mie.scattering_per_m);
-  o.aerosol_scattering_cut = o.aerosol_scattering * (Dual<N>(1.0) - cut);
-  o.aerosol_extinction_true = o.aerosol_scattering / a.mie.single_scattering_albedo;
-  o.aerosol_extinction = o.aerosol_extinction_true - o.aerosol_scattering * cut;
+  o.aerosol_scattering = o.aerosol_scattering_cut = at(a.mie.scattering_per_m);
+  o.aerosol_extinction_true = o.aerosol_extinction =
+      o.aerosol_scattering / a.mie.single_scattering_albedo;
   o.aerosol_scale_height = a.mie.scale_height_m;
   const Dual<N> column = a.ozone.column_du * (kMoleculesPerDobson * node.ozone_cross_section_m2);
   const Column unit = o.profiles.ozone.vertical_column();
   o.ozone = column / a.rayleigh.scale_height_m.chain(unit.value, unit.by_scale_height);
   o.ground_albedo = ground_albedo_at(a, node.wavelength_nm);
+  return o;
+}
+
+template <int N>
+Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, int moment_count) {
+  Optics<N> o = uncut_optics_at(a, node);
+  o.moments = aerosol_phase_moments(a.mie.phase, moment_count + 1);
+  const Dual<N> cut = o.moments.back();
+  o.moments.pop_back();
+  for (Dual<N>& chi : o.moments) chi = (chi - cut) / (Dual<N>(1.0) - cut);
+  o.aerosol_scattering_cut = o.aerosol_scattering * (Dual<N>(1.0) - cut);
+  o.aerosol_extinction = o.aerosol_extinction_true - o.aerosol_scattering * cut;
   return o;
 }
 

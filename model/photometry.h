@@ -28,6 +28,7 @@ struct SpectralData {
 struct WavelengthNode {
   double wavelength_nm;
   double ozone_cross_section_m2;
+  bool operator==(const WavelengthNode&) const = default;
 };
 
 // Nodes that read the tabulated ozone cross section as it is: for spectral radiances.

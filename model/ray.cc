@@ -61,6 +61,7 @@ RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s) {
 }
 
 PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point) {
+  if (point.s <= 0) return {};
   const bool entry_descends = ray.tangent_s > 0, point_descends = point.s < ray.tangent_s;
   if (!entry_descends) {  // both look up
     PathColumns c = shells.columns_to_top(ray.entry_height, ray.entry_mu);

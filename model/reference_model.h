@@ -30,9 +30,6 @@ class ReferenceModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
-  SkyValues irradiance(const Atmosphere<double>& atmosphere,
-                       std::span<const WavelengthNode> wavelengths, double altitude_m,
-                       double sun_zenith, std::span<const Parameter> derivatives) const override;
 
  private:
   ReferenceOptions options_;

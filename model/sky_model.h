@@ -60,10 +60,25 @@ class SkyModel {
                              std::span<const SkyPoint> points,
                              std::span<const Parameter> derivatives) const = 0;
 
-  // The values of Irradiance, in its order, as the points of SkyValues. Throws as radiance() does.
-  virtual SkyValues irradiance(const Atmosphere<double>& atmosphere,
-                               std::span<const WavelengthNode> wavelengths, double altitude_m,
-                               double sun_zenith, std::span<const Parameter> derivatives) const = 0;
+  // The values of Irradiance, in its order, as the points of SkyValues: the integral of radiance()
+  // over the sky, and the sun's beam behind the whole of the atmosphere's optical depth, which no
+  // model approximates. Throws as radiance() does.
+  SkyValues irradiance(const Atmosphere<double>& atmosphere,
+                       std::span<const WavelengthNode> wavelengths, double altitude_m,
+                       double sun_zenith, std::span<const Parameter> derivatives) const;
+
+  // Whether a sky can tell the parameter by this model: radiance() depends on it, and not only
+  // together with others. A fit leaves the rest as it is.
+  virtual bool can_fit(Parameter) const { return true; }
+
+  // How many lobes of the aerosol's phase function a fit can tell apart: 1 or 2.
+  virtual int lobes() const { return 2; }
+
+  // Computes the model's tables for an atmosphere and keeps those that were asked for last, so that
+  // radiance() with the same only looks them up. Returns their size in bytes; 0 for a model without
+  // tables, which has nothing to prepare. Throws as radiance() does.
+  virtual std::size_t prepare(const Atmosphere<double>& atmosphere,
+                              std::span<const WavelengthNode> wavelengths) const;
 };
 
 // For the models: throws std::invalid_argument "MODEL model: NAME = VALUE: must be EXPECTED" unless
@@ -72,11 +87,16 @@ void check_model_value(std::string_view model, bool good, std::string_view name,
                        std::string_view expected);
 void check_point(std::string_view model, const SkyPoint& point);
 
-// The names that make_sky_model accepts.
-std::vector<std::string_view> sky_model_names();
+struct SkyModelEntry {
+  std::string_view name;
+  std::string_view meaning;  // one line, with the source
+};
+// Every model, the yardstick first.
+std::span<const SkyModelEntry> sky_models();
 
 // Throws std::invalid_argument that lists the known names. `threads` >= 1; results do not depend on
-// it.
-std::unique_ptr<SkyModel> make_sky_model(std::string_view name, int threads);
+// it. `spectra`: what a model that speaks of luminance needs to speak of radiance.
+std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
+                                         int threads);
 
 }  // namespace skyfit

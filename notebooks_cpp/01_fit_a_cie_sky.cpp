@@ -90,7 +90,7 @@ void run_notebook(notebook::Page& page) {
   // %%
   page.cell();
   const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const std::unique_ptr<SkyModel> model = make_sky_model("reference", threads);
+  const std::unique_ptr<SkyModel> model = make_sky_model("reference", refs::standard_spectral_data(), threads);
   const SpectralData& spectra = refs::standard_spectral_data();
   const LuminanceRule rule = luminance_rule(spectra);
   const Preset published = parse_preset(refs::shipped_preset_json("bodare-2014"), "bodare-2014");

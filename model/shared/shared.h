@@ -10,12 +10,14 @@ namespace skyfit {
 namespace shared_functions {
 
 using std::acos;
+using std::atan;
 using std::cos;
 using std::exp;
 using std::log;
 using std::pow;
 using std::sin;
 using std::sqrt;
+using std::tan;
 
 template <class T>
 T max(const T& a, const T& b) {
@@ -34,8 +36,12 @@ template <class T>
 struct Shared {
   using Number = T;
 #define OUT(type) type&
+#include "model/shared/closed_forms.glsl"
 #include "model/shared/geometry.glsl"
 #include "model/shared/mapping.glsl"
+// after the geometry and the mapping that they stand on
+#include "model/shared/bodare_mapping.glsl"
+#include "model/shared/bruneton_mapping.glsl"
 #include "model/shared/media.glsl"
 #include "model/shared/phase.glsl"
 #undef OUT

@@ -17,7 +17,7 @@ void FitOfCie12(benchmark::State& state) {
   for (int sun = 0; sun <= 80; sun += 10) suns.push_back(sun * std::numbers::pi / 180);
   const refs::Reference reference =
       refs::load_reference("cie:12", suns, refs::Sampling::kPrincipalPlane);
-  const auto model = make_sky_model("reference", 1);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 1);
   fit::FitOptions options;
   options.lobes = static_cast<int>(state.range(0));
   for (auto _ : state) {

@@ -41,7 +41,7 @@ const std::vector<Parameter> kTen = {
 
 void run(benchmark::State& state, int directions, int node_count,
          const std::vector<Parameter>& derivatives, int threads) {
-  const auto model = make_sky_model("reference", threads);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), threads);
   const auto points = sky_points(directions);
   std::vector<double> nm;
   for (int k = 0; k < node_count; ++k) nm.push_back(450 + 200.0 * (k + 0.5) / node_count);

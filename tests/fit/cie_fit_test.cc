@@ -41,7 +41,7 @@ TEST_P(CieFitTest, ReachesTheKnownMisfit) {
   const refs::Reference reference = refs::load_reference(name, nine_suns(), sampling);
   FitOptions options;
   options.lobes = lobes;
-  const auto model = make_sky_model("reference", 2);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
   const FitResult result =
       fit_atmosphere(reference, refs::standard_spectral_data(), *model, options);
   EXPECT_LE(result.rms_log_percent, largest);

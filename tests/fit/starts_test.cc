@@ -16,7 +16,7 @@ using enum Parameter;
 std::vector<FreeParameter> all_free(int lobes) {
   FitOptions options;
   options.lobes = lobes;
-  return choose_free_parameters(options, true_atmosphere(lobes));
+  return choose_free_parameters(options, ToySky(), true_atmosphere(lobes));
 }
 
 FreeParameter free_parameter(Parameter id) {

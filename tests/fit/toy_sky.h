@@ -56,11 +56,6 @@ class ToySky : public SkyModel {
     return sky;
   }
 
-  SkyValues irradiance(const Atmosphere<double>&, std::span<const WavelengthNode>, double, double,
-                       std::span<const Parameter>) const override {
-    throw std::logic_error("the toy sky has no irradiance");
-  }
-
  private:
   static Jet radiance_at(const Atmosphere<double>& atmosphere, const WavelengthNode& node,
                          const SkyPoint& point) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "data_refs/spectra.h"
 #include "model/sky_model.h"
 
 namespace skyfit {
@@ -25,7 +26,8 @@ Atmosphere<double> haze() {
 
 // The largest difference between a logarithmic step and the mean of the steps before and after.
 double worst_kink(const std::vector<SkyPoint>& points) {
-  const SkyValues sky = make_sky_model("reference", 2)->radiance(haze(), {&kGreen, 1}, points, {});
+  const SkyValues sky = make_sky_model("reference", refs::standard_spectral_data(), 2)
+                            ->radiance(haze(), {&kGreen, 1}, points, {});
   std::vector<double> step;
   for (std::size_t i = 1; i < points.size(); ++i)
     step.push_back(std::log(sky.value[i] / sky.value[i - 1]));
@@ -71,7 +73,7 @@ TEST(Continuity, OfTheObserverThroughTheTop) {
 }
 
 TEST(Continuity, AnEyeOnTheGroundSeesTheGround) {
-  const auto model = make_sky_model("reference", 1);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 1);
   const Atmosphere<double> a = haze();
   for (const double sun : {0.0, 60.0, 88.0}) {
     const SkyPoint down{0, sun * kDegree, 2.0, 0.5};

@@ -43,7 +43,7 @@ Atmosphere<double> atmosphere(PhaseType type) {
 
 // `side` 0: central differences; 1 or -1: one-sided ones of second order, into the bounds.
 void expect_exact(const Atmosphere<double>& a, Parameter parameter, int side = 0) {
-  const auto model = make_sky_model("reference", 2);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
   const std::vector<WavelengthNode> nodes =
       spectral_nodes(refs::standard_spectral_data(), {460, 600});
   const std::vector<SkyPoint> list = points();
@@ -108,7 +108,7 @@ TEST(Derivatives, AtTheBounds) {
 }
 
 TEST(Derivatives, ComeWithTheSameValues) {
-  const auto model = make_sky_model("reference", 1);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 1);
   const Atmosphere<double> a = atmosphere(PhaseType::kTwoLobe);
   const std::vector<WavelengthNode> nodes = spectral_nodes(refs::standard_spectral_data(), {550});
   const std::vector<Parameter> two = {Parameter::kMieScattering, Parameter::kGroundAlbedo};

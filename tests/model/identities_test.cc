@@ -21,7 +21,9 @@ constexpr double kDegree = kPi / 180;
 const WavelengthNode kGreen{550, 0};
 
 double radiance(const Atmosphere<double>& a, const SkyPoint& point) {
-  return make_sky_model("reference", 1)->radiance(a, {&kGreen, 1}, {&point, 1}, {}).at(0, 0);
+  return make_sky_model("reference", refs::standard_spectral_data(), 1)
+      ->radiance(a, {&kGreen, 1}, {&point, 1}, {})
+      .at(0, 0);
 }
 
 Atmosphere<double> without_ozone() {
@@ -157,7 +159,8 @@ TEST(Reference, ConservativeAtmosphereOverWhiteGroundLosesNothing) {
       weights.push_back(2 * kPi * mu * zenith.weight[i] * azimuth.weight[k]);
     }
   }
-  const SkyValues up = make_sky_model("reference", 2)->radiance(a, {&kGreen, 1}, points, {});
+  const SkyValues up = make_sky_model("reference", refs::standard_spectral_data(), 2)
+                           ->radiance(a, {&kGreen, 1}, points, {});
   double flux = 0;
   for (std::size_t i = 0; i < points.size(); ++i) flux += weights[i] * up.value[i];
   EXPECT_NEAR(flux / std::cos(sun), 1, 0.002);
@@ -167,8 +170,10 @@ TEST(Reference, ThreadsDoNotChangeTheNumbers) {
   const Atmosphere<double> a;
   std::vector<SkyPoint> points;
   for (int i = 0; i < 40; ++i) points.push_back({0, 0.2 + 0.03 * i, 0.035 * i, 0.1 * i});
-  const SkyValues one = make_sky_model("reference", 1)->radiance(a, {&kGreen, 1}, points, {});
-  const SkyValues two = make_sky_model("reference", 2)->radiance(a, {&kGreen, 1}, points, {});
+  const SkyValues one = make_sky_model("reference", refs::standard_spectral_data(), 1)
+                            ->radiance(a, {&kGreen, 1}, points, {});
+  const SkyValues two = make_sky_model("reference", refs::standard_spectral_data(), 2)
+                            ->radiance(a, {&kGreen, 1}, points, {});
   EXPECT_EQ(one.value, two.value);
 }
 
@@ -176,7 +181,8 @@ TEST(Reference, ThreadsDoNotChangeTheNumbers) {
 TEST(Reference, APointDoesNotDependOnItsCompany) {
   const Atmosphere<double> a;
   const std::vector<SkyPoint> many = {{0, 0.1, 0.2, 0.3}, {0, 1.2, 0.9, 2.0}, {5e3, 1.5, 1.7, 1.0}};
-  const SkyValues all = make_sky_model("reference", 1)->radiance(a, {&kGreen, 1}, many, {});
+  const SkyValues all = make_sky_model("reference", refs::standard_spectral_data(), 1)
+                            ->radiance(a, {&kGreen, 1}, many, {});
   constexpr double kEndOfOrders = 1e-5;  // the sum over orders ends when the slowest sun is done
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(radiance(a, many[i]) / all.at(i, 0), 1, kEndOfOrders);
 }
@@ -191,13 +197,14 @@ TEST(Reference, NoAtmosphereIsBlackSkyAndLambertGround) {
 }
 
 TEST(Reference, RefusesWhatItCannotDo) {
-  const auto model = make_sky_model("reference", 1);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 1);
   const SkyPoint below{-1, 0, 0, 0};
   EXPECT_THROW(model->radiance({}, {&kGreen, 1}, {&below, 1}, {}), std::invalid_argument);
   const SkyPoint point{};
   const Parameter lobe = Parameter::kMiePhaseG1;
   EXPECT_THROW(model->radiance({}, {&kGreen, 1}, {&point, 1}, {&lobe, 1}), std::invalid_argument);
-  EXPECT_THROW(make_sky_model("nonsense", 1), std::invalid_argument);
+  EXPECT_THROW(make_sky_model("nonsense", refs::standard_spectral_data(), 1),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ double integral_of_radiance(const SkyModel& model, const Atmosphere<double>& a,
 
 void expect_integral(const Atmosphere<double>& a, double altitude, double sun_deg) {
   constexpr double kAgreement = 5e-4;  // of 32 rings of 32 directions
-  const auto model = make_sky_model("reference", 2);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
   const WavelengthNode node = spectral_nodes(refs::standard_spectral_data(), {480}).front();
   const double sun = sun_deg * kDegree;
   const SkyValues light = model->irradiance(a, {&node, 1}, altitude, sun, {});
@@ -107,7 +107,8 @@ TEST(Irradiance, IsTheSunsAndTheSkys) {
   a.ozone.column_du = 0;
   const WavelengthNode green{550, 0};
   const double sun = 40 * kDegree;
-  const SkyValues e = make_sky_model("reference", 1)->irradiance(a, {&green, 1}, 0, sun, {});
+  const SkyValues e = make_sky_model("reference", refs::standard_spectral_data(), 1)
+                          ->irradiance(a, {&green, 1}, 0, sun, {});
   EXPECT_DOUBLE_EQ(e.at(kDirectHorizontal, 0), e.at(kDirectNormal, 0) * std::cos(sun));
   EXPECT_DOUBLE_EQ(e.at(kGlobalHorizontal, 0),
                    e.at(kDirectHorizontal, 0) + e.at(kDiffuseHorizontal, 0));
@@ -119,7 +120,7 @@ TEST(Irradiance, IsTheSunsAndTheSkys) {
 TEST(Irradiance, TheSunBelowTheHorizonShinesFromNowhereButOnHighPlaces) {
   const Atmosphere<double> a;
   const WavelengthNode green{550, 0};
-  const auto model = make_sky_model("reference", 1);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 1);
   const double sun = 91 * kDegree;
   EXPECT_EQ(model->irradiance(a, {&green, 1}, 0, sun, {}).at(kDirectNormal, 0), 0);
   const SkyValues high = model->irradiance(a, {&green, 1}, 10e3, sun, {});
@@ -131,7 +132,7 @@ TEST(Irradiance, TheSunBelowTheHorizonShinesFromNowhereButOnHighPlaces) {
 TEST(Irradiance, DerivativesEqualDifferences) {
   constexpr double kDifference = 1e-5;  // as in derivatives_test.cc
   const Atmosphere<double> a = atmosphere(1.5e-4, 0.8);
-  const auto model = make_sky_model("reference", 2);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
   const WavelengthNode node = spectral_nodes(refs::standard_spectral_data(), {560}).front();
   const double sun = 70 * kDegree;
   std::vector<Parameter> parameters;

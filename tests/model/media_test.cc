@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "data_refs/spectra.h"
 #include "model/gauss.h"
 #include "model/parameters.h"
 #include "model/phase_moments.h"
@@ -20,7 +21,9 @@ constexpr double kPi = std::numbers::pi;
 const WavelengthNode kGreen{550, 3e-25};
 
 double radiance(const Atmosphere<double>& a, const SkyPoint& point) {
-  return make_sky_model("reference", 1)->radiance(a, {&kGreen, 1}, {&point, 1}, {}).at(0, 0);
+  return make_sky_model("reference", refs::standard_spectral_data(), 1)
+      ->radiance(a, {&kGreen, 1}, {&point, 1}, {})
+      .at(0, 0);
 }
 
 // 2 pi integral f(nu) P_l(nu) dnu

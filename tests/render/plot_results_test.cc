@@ -35,9 +35,7 @@ class CosineSky : public SkyModel {
                           1.1 + std::cos(point.view_zenith));
     return values;
   }
-  SkyValues irradiance(const Atmosphere<double>&, std::span<const WavelengthNode>, double, double,
-                       std::span<const Parameter>) const override {
-    return {};
+};
   }
 };
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 
+#include "data_refs/spectra.h"
 #include "model/sky_model.h"
 #include "render/render.h"
 #include "tests/render/gl_fixture.h"
@@ -53,7 +54,7 @@ TEST_P(SkyAgreement, SkyPixelsHaveTheModelsLuminance) {
     points.push_back(point);
   }
   const LuminanceRule rule = luminance_rule(refs::standard_spectral_data());
-  const auto model = make_sky_model("reference", 2);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
   const SkyValues values = model->radiance(preset.atmosphere, rule.nodes, points, {});
   double worst = 0, brightest = 0;
   std::size_t worst_point = 0;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiances of the reference model: the integral of its radiance, and the sun's beam.
+// Irradiances of any sky model: the integral of its radiance, and the sun's beam.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "model/gauss.h"
 #include "model/parameter_field.h"
-#include "model/sky_solution.h"
+#include "model/ray.h"
+#include "model/sky_model.h"
 
 namespace skyfit {
 namespace {
@@ -48,7 +49,7 @@ using DualIrradiance = Dual<kParameterCount>;
 std::vector<DualIrradiance> direct_beam(const Atmosphere<double>& atmosphere,
                                         std::span<const WavelengthNode> wavelengths,
                                         double altitude_m, double mu_s,
-                                        std::span<const Parameter> derivatives, int moments) {
+                                        std::span<const Parameter> derivatives) {
   Shells shells = shells_of(atmosphere);
   shells.ozone = true;  // for its derivative where there is none
   const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, mu_s);
@@ -60,9 +61,7 @@ std::vector<DualIrradiance> direct_beam(const Atmosphere<double>& atmosphere,
   const auto seeded_atmosphere = seeded<kParameterCount>(atmosphere, derivatives);
   std::vector<DualIrradiance> beam;
   for (const WavelengthNode& node : wavelengths) {
-    auto optics = optics_at(seeded_atmosphere, node, moments);
-    optics.aerosol_extinction = optics.aerosol_extinction_true;
-    beam.push_back(exp(-optics.optical_depth(columns)));
+    beam.push_back(exp(-uncut_optics_at(seeded_atmosphere, node).optical_depth(columns)));
   }
   return beam;
 }
@@ -81,15 +80,13 @@ DualIrradiance diffuse_of(const Hemisphere& hemisphere, const SkyValues& sky, in
 
 }  // namespace
 
-SkyValues ReferenceModel::irradiance(const Atmosphere<double>& atmosphere,
-                                     std::span<const WavelengthNode> wavelengths, double altitude_m,
-                                     double sun_zenith,
-                                     std::span<const Parameter> derivatives) const {
+SkyValues SkyModel::irradiance(const Atmosphere<double>& atmosphere,
+                               std::span<const WavelengthNode> wavelengths, double altitude_m,
+                               double sun_zenith, std::span<const Parameter> derivatives) const {
   const Hemisphere hemisphere = upper_hemisphere(altitude_m, sun_zenith);
   const SkyValues sky = radiance(atmosphere, wavelengths, hemisphere.points, derivatives);
   const double mu_s = std::cos(sun_zenith);
-  const auto beam =
-      direct_beam(atmosphere, wavelengths, altitude_m, mu_s, derivatives, options_.moments);
+  const auto beam = direct_beam(atmosphere, wavelengths, altitude_m, mu_s, derivatives);
   SkyValues result{kIrradianceCount, sky.wavelengths, sky.parameters, {}, {}};
   result.value.resize(static_cast<std::size_t>(result.points) * result.wavelengths);
   result.derivative.resize(result.value.size() * result.parameters);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/bruneton_model.h"
+#include "model/table_model.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -17,12 +17,12 @@ namespace skyfit {
 namespace {
 
 void check(bool good, std::string_view name, double value, std::string_view expected) {
-  check_model_value("bruneton", good, name, value, expected);
+  check_model_value("tables", good, name, value, expected);
 }
 
 void refuse_derivatives(std::span<const Parameter> derivatives) {
   if (!derivatives.empty())
-    throw std::invalid_argument("bruneton model: has no derivatives; the reference model has");
+    throw std::invalid_argument("tables model: has no derivatives; the reference model has");
 }
 
 // Where a point's view ray enters the air, as the tables see it.
@@ -77,17 +77,17 @@ void for_every_four(const Atmosphere<double>& atmosphere,
 
 }  // namespace
 
-BrunetonModel::BrunetonModel(int threads) : threads_(threads) {
+TableModel::TableModel(int threads) : threads_(threads) {
   check(threads >= 1, "threads", threads, ">= 1");
 }
 
-SkyValues BrunetonModel::radiance(const Atmosphere<double>& atmosphere,
-                                  std::span<const WavelengthNode> wavelengths,
-                                  std::span<const SkyPoint> points,
-                                  std::span<const Parameter> derivatives) const {
+SkyValues TableModel::radiance(const Atmosphere<double>& atmosphere,
+                               std::span<const WavelengthNode> wavelengths,
+                               std::span<const SkyPoint> points,
+                               std::span<const Parameter> derivatives) const {
   refuse_derivatives(derivatives);
   validate(atmosphere);
-  for (const SkyPoint& p : points) check_point("bruneton", p);
+  for (const SkyPoint& p : points) check_point("tables", p);
   SkyValues values{
       static_cast<int>(points.size()), static_cast<int>(wavelengths.size()), 0, {}, {}};
   values.value.resize(points.size() * wavelengths.size());
@@ -101,43 +101,6 @@ SkyValues BrunetonModel::radiance(const Atmosphere<double>& atmosphere,
                    });
                  });
   return values;
-}
-
-SkyValues BrunetonModel::irradiance(const Atmosphere<double>& atmosphere,
-                                    std::span<const WavelengthNode> wavelengths, double altitude_m,
-                                    double sun_zenith,
-                                    std::span<const Parameter> derivatives) const {
-  refuse_derivatives(derivatives);
-  validate(atmosphere);
-  const SkyPoint toward_sun{altitude_m, sun_zenith, sun_zenith, 0};
-  check_point("bruneton", toward_sun);
-  const double thickness = atmosphere.top_radius_m - atmosphere.bottom_radius_m;
-  const Entry sun = entry_of(atmosphere, toward_sun);
-  const double mu_s = std::cos(sun_zenith);
-  SkyValues result{kIrradianceCount, static_cast<int>(wavelengths.size()), 0, {}, {}};
-  result.value.resize(static_cast<std::size_t>(kIrradianceCount) * wavelengths.size());
-  for_every_four(
-      atmosphere, wavelengths, threads_,
-      [&](std::size_t first, std::size_t count, const AtmosphereTables& tables) {
-        NodeValues direct, diffuse{};
-        direct.fill(sun.ray.hits_ground ? 0 : 1);
-        if (sun.ray.length > 0 && !sun.ray.hits_ground) {
-          direct = lookup_optical_depth(tables, sun.place.height, sun.place.mu);
-          for (double& tau : direct) tau = std::exp(-tau);
-        }
-        if (altitude_m < thickness) diffuse = lookup_irradiance(tables, altitude_m, mu_s);
-        for (std::size_t k = 0; k < count; ++k) {
-          const auto put = [&](Irradiance which, double value) {
-            result.value[static_cast<std::size_t>(which) * wavelengths.size() + first + k] = value;
-          };
-          const double horizontal = direct[k] * std::max(mu_s, 0.0);
-          put(kDirectNormal, direct[k]);
-          put(kDirectHorizontal, horizontal);
-          put(kDiffuseHorizontal, diffuse[k]);
-          put(kGlobalHorizontal, horizontal + diffuse[k]);
-        }
-      });
-  return result;
 }
 
 }  // namespace skyfit

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// `bodare`: Bodare & Sandberg 2014, "Efficient and Dynamic Atmospheric Scattering": the tables of
+// bodare_tables.h, which says its equations; five orders of scattering; ozone. bodare_update.h
+// spreads an update of the tables over frames.
+// Left out: the azimuth between view and sun within the tables, light that the ground reflects into
+// the air, the direction of what is scattered more than once, refraction. Valid where the sun is
+// above or little below the horizon (to 101 deg); best near the sun's vertical plane.
+#pragma once
+
+#include "model/literature/bodare_tables.h"
+#include "model/literature/tabulated_model.h"
+
+namespace skyfit {
+
+struct BodareMethod {
+  static constexpr std::string_view kName = "bodare";
+  static constexpr int kBatch = literature::kBodareBatch;
+  using Geometry = literature::BodareGeometry;
+  template <int N>
+  using Tables = literature::BodareTables<N>;
+  template <int N>
+  static const Atmosphere<Dual<N>>& see(const Atmosphere<Dual<N>>& atmosphere) {
+    return atmosphere;
+  }
+  static bool can_fit(Parameter) { return true; }
+};
+using BodareModel = literature::TabulatedModel<BodareMethod>;
+
+}  // namespace skyfit

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/literature/bodare_update.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace skyfit {
+
+using literature::BodareSizes;
+using literature::BodareTables;
+
+void validate(const BodareUpdateOptions& options) {
+  const auto require = [](bool good, std::string_view name, int value, std::string_view expected) {
+    if (!good) {
+      throw std::invalid_argument(
+          fmt::format("bodare_update.{} = {}: must be {}", name, value, expected));
+    }
+  };
+  constexpr int kSlices[] = {2, 4, 8, 16, 32};
+  require(options.orders >= 1, "orders", options.orders, ">= 1");
+  require(std::ranges::count(kSlices, options.slices) > 0, "slices", options.slices,
+          "2, 4, 8, 16 or 32");
+}
+
+BodareSet::BodareSet(const Atmosphere<double>& atmosphere,
+                     std::span<const WavelengthNode> wavelengths)
+    : atmosphere_(atmosphere),
+      geometry_(std::make_unique<const literature::BodareGeometry>(atmosphere)) {
+  skyfit::validate(atmosphere);
+  const auto air = seeded<0>(atmosphere, {});
+  for (const WavelengthNode& node : wavelengths) {
+    tables_.push_back(std::make_unique<BodareTables<0>>(*geometry_, uncut_optics_at(air, node)));
+  }
+}
+
+BodareUpdate::BodareUpdate(const Atmosphere<double>& atmosphere,
+                           std::vector<WavelengthNode> wavelengths,
+                           const BodareUpdateOptions& options)
+    : options_(options), wavelengths_(std::move(wavelengths)) {
+  validate(options);
+  const auto first = std::make_shared<BodareSet>(atmosphere, wavelengths_);
+  for (int frame = 0; frame < frames_of_update(); ++frame) step(*first, frame);
+  older_ = newer_ = first;
+}
+
+int BodareUpdate::frames_of_update() const {
+  return (options_.orders - 1) * (options_.slices + 1) + options_.slices / 2;
+}
+
+void BodareUpdate::advance(const Atmosphere<double>& atmosphere) {
+  if (frame_ == 0) next_ = std::make_shared<BodareSet>(atmosphere, wavelengths_);
+  step(*next_, frame_++);
+  if (frame_ < frames_of_update()) return;
+  older_ = newer_;
+  newer_ = std::move(next_);
+  frame_ = 0;
+}
+
+double BodareUpdate::blend() const { return frame_ / static_cast<double>(frames_of_update()); }
+
+void BodareUpdate::step(BodareSet& set, int frame) const {
+  const int single_frames = options_.slices / 2, slice = BodareSizes::height / options_.slices;
+  tbb::parallel_for(std::size_t{0}, set.tables().size(), [&](std::size_t w) {
+    BodareTables<0>& tables = *set.tables()[w];
+    if (frame < single_frames) {
+      tables.scatter_once(2 * slice * frame, 2 * slice * (frame + 1));
+      if (frame == single_frames - 1) tables.add_order();
+    } else {
+      const int part = (frame - single_frames) % (options_.slices + 1) - 1;
+      if (part < 0) {
+        tables.gather();
+      } else {
+        tables.scatter_gathered(slice * part, slice * (part + 1));
+        if (part == options_.slices - 1) tables.add_order();
+      }
+    }
+    if (frame == frames_of_update() - 1) tables.light_ground();
+  });
+}
+
+std::vector<double> BodareUpdate::radiance(const SkyPoint& point) const {
+  check_point("bodare", point);
+  std::vector<double> light(wavelengths_.size());
+  const auto add = [&](const BodareSet& set, double weight) {
+    const literature::View view = literature::view_of(set.atmosphere(), point);
+    for (std::size_t w = 0; w < light.size(); ++w)
+      light[w] += weight * set.tables()[w]->radiance(view).v;
+  };
+  add(*older_, 1 - blend());
+  add(*newer_, blend());
+  return light;
+}
+
+}  // namespace skyfit

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodare & Sandberg 2014: an update of the tables spread over frames. Two finished sets are there
+// to interpolate between while a third is built; a set that is not finished is never shown.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/literature/bodare_tables.h"
+
+namespace skyfit {
+
+struct BodareUpdateOptions {
+  int orders = literature::BodareTables<0>::kOrders;  // K, >= 1
+  int slices = 8;                                     // X in {2, 4, 8, 16, 32}
+};
+// Throws std::invalid_argument `bodare_update.slices = 3: must be ...`.
+void validate(const BodareUpdateOptions& options);
+
+// The tables of one atmosphere at several wavelengths.
+class BodareSet {
+ public:
+  // Empty.
+  BodareSet(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths);
+  const Atmosphere<double>& atmosphere() const { return atmosphere_; }
+  std::span<const std::unique_ptr<literature::BodareTables<0>>> tables() const { return tables_; }
+
+ private:
+  Atmosphere<double> atmosphere_;
+  std::unique_ptr<const literature::BodareGeometry> geometry_;
+  std::vector<std::unique_ptr<literature::BodareTables<0>>> tables_;  // one per wavelength
+};
+
+class BodareUpdate {
+ public:
+  // Fills the first set at once. Throws std::invalid_argument.
+  BodareUpdate(const Atmosphere<double>& atmosphere, std::vector<WavelengthNode> wavelengths,
+               const BodareUpdateOptions& options);
+
+  // F = (K - 1) X + X / 2 + (K - 1): X / 2 frames of single scattering, two slices each; then for
+  // every further order one frame that gathers and X frames of one slice.
+  int frames_of_update() const;
+
+  // One frame's share of the next set, which is of the atmosphere given to the first of its frames.
+  // After the last one the set becomes newer(), the one before it older().
+  void advance(const Atmosphere<double>& atmosphere);
+
+  // The two finished sets and the weight of the newer, which grows from 0 to 1 while the next is
+  // built: picture = (1 - blend) of older + blend of newer.
+  const BodareSet& older() const { return *older_; }
+  const BodareSet& newer() const { return *newer_; }
+  double blend() const;
+
+  // Radiance (1/sr) of a point at every wavelength, interpolated between the two sets.
+  std::vector<double> radiance(const SkyPoint& point) const;
+
+ private:
+  void step(BodareSet& set, int frame) const;
+  BodareUpdateOptions options_;
+  std::vector<WavelengthNode> wavelengths_;
+  std::shared_ptr<const BodareSet> older_, newer_;
+  std::shared_ptr<BodareSet> next_;
+  int frame_ = 0;  // of the set that is being built
+};
+
+}  // namespace skyfit

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// `bruneton`: Bruneton & Neyret 2008, "Precomputed Atmospheric Scattering", with the mappings of
+// Bruneton 2017 and the repairs of Sperlhofer 2011, section 5.1: optical depths in the place of
+// transmittances (no noise near the eye), rays to ground and sky in halves of the table (no seam at
+// the horizon), single Mie scattering of every wavelength (none after sunset that is not there).
+// Five orders of scattering and of reflection by a Lambertian ground; ozone as in Bruneton 2017.
+// Deviations: quadrature (table_rays.h); azimuths of incoming light by sixteen cosines, 16 x 32
+// directions as published; sums over directions are scaled to keep the energy of a forward peak.
+// What is left out: orders beyond the fifth, refraction. What the tables cost is about a second per
+// wavelength, four derivatives two seconds more.
+#pragma once
+
+#include "model/literature/bruneton_tables.h"
+#include "model/literature/tabulated_model.h"
+
+namespace skyfit {
+
+struct BrunetonMethod {
+  static constexpr std::string_view kName = "bruneton";
+  static constexpr int kBatch = literature::kBrunetonBatch;
+  using Geometry = literature::BrunetonGeometry;
+  template <int N>
+  using Tables = literature::BrunetonTables<N>;
+  template <int N>
+  static const Atmosphere<Dual<N>>& see(const Atmosphere<Dual<N>>& atmosphere) {
+    return atmosphere;
+  }
+  static bool can_fit(Parameter) { return true; }
+};
+using BrunetonModel = literature::TabulatedModel<BrunetonMethod>;
+
+}  // namespace skyfit

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of Bruneton & Neyret 2008 at one wavelength, with derivatives; mappings and sizes of
+// Bruneton 2017 (model/shared/bruneton_mapping.glsl): transmittance 256 x 64 (mu, r), irradiance
+// 64 x 16 (mu_s, r), in-scatter 32 x 128 x 32 x 8 (r, mu, mu_s, nu). Values per unit solar
+// irradiance.
+#pragma once
+
+#include <vector>
+
+#include "model/literature/evaluate.h"
+#include "model/literature/grid.h"
+#include "model/literature/table_rays.h"
+
+namespace skyfit::literature {
+
+struct BrunetonSizes {
+  static constexpr int transmittance_mu = 256, transmittance_r = 64;
+  static constexpr int irradiance_mu_s = 64, irradiance_r = 16;
+  static constexpr int r = 32, mu = 128, mu_s = 32, nu = 8;
+};
+
+// Everything that depends on radii and scale heights alone, for all wavelengths and orders.
+class BrunetonGeometry {
+ public:
+  explicit BrunetonGeometry(const Atmosphere<double>& atmosphere);
+
+  struct Node {
+    RayNode at;
+    Between r, mu;  // in the tables; mu as texel and part, see BrunetonSizes::mu
+  };
+  struct Ray {
+    double height, mu;
+    bool ground;
+    std::vector<Node> nodes;
+  };
+  const Shells& shells() const { return shells_; }
+  double bottom() const { return shells_.bottom_radius; }
+  double thickness() const { return shells_.top; }
+  const Ray& ray(int r, int mu) const {
+    return rays_[static_cast<std::size_t>(r * BrunetonSizes::mu + mu)];
+  }
+  // Where a ray stands on the axis mu: the first half of the texels are rays to the ground.
+  Between mu_texel(double height, double mu, bool ground) const;
+  Between r_texel(double height, int size) const;
+  // Where suns stand on the axis mu_s.
+  Between sun_texel(double mu_s) const;
+  double sun_of_texel(int mu_s) const { return suns_[static_cast<std::size_t>(mu_s)]; }
+
+ private:
+  Shells shells_;
+  std::vector<Ray> rays_;
+  std::vector<double> suns_;         // cosines of the texels
+  std::vector<float> sun_position_;  // on the axis, for cosines spaced evenly
+};
+
+template <int N>
+class BrunetonTables {
+ public:
+  static constexpr int kOrders = 5;  // of scattering, the single one included
+
+  // Runs on the threads of the task arena. `geometry` is that of the atmosphere, and outlives the
+  // tables; every one is filled, whatever the views.
+  BrunetonTables(const BrunetonGeometry& geometry, const Optics<N>& air,
+                 std::span<const View> views);
+
+  // Of the whole ray, light from the ground included, 1/sr.
+  Dual<N> radiance(const View& view) const;
+
+  // What the tables hold at a place inside the atmosphere; cosines of view and sun zenith and of
+  // the angle between them.
+  Dual<N> optical_depth(double height, double mu) const;  // to the top; the ray misses the ground
+  struct InScatter {
+    Dual<N> rayleigh_like;  // single Rayleigh + all further light / Rayleigh phase function
+    Dual<N> single_mie;     // over the aerosol's phase function
+  };
+  InScatter in_scatter(double height, double mu, double mu_s, double nu, bool ground) const;
+  // On the horizontal, facing up; with derivatives (N > 0) of the ground alone, height 0.
+  Dual<N> sky_irradiance(double height, double mu_s) const;
+
+  std::size_t bytes() const;
+
+ private:
+  template <int>
+  friend class BrunetonSolver;
+  const BrunetonGeometry& geometry_;
+  Optics<N> air_;
+  Grid<N, 2> optical_depth_;               // [r][mu]
+  Grid<N, 2> irradiance_;                  // [r][mu_s]
+  Grid<N, 4> rayleigh_like_, single_mie_;  // [r][mu][mu_s][nu]
+};
+
+inline constexpr int kBrunetonBatch = 4;  // derivatives at once: 170 MB while the tables are made
+extern template class BrunetonTables<0>;
+extern template class BrunetonTables<kBrunetonBatch>;
+
+}  // namespace skyfit::literature

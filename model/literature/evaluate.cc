@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/literature/evaluate.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <stdexcept>
+
+namespace skyfit::literature {
+
+View view_of(const Atmosphere<double>& atmosphere, const SkyPoint& point) {
+  const double bottom = atmosphere.bottom_radius_m;
+  const double mu = std::cos(point.view_zenith), mu_s = std::cos(point.sun_zenith);
+  const double nu =
+      std::clamp(mu * mu_s + std::sin(point.view_zenith) * std::sin(point.sun_zenith) *
+                                 std::cos(point.relative_azimuth),
+                 -1.0, 1.0);
+  const ViewRay ray = view_ray(bottom, atmosphere.top_radius_m - bottom, point.altitude_m, mu);
+  const double entry_mu_s =
+      ((bottom + point.altitude_m) * mu_s + ray.entry_distance * nu) / (bottom + ray.entry_height);
+  return {ray, std::clamp(entry_mu_s, -1.0, 1.0), nu};
+}
+
+void check_request(std::string_view model, const Atmosphere<double>& atmosphere,
+                   std::span<const SkyPoint> points, std::span<const Parameter> derivatives) {
+  validate(atmosphere);
+  for (const SkyPoint& point : points) check_point(model, point);
+  for (const Parameter parameter : derivatives) {
+    if (has_parameter(atmosphere, parameter)) continue;
+    throw std::invalid_argument(
+        fmt::format("{} model: the atmosphere has no {} to differentiate by", model,
+                    parameter_info(parameter).name));
+  }
+}
+
+void check_daylight(std::string_view model, std::span<const SkyPoint> points, double highest_m) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  for (const SkyPoint& point : points) {
+    check_model_value(model, point.sun_zenith < 0.5 * std::numbers::pi, "sun zenith (deg)",
+                      point.sun_zenith * kDegrees, "below 90: the model has no twilight");
+    check_model_value(model, point.altitude_m <= highest_m, "altitude_m", point.altitude_m,
+                      fmt::format("at most {:.9g}, as high as the model is valid", highest_m));
+  }
+}
+
+void check_exponential(std::string_view model, const Atmosphere<double>& atmosphere) {
+  const auto check = [&](const TabulatedProfile& profile, std::string_view path) {
+    if (profile == nullptr) return;
+    throw std::invalid_argument(
+        fmt::format("{} model: {}: a tabulated profile: must be exponential", model, path));
+  };
+  check(atmosphere.rayleigh.profile, "rayleigh.profile");
+  check(atmosphere.mie.profile, "mie.profile");
+}
+
+}  // namespace skyfit::literature

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nielsen`: Nielsen 2003, "Real Time Rendering of Atmospheric Scattering Effects for Flight
+// Simulators": the closed form of Hoffman & Preetham 2002 with the mean of the densities at the two
+// ends of a path to the ground, an interpolated depth of the sky, and an asymmetry that follows the
+// eye's height, the sun and the haze (model/shared/closed_forms.glsl has all of them).
+// The two densities of the published shader, which it swaps in the extinction, are each used with
+// their own coefficient, and both ends are halved. Choices where the source is not legible: the
+// asymmetry of thick haze is the preset's g (the mean of its lobes), so that a fit has it; the
+// factor on the Mie coefficient is over Hoffman & Preetham's of turbidity 2; the sun's light is
+// that at the eye, behind the model's own depth of the sky. Left out: absorption and ozone, every
+// further scattering, the preset's scale heights (the model has its own). Valid by day, the sun
+// above the horizon, up to 20 km.
+#pragma once
+
+#include "model/sky_model.h"
+
+namespace skyfit {
+
+class NielsenModel final : public SkyModel {
+ public:
+  std::string_view name() const override { return "nielsen"; }
+  SkyValues radiance(const Atmosphere<double>& atmosphere,
+                     std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
+                     std::span<const Parameter> derivatives) const override;
+  bool can_fit(Parameter parameter) const override;
+  int lobes() const override { return 1; }
+};
+
+}  // namespace skyfit

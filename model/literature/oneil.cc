@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/literature/oneil.h"
+
+#include <numbers>
+
+#include "model/literature/evaluate.h"
+#include "model/phase_moments.h"
+#include "model/shared/shared.h"
+#include "model/sky_geometry.h"
+
+namespace skyfit {
+namespace {
+
+constexpr std::string_view kName = "oneil";
+constexpr int kSamples = 5;
+
+bool is_oneils_geometry(const Atmosphere<double>& a) {
+  constexpr double kThickness = 0.025, kScaleDepth = 0.25, kSame = 1e-3;
+  const double thickness = a.top_radius_m - a.bottom_radius_m;
+  const auto same = [](double x, double y) { return std::abs(x / y - 1) < kSame; };
+  return !a.rayleigh.profile && !a.mie.profile && same(thickness / a.bottom_radius_m, kThickness) &&
+         same(a.rayleigh.scale_height_m / thickness, kScaleDepth) &&
+         same(a.mie.scale_height_m / thickness, kScaleDepth);
+}
+
+// The columns of one atmosphere by the polynomial or in closed form.
+class Depths {
+ public:
+  explicit Depths(const Atmosphere<double>& atmosphere)
+      : shells_(shells_of(atmosphere)), polynomial_(is_oneils_geometry(atmosphere)) {
+    shells_.ozone = false;
+  }
+
+  double bottom() const { return shells_.bottom_radius; }
+  PathColumns to_top(double height, double mu) const {
+    if (!polynomial_) return shells_.columns_to_top(height, mu);
+    const double slant = Shared<double>{}.oneil_slant(mu);
+    const auto column = [&](const Profile& profile) {  // H exp(-h / H) slant
+      const Density density = profile.density(height);
+      return Column{slant * profile.scale_height() * density.value,
+                    slant * (density.value + profile.scale_height() * density.by_scale_height)};
+    };
+    return {column(shells_.profiles.air), column(shells_.profiles.aerosol), {}};
+  }
+  // From the ray's beginning.
+  PathColumns along(const ViewRay& ray, const RayPoint& point) const {
+    if (!polynomial_) return columns_along(shells_, ray, point);
+    const bool down = ray.hits_ground;  // both ends as seen from the other
+    PathColumns begin = to_top(ray.entry_height, down ? -ray.entry_mu : ray.entry_mu),
+                end = to_top(point.height, down ? -point.mu : point.mu);
+    return down ? end += -begin : begin += -end;
+  }
+
+ private:
+  Shells shells_;
+  bool polynomial_;
+};
+
+// What a ray needs of its five samples, whatever the wavelength.
+struct Sample {
+  double height;
+  PathColumns columns;  // from the eye and on to the sun
+};
+struct Path {
+  literature::View view;
+  double step = 0;
+  std::vector<Sample> lit;  // by the sun
+  bool ground_lit = false;
+  double ground_mu_s = 0;
+  PathColumns ground_columns;
+};
+Path path_of(const Atmosphere<double>& atmosphere, const Depths& depths, const SkyPoint& point) {
+  Path path{literature::view_of(atmosphere, point), 0, {}, false, 0, {}};
+  const ViewRay& ray = path.view.ray;
+  const SunAlongRay sun(depths.bottom(), ray, point);
+  path.step = ray.length / kSamples;
+  const auto columns = [&](const RayPoint& at, double mu_s) {
+    PathColumns c = depths.along(ray, at);
+    return c += depths.to_top(at.height, mu_s);
+  };
+  for (int i = 0; i < kSamples && ray.length > 0; ++i) {
+    const RayPoint at = ray_point(ray, depths.bottom(), path.step * (i + 0.5));
+    const double mu_s = sun.mu_s(at);
+    if (sun.lit(at, mu_s)) path.lit.push_back({at.height, columns(at, mu_s)});
+  }
+  if (ray.hits_ground) {
+    const RayPoint at = ray_point(ray, depths.bottom(), ray.length);
+    path.ground_mu_s = sun.mu_s(at);
+    path.ground_lit = path.ground_mu_s > 0;
+    if (path.ground_lit) path.ground_columns = columns(at, path.ground_mu_s);
+  }
+  return path;
+}
+
+template <int N>
+Dual<N> radiance_of(const Optics<N>& air, const Path& path) {
+  Dual<N> by_air(0.0), by_aerosol(0.0);
+  for (const Sample& sample : path.lit) {
+    const Dual<N> through = exp(-air.optical_depth(sample.columns));
+    const Densities<N> density = air.densities(sample.height);
+    by_air += density.air * through;
+    by_aerosol += density.aerosol * through;
+  }
+  const double nu = path.view.nu;
+  Dual<N> light =
+      path.step * (air.air * Shared<double>{}.rayleigh_phase(air.depolarisation, nu) * by_air +
+                   air.aerosol_scattering * aerosol_phase(air.phase, nu) * by_aerosol);
+  if (path.ground_lit) {
+    light += air.ground_albedo * (path.ground_mu_s / std::numbers::pi) *
+             exp(-air.optical_depth(path.ground_columns));
+  }
+  return light;
+}
+
+}  // namespace
+
+SkyValues ONeilModel::radiance(const Atmosphere<double>& atmosphere,
+                               std::span<const WavelengthNode> wavelengths,
+                               std::span<const SkyPoint> points,
+                               std::span<const Parameter> derivatives) const {
+  literature::check_request(kName, atmosphere, points, derivatives);
+  const Depths depths(atmosphere);
+  std::vector<Path> paths;
+  for (const SkyPoint& point : points) paths.push_back(path_of(atmosphere, depths, point));
+  return literature::evaluate<literature::kAllAtOnce>(
+      atmosphere, wavelengths, points.size(), derivatives,
+      [&]<int N>(const Atmosphere<Dual<N>>& air, const WavelengthNode& node,
+                 std::span<Dual<N>> out) {
+        const Optics<N> optics = uncut_optics_at(literature::without_absorption(air), node);
+        for (std::size_t i = 0; i < paths.size(); ++i) out[i] = radiance_of(optics, paths[i]);
+      });
+}
+
+bool ONeilModel::can_fit(Parameter parameter) const {
+  return parameter != Parameter::kMieSingleScatteringAlbedo && parameter != Parameter::kOzoneColumn;
+}
+
+}  // namespace skyfit

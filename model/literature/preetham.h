@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// `preetham`: Preetham, Shirley & Smits 1999, "A Practical Analytic Model for Daylight": luminance
+// and chromaticity of a clear sky in closed form over the turbidity T, for each of Y, x, y
+//   L = L_zenith F(Z, gamma) / F(0, Z_sun),
+//   F(Z, gamma) = (1 + A exp(B / cos Z)) (1 + C exp(D gamma) + E cos^2 gamma).
+// T is the preset's: (tau_R + tau_M) / tau_R, vertical optical depths at 550 nm, of extinction. The
+// spectrum is not that of the paper: it is the solar irradiance times the polynomial of degree 2 in
+// wavelength that has the model's X, Y, Z, so that a rule of few wavelengths gives them back.
+// Known: far too bright against measurements, by a factor of about 2.4.
+// Left out: everything of the atmosphere but T. Valid on the ground, toward the sky, sun above the
+// horizon, T 1.25 .. 10 (below, the zenith is dark); throws std::domain_error for a turbidity outside.
+#pragma once
+
+#include <array>
+
+#include "model/sky_model.h"
+
+namespace skyfit {
+
+// The vertical optical depth of the atmosphere over that of its air, at 550 nm.
+double preetham_turbidity(const Atmosphere<double>& atmosphere);
+
+class PreethamModel final : public SkyModel {
+ public:
+  explicit PreethamModel(const SpectralData& spectra);
+  std::string_view name() const override { return "preetham"; }
+  SkyValues radiance(const Atmosphere<double>& atmosphere,
+                     std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
+                     std::span<const Parameter> derivatives) const override;
+  // The aerosol's amount alone: the sky fixes one number.
+  bool can_fit(Parameter parameter) const override;
+
+ private:
+  // [power][X, Y, Z]: coefficient of the power of the wavelength (550 nm = 1) per cd/m^2 of X, Y,
+  // Z.
+  std::array<std::array<double, 3>, 3> power_from_xyz_;
+};
+
+}  // namespace skyfit

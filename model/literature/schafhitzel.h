@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// `schafhitzel`: Schafhitzel, Falk & Ertl 2007, "Real-Time Rendering of Planets with Atmospheres":
+// single scattering from the table of schafhitzel_tables.h, on any planet.
+// Left out: absorption and ozone, every further scattering, the azimuth between view and sun within
+// the table; the ground reflects the sun alone. Angles spaced evenly blur the horizon over 1.4 deg.
+#pragma once
+
+#include "model/literature/schafhitzel_tables.h"
+#include "model/literature/tabulated_model.h"
+
+namespace skyfit {
+
+struct SchafhitzelMethod {
+  static constexpr std::string_view kName = "schafhitzel";
+  static constexpr int kBatch = literature::kSchafhitzelBatch;
+  using Geometry = literature::SchafhitzelGeometry;
+  template <int N>
+  using Tables = literature::SchafhitzelTables<N>;
+  template <int N>
+  static Atmosphere<Dual<N>> see(const Atmosphere<Dual<N>>& atmosphere) {
+    return literature::without_absorption(atmosphere);
+  }
+  static bool can_fit(Parameter parameter) {
+    return parameter != Parameter::kMieSingleScatteringAlbedo &&
+           parameter != Parameter::kOzoneColumn;
+  }
+};
+using SchafhitzelModel = literature::TabulatedModel<SchafhitzelMethod>;
+
+}  // namespace skyfit

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sky model of tables that are computed for one wavelength at a time. Its method names
+//   kName, kBatch (derivatives at once),
+//   Geometry(Atmosphere<double>): all that does not depend on the wavelength,
+//   Tables<N>(geometry, optics, views): the tables, of which those that the views need may do,
+//   with radiance(view) and bytes(); no views: all of them,
+//   see(Atmosphere<Dual<N>>): the atmosphere as the method sees it,
+//   can_fit(Parameter).
+#pragma once
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
+#include <mutex>
+
+#include "model/literature/evaluate.h"
+
+namespace skyfit::literature {
+
+template <class Method>
+class TabulatedModel final : public SkyModel {
+ public:
+  explicit TabulatedModel(int threads) : threads_(threads) {
+    check_model_value(Method::kName, threads >= 1, "threads", threads, ">= 1");
+  }
+  std::string_view name() const override { return Method::kName; }
+  bool can_fit(Parameter parameter) const override { return Method::can_fit(parameter); }
+
+  SkyValues radiance(const Atmosphere<double>& atmosphere,
+                     std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
+                     std::span<const Parameter> derivatives) const override {
+    check_request(Method::kName, atmosphere, points, derivatives);
+    std::vector<View> views;
+    for (const SkyPoint& point : points) views.push_back(view_of(atmosphere, point));
+    const std::shared_ptr<const Kept> kept = kept_for(atmosphere);
+    std::shared_ptr<const Geometry> geometry = kept ? kept->geometry : nullptr;
+    return tbb::task_arena(threads_).execute([&] {
+      return evaluate<Method::kBatch>(
+          atmosphere, wavelengths, points.size(), derivatives,
+          [&]<int N>(const Atmosphere<Dual<N>>& air, const WavelengthNode& node,
+                     std::span<Dual<N>> out) {
+            const auto look_up = [&](const Tables<N>& tables) {
+              tbb::parallel_for(std::size_t{0}, views.size(),
+                                [&](std::size_t i) { out[i] = tables.radiance(views[i]); });
+            };
+            if constexpr (N == 0) {
+              if (const Tables<0>* tables = kept ? kept->at(node) : nullptr)
+                return look_up(*tables);
+            }
+            if (!geometry) geometry = std::make_shared<const Geometry>(atmosphere);
+            look_up(Tables<N>(*geometry, uncut_optics_at(Method::see(air), node), views));
+          });
+    });
+  }
+
+  std::size_t prepare(const Atmosphere<double>& atmosphere,
+                      std::span<const WavelengthNode> wavelengths) const override {
+    check_request(Method::kName, atmosphere, {}, {});
+    const auto kept = std::make_shared<Kept>();
+    kept->atmosphere = atmosphere;
+    std::size_t bytes = 0;
+    tbb::task_arena(threads_).execute([&] {
+      kept->geometry = std::make_shared<const Geometry>(atmosphere);
+      const Atmosphere<Dual<0>> air = Method::see(seeded<0>(atmosphere, {}));
+      for (const WavelengthNode& node : wavelengths) {
+        kept->nodes.push_back(node);
+        kept->tables.push_back(std::make_unique<const Tables<0>>(
+            *kept->geometry, uncut_optics_at(air, node), std::span<const View>{}));
+        bytes += kept->tables.back()->bytes();
+      }
+    });
+    const std::lock_guard lock(mutex_);
+    kept_ = kept;
+    return bytes;
+  }
+
+ private:
+  using Geometry = typename Method::Geometry;
+  template <int N>
+  using Tables = typename Method::template Tables<N>;
+
+  struct Kept {
+    Atmosphere<double> atmosphere;
+    std::shared_ptr<const Geometry> geometry;
+    std::vector<WavelengthNode> nodes;
+    std::vector<std::unique_ptr<const Tables<0>>> tables;
+
+    const Tables<0>* at(const WavelengthNode& node) const {
+      const auto found = std::find(nodes.begin(), nodes.end(), node);
+      return found == nodes.end() ? nullptr : tables[found - nodes.begin()].get();
+    }
+  };
+  std::shared_ptr<const Kept> kept_for(const Atmosphere<double>& atmosphere) const {
+    const std::lock_guard lock(mutex_);
+    return kept_ && kept_->atmosphere == atmosphere ? kept_ : nullptr;
+  }
+
+  int threads_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const Kept> kept_;
+};
+
+}  // namespace skyfit::literature

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// The models without tables say what their published formulas say, worked out by hand, and refuse
+// what they cannot do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "data_refs/spectra.h"
+#include "model/literature/preetham.h"
+#include "model/photometry.h"
+#include "model/shared/shared.h"
+#include "model/sky_model.h"
+#include "model/slant_column.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDigits = 1e-9;  // of the figures worked out by hand
+constexpr WavelengthNode kGreen{550, 0};
+constexpr SkyPoint kSide{0, 40 * kDegree, 60 * kDegree, 90 * kDegree};
+
+std::unique_ptr<SkyModel> model_named(std::string_view name) {
+  return make_sky_model(name, refs::standard_spectral_data(), 2);
+}
+double radiance(std::string_view name, const Atmosphere<double>& a, const SkyPoint& point) {
+  return model_named(name)->radiance(a, {&kGreen, 1}, {&point, 1}, {}).at(0, 0);
+}
+
+// beta_R 1.216e-5, beta_M 2.2e-5 1/m, scale heights 8 and 1.2 km, g 0.76: airmass 1.99276.
+TEST(HoffmanPreetham, SkyByHand) {
+  EXPECT_NEAR(radiance("hoffman-preetham", {}, kSide) / 0.007233582169220366, 1, kDigits);
+}
+
+// A path of length d to a black ground scatters (beta P) / beta E (1 - exp(-beta d)).
+TEST(HoffmanPreetham, GroundByHand) {
+  Atmosphere<double> a;
+  a.mie.scattering_per_m.value = 0;
+  a.ground_albedo = 0;
+  const SkyPoint down{500, 0, std::numbers::pi, 0};
+  const double beta = 1.216e-5,
+               sun = std::exp(-beta * 8000 * Shared<double>{}.relative_air_mass(1));
+  EXPECT_NEAR(radiance("hoffman-preetham", a, down),
+              sun * 3 / (8 * std::numbers::pi) * -std::expm1(-beta * 500), 1e-12);
+}
+
+TEST(HoffmanPreetham, RefusesTwilightAndHeight) {
+  EXPECT_THROW(radiance("hoffman-preetham", {}, {0, 90 * kDegree, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(radiance("hoffman-preetham", {}, {2000, 0, 0, 0}), std::invalid_argument);
+}
+
+// From 3 km; haze 0.35 of the way from the clear asymmetry 0.4264 to g = 0.76: 0.54305.
+TEST(Nielsen, SkyByHand) {
+  SkyPoint high = kSide;
+  high.altitude_m = 3000;
+  EXPECT_NEAR(radiance("nielsen", {}, high) / 0.019300777413634274, 1, kDigits);
+}
+
+TEST(Nielsen, BothEndsOfATerrainPathAreHalved) {
+  EXPECT_DOUBLE_EQ(Shared<double>{}.nielsen_terrain_depth(0, 0, 1000, 15e3), 1000);
+  EXPECT_DOUBLE_EQ(Shared<double>{}.nielsen_terrain_depth(15e3, 0, 2, 15e3), 1 + std::exp(-1.0));
+}
+
+TEST(Nielsen, RefusesTwilightAndSpace) {
+  EXPECT_THROW(radiance("nielsen", {}, {0, 91 * kDegree, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(radiance("nielsen", {}, {1e5, 0, 3, 0}), std::invalid_argument);
+}
+
+// Turbidity 3, sun at 40 deg, a direction at 60 deg across: xyY of the published formulas.
+TEST(Preetham, ColourByHand) {
+  Atmosphere<double> a;
+  a.mie.scattering_per_m.value = 2 * 1.216e-5 * 8000 / 1200 * a.mie.single_scattering_albedo;
+  ASSERT_NEAR(preetham_turbidity(a), 3, 1e-12);
+  const XyzRule sum = xyz_sum_5nm(refs::standard_spectral_data());
+  const SkyValues sky = model_named("preetham")->radiance(a, sum.nodes, {&kSide, 1}, {});
+  double xyz[3] = {};
+  for (std::size_t k = 0; k < sum.nodes.size(); ++k) {
+    EXPECT_GT(sky.value[k], 0) << sum.nodes[k].wavelength_nm << " nm";
+    for (std::size_t c = 0; c < 3; ++c) xyz[c] += sum.weight[c][k] * sky.value[k];
+  }
+  const double all = xyz[0] + xyz[1] + xyz[2];
+  EXPECT_NEAR(xyz[1] / 7587.880614498681, 1, kDigits);
+  EXPECT_NEAR(xyz[0] / all, 0.2502905191845233, kDigits);
+  EXPECT_NEAR(xyz[1] / all, 0.2621909539184473, kDigits);
+}
+
+// The rules of few wavelengths give the model's luminance and colour back.
+TEST(Preetham, FewWavelengthsHoldItsLuminance) {
+  Atmosphere<double> a;
+  a.mie.scattering_per_m.value = 1.5e-4;
+  const SpectralData& spectra = refs::standard_spectral_data();
+  const auto luminance = [&](const LuminanceRule& rule) {
+    const SkyValues sky = model_named("preetham")->radiance(a, rule.nodes, {&kSide, 1}, {});
+    double sum = 0;
+    for (std::size_t k = 0; k < rule.nodes.size(); ++k) sum += rule.weight[k] * sky.value[k];
+    return sum;
+  };
+  constexpr double kRule = 1e-4;
+  EXPECT_NEAR(luminance(luminance_rule(spectra)) / luminance(luminance_sum_5nm(spectra)), 1, kRule);
+}
+
+TEST(Preetham, RefusesWhatItHasNoFormulaFor) {
+  Atmosphere<double> clear;
+  clear.mie.scattering_per_m.value = 1e-6;
+  EXPECT_THROW(radiance("preetham", clear, kSide), std::domain_error);
+  EXPECT_THROW(radiance("preetham", {}, {1e6, 0, 3, 0}), std::invalid_argument);    // space
+  EXPECT_THROW(radiance("preetham", {}, {0, 0.5, 2, 0}), std::invalid_argument);    // ground
+  EXPECT_THROW(radiance("preetham", {}, {0, 1.6, 0.5, 0}), std::invalid_argument);  // twilight
+}
+
+// An atmosphere of O'Neil's geometry.
+Atmosphere<double> oneil_earth() {
+  Atmosphere<double> a;
+  a.top_radius_m = 1.025 * a.bottom_radius_m;
+  const double scale_height = 0.25 * 0.025 * a.bottom_radius_m;
+  a.rayleigh.scale_height_m = a.mie.scale_height_m = scale_height;
+  a.rayleigh.scattering_per_m.value = 2e-6;
+  a.mie.scattering_per_m.value = 1e-6;
+  a.ground_albedo = 0;
+  return a;
+}
+
+// The polynomial follows the columns that it was fitted to.
+TEST(ONeil, PolynomialFollowsTheColumns) {
+  const Atmosphere<double> a = oneil_earth();
+  const double bottom = a.bottom_radius_m, top = a.top_radius_m - bottom,
+               scale_height = a.rayleigh.scale_height_m;
+  constexpr double kFit = 0.10;  // at worst, near the horizon
+  for (double mu = 1; mu > 0.05; mu -= 0.1) {
+    const double column =
+        exponential_column(bottom, 0, mu, 10 * top, scale_height).value / scale_height;
+    EXPECT_NEAR(Shared<double>{}.oneil_slant(mu) / column, 1, kFit) << "mu = " << mu;
+  }
+}
+
+// Toward the zenith under a zenith sun: five samples h_i of equal length,
+// L = (beta_R P_R + beta_M P_M) ds sum rho exp(-(beta_R + beta_M) H slant).
+TEST(ONeil, ZenithByHand) {
+  const Atmosphere<double> a = oneil_earth();
+  const double top = a.top_radius_m - a.bottom_radius_m, h0 = a.rayleigh.scale_height_m;
+  const double beta_r = 2e-6, beta_m = 1e-6, slant = std::exp(-0.00287);
+  double sum = 0;
+  for (int i = 0; i < 5; ++i) {
+    const double rho = std::exp(-(i + 0.5) * top / 5 / h0);
+    // down from the sample to the eye, and from the sun to the sample
+    const double column = h0 * slant * ((1 - rho) + rho);
+    sum += rho * top / 5 * std::exp(-(beta_r + beta_m) * column);
+  }
+  const double expected = sum * (beta_r * Shared<double>{}.rayleigh_phase(0, 1) +
+                                 beta_m * Shared<double>{}.cornette_shanks_phase(0.76, 1));
+  EXPECT_NEAR(radiance("oneil", a, {0, 0, 0, 0}) / expected, 1, 1e-9);
+}
+
+// From space and from inside: where the ray begins makes no difference to the air that it crosses.
+TEST(ONeil, SpaceSeesWhatTheTopSees) {
+  Atmosphere<double> a = oneil_earth();
+  a.ground_albedo = 0.3;
+  const double top = a.top_radius_m - a.bottom_radius_m;
+  const double inside = radiance("oneil", a, {top, 30 * kDegree, std::numbers::pi, 0}),
+               outside = radiance("oneil", a, {5e6, 30 * kDegree, std::numbers::pi, 0});
+  EXPECT_NEAR(outside / inside, 1, 1e-9);
+  EXPECT_EQ(radiance("oneil", a, {5e6, 30 * kDegree, 0, 0}), 0);  // away from the planet
+}
+
+TEST(Models, HaveNamesThatMakeThem) {
+  for (const SkyModelEntry& entry : sky_models())
+    EXPECT_EQ(model_named(entry.name)->name(), entry.name);
+  EXPECT_THROW(model_named("nonsense"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace skyfit

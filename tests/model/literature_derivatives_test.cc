@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact derivatives of every model of the literature equal central differences, for closed forms
+// and for tables, 0 by parameters that a model does not depend on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <ostream>
+
+#include "data_refs/spectra.h"
+#include "model/sky_model.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Case {
+  std::string_view model;
+  bool ground_only;  // no ray from space, no twilight, no view down
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.model; }
+
+class LiteratureDerivatives : public ::testing::TestWithParam<Case> {
+ protected:
+  std::vector<SkyPoint> points() const {
+    std::vector<SkyPoint> list;
+    for (const double view : {5.0, 50.0, 85.0}) {
+      for (const double azimuth : {20.0, 130.0})
+        list.push_back({0, 55 * kDegree, view * kDegree, azimuth * kDegree});
+    }
+    if (!GetParam().ground_only) {
+      list.push_back({0, 92 * kDegree, 70 * kDegree, 1});
+      list.push_back({8e3, 50 * kDegree, 120 * kDegree, 1});
+      list.push_back({8e5, 50 * kDegree, 150 * kDegree, 1});
+    }
+    return list;
+  }
+};
+
+TEST_P(LiteratureDerivatives, EqualDifferences) {
+  const auto model = make_sky_model(GetParam().model, refs::standard_spectral_data(), 2);
+  Atmosphere<double> a;
+  a.mie.scattering_per_m = {550, 1.5e-4, 1.1};
+  a.mie.phase = {model->lobes() == 2 ? PhaseType::kTwoLobe : PhaseType::kCornetteShanks,
+                 0.7,
+                 0.75,
+                 0.2,
+                 0.4,
+                 PhaseType::kCornetteShanks,
+                 nullptr};
+  std::vector<Parameter> parameters;
+  for (const ParameterInfo& info : parameter_table())
+    if (has_parameter(a, info.id)) parameters.push_back(info.id);
+  const std::vector<WavelengthNode> nodes = spectral_nodes(refs::standard_spectral_data(), {480});
+  const std::vector<SkyPoint> list = points();
+  const SkyValues exact = model->radiance(a, nodes, list, parameters);
+  constexpr double kDifference = 1e-5;  // the third derivative, with a step of 1e-4
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const ParameterInfo& info = parameter_info(parameters[p]);
+    const double middle = get_parameter(a, info.id),
+                 step = 1e-4 * std::max(std::abs(middle), 1e-2 * (info.upper - info.lower));
+    const auto at = [&](double value) {
+      Atmosphere<double> b = a;
+      set_parameter(b, info.id, value);
+      return model->radiance(b, nodes, list, {});
+    };
+    const SkyValues above = at(middle + step), below = at(middle - step);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const double derivative = exact.derivative_at(static_cast<int>(p), static_cast<int>(i), 0);
+      const double difference = (above.value[i] - below.value[i]) / (2 * step);
+      const double scale = std::max(std::abs(difference), exact.value[i] / std::abs(middle));
+      EXPECT_NEAR(derivative, difference, kDifference * scale) << info.name << " at point " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, LiteratureDerivatives,
+                         ::testing::Values(Case{"bruneton", false}, Case{"bodare", false},
+                                           Case{"schafhitzel", false}, Case{"oneil", false},
+                                           Case{"nielsen", true}, Case{"hoffman-preetham", true},
+                                           Case{"preetham", true}),
+                         [](const auto& tested) {
+                           std::string name(tested.param.model);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace skyfit

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The model `tables`, which evaluates the renderer's tables: near to truth, and near to the
+// reference model wherever one looks from.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "data_refs/references.h"
+#include "data_refs/spectra.h"
+#include "model/preset.h"
+#include "model/table_lookup.h"
+#include "tests/model/truth.h"
+
+namespace skyfit::truth {
+namespace {
+
+constexpr double kEdge = 1e-9;  // rad, so that a limit in degrees includes its own angle
+
+void expect_near_truth(bool haze) {
+  const Errors e = errors(
+      compare_monte_carlo(*make_sky_model("tables", refs::standard_spectral_data(), 2), haze),
+      [](const SkyPoint& p) {
+        return p.sun_zenith < 80 * kDegree + kEdge && p.view_zenith < 85 * kDegree + kEdge;
+      });
+  std::cout << "[ rms, worst ] " << 100 * e.rms << " %, " << 100 * e.worst << " %\n";
+  ASSERT_GT(e.count, 0);
+  EXPECT_LT(e.rms, 0.015);  // 1 % of the reference model, and the tables
+  EXPECT_LT(e.worst, 0.04) << e.where;
+}
+TEST(TableModel, IsNearMonteCarloInClearAir) { expect_near_truth(false); }
+TEST(TableModel, IsNearMonteCarloInHaze) { expect_near_truth(true); }
+
+std::vector<WavelengthNode> five_nodes() {
+  return spectral_nodes(refs::standard_spectral_data(), {440, 500, 560, 620, 680});
+}
+
+TEST(TableModel, FollowsTheReferenceFromEveryHeight) {
+  const Atmosphere<double> a =
+      parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear").atmosphere;
+  std::vector<SkyPoint> points;
+  for (const double altitude : {0.0, 900.0, 11e3, 60e3, 400e3, 36e6}) {
+    for (const double sun : {15.0, 62.0, 81.0}) {
+      for (const double view : {20.0, 70.0, 88.0, 95.0, 107.0, 150.0, 173.0}) {
+        for (const double azimuth : {10.0, 125.0, 300.0})
+          points.push_back({altitude, sun * kDegree, view * kDegree, azimuth * kDegree});
+      }
+    }
+  }
+  const std::vector<WavelengthNode> nodes = five_nodes();  // more than one set of tables
+  const SkyValues expected = make_sky_model("reference", refs::standard_spectral_data(), 2)
+                                 ->radiance(a, nodes, points, {});
+  const SkyValues values =
+      make_sky_model("tables", refs::standard_spectral_data(), 2)->radiance(a, nodes, points, {});
+  constexpr double kTables = 0.03;
+  // 1/sr: in the planet's shadow the two differ by an order of magnitude, below what the tables
+  // hold over one kilometre.
+  constexpr double kDark = kDarkestScattering;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (int w = 0; w < expected.wavelengths; ++w) {
+      const double truth = expected.at(static_cast<int>(i), w);
+      EXPECT_NEAR(values.at(static_cast<int>(i), w), truth, kTables * truth + kDark)
+          << "altitude " << points[i].altitude_m << ", sun " << points[i].sun_zenith / kDegree
+          << ", view " << points[i].view_zenith / kDegree << ", azimuth "
+          << points[i].relative_azimuth / kDegree << ", wavelength " << w;
+    }
+  }
+}
+
+TEST(TableModel, IrradianceTableFollowsTheReference) {
+  const Atmosphere<double> a =
+      parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear").atmosphere;
+  const SpectralData& spectra = refs::standard_spectral_data();
+  const AtmosphereTables tables = compute_tables(a, color_rule(spectra), TableSizes{}, 2, {});
+  const auto reference = make_sky_model("reference", spectra, 2);
+  constexpr double kTables = 0.02;
+  for (const auto& [altitude, sun] : {std::pair{0.0, 0.0}, {0.0, 78.0}, {5e3, 50.0}, {5e3, 86.0}}) {
+    const SkyValues expected =
+        reference->irradiance(a, tables.color.nodes, altitude, sun * kDegree, {});
+    const NodeValues values = lookup_irradiance(tables, altitude, std::cos(sun * kDegree));
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_NEAR(values[static_cast<std::size_t>(k)] / expected.at(kDiffuseHorizontal, k), 1,
+                  kTables)
+          << "node " << k << ", sun " << sun << ", altitude " << altitude;
+    }
+  }
+}
+
+TEST(TableModel, SaysWhatItCannotDo) {
+  const auto model = make_sky_model("tables", refs::standard_spectral_data(), 1);
+  const WavelengthNode node{550, 0};
+  const SkyPoint good{0, 0.5, 0.5, 0}, below{-1, 0.5, 0.5, 0};
+  const Parameter albedo = Parameter::kGroundAlbedo;
+  EXPECT_THROW(model->radiance({}, {&node, 1}, {&good, 1}, {&albedo, 1}), std::invalid_argument);
+  EXPECT_THROW(model->radiance({}, {&node, 1}, {&below, 1}, {}), std::invalid_argument);
+  EXPECT_THROW(make_sky_model("tables", refs::standard_spectral_data(), 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace skyfit::truth
