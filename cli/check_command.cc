@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "cli/arguments.h"
@@ -78,12 +79,17 @@ json summary_of_samples(const std::string& file, const refs::ImportOptions& opti
   const refs::Reference reference =
       refs::load_reference(file, {}, refs::Sampling::kPrincipalPlane, options);
   std::set<double> suns, wavelengths;
-  std::set<std::pair<double, double>> directions;
+  std::set<std::tuple<int, double, double>> directions;  // numbered, or at the same place
   std::map<std::string, std::size_t> not_used;
   std::size_t weighted = 0;
+  const bool is_numbered = std::ranges::any_of(
+      reference.samples, [](const refs::Sample& sample) { return sample.direction != 0; });
   for (const refs::Sample& sample : reference.samples) {
     suns.insert(degrees(sample.sun_zenith));
-    directions.emplace(sample.view_zenith, sample.relative_azimuth);
+    if (is_numbered)
+      directions.emplace(sample.direction, 0, 0);
+    else
+      directions.emplace(0, sample.view_zenith, sample.relative_azimuth);
     if (sample.wavelength_nm > 0) wavelengths.insert(sample.wavelength_nm);
     if (sample.weight > 0)
       ++weighted;
@@ -101,6 +107,7 @@ json summary_of_samples(const std::string& file, const refs::ImportOptions& opti
           {"wavelengths_nm", wavelengths},
           {"scans", scans.size()},
           {"scan_list", scans},
+          {"notes", reference.notes},
           {"sun_zenith_deg", {*suns.begin(), *suns.rbegin()}}};
 }
 
@@ -119,8 +126,8 @@ std::string wavelengths_text(const json& summary) {
                      wavelengths.front().get<double>(), wavelengths.back().get<double>());
 }
 
-// Of each scan whose time or azimuth is known.
-std::string scan_lines(const json& summary) {
+// Of each scan whose sun's azimuth is known, and the notes.
+std::string detail_lines(const json& summary) {
   constexpr std::size_t kMostLines = 20;
   std::string text;
   std::size_t lines = 0;
@@ -135,6 +142,7 @@ std::string scan_lines(const json& summary) {
   }
   if (lines > kMostLines)
     text += fmt::format("  and {} more (all of them with --json)\n", lines - kMostLines);
+  for (const json& note : summary["notes"]) text += fmt::format("  {}\n", note.get<std::string>());
   return text;
 }
 
@@ -156,7 +164,7 @@ std::string text_of(const json& summary) {
              wavelengths_text(summary), summary["directions"].get<std::size_t>(),
              summary["scans"].get<std::size_t>(), summary["sun_zenith_deg"][0].get<double>(),
              summary["sun_zenith_deg"][1].get<double>()) +
-         scan_lines(summary);
+         detail_lines(summary);
 }
 
 void run_check(const std::string& file, const refs::ImportOptions& options, bool as_json) {

@@ -141,8 +141,10 @@ void run_fit(FitCommandOptions options, const CLI::App& command) {
 }
 
 void add_problem_options(CLI::App& command, FitCommandOptions& options) {
-  command.add_option("--lobes", options.lobes, "Lobes of the aerosol's phase function: 1 or 2; by default 2, or the one that\n"
-                     "the model can tell");
+  command.add_option(
+      "--lobes", options.lobes,
+      "Lobes of the aerosol's phase function: 1 or 2; by default 2, or the one that\n"
+      "the model can tell");
   command.add_option("--starts", options.starts, "Starts of the phase parameters")
       ->capture_default_str();
   command.add_option("--max-iterations", options.max_iterations, "Iterations of one start")

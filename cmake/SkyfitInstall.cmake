@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install`: the program, the module that it renders with, one library per room, their headers, and a package for
+# `cmake --install`: the program, its modules, one library per room, their headers, and a package for
 # find_package(skyfit), whose targets are skyfit::model, skyfit::refs, skyfit::fit, skyfit::render and skyfit::plot.
 include(CMakePackageConfigHelpers)
 
@@ -7,7 +7,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/skyfit)
 
 install(TARGETS skyfit_model skyfit_refs skyfit_fit skyfit_render skyfit_plot EXPORT skyfit_targets)
 install(TARGETS skyfit)
-install(TARGETS skyfit_render_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/skyfit)
+install(TARGETS skyfit_image_module skyfit_render_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/skyfit)
 install(EXPORT skyfit_targets NAMESPACE skyfit:: FILE skyfit_targets.cmake DESTINATION ${package_dir})
 
 install(DIRECTORY model data_refs fit render DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/skyfit

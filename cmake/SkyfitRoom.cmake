@@ -27,3 +27,15 @@ function(skyfit_room name)
   target_link_libraries(skyfit_${name} PUBLIC ${ROOM_LINK} PRIVATE ${ROOM_PRIVATE_LINK}
     $<BUILD_INTERFACE:skyfit_warnings>)
 endfunction()
+
+# A module (model/module_file.h) of one source file: skyfit_module(render module.cc LIBRARIES...) makes
+# skyfit_render_module.so beside the program.
+function(skyfit_module name source)
+  set(target skyfit_${name}_module)
+  add_library(${target} MODULE ${source})
+  set_target_properties(${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}
+    CXX_VISIBILITY_PRESET hidden)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
+  target_link_libraries(${target} PRIVATE ${ARGN} skyfit_warnings)
+  target_link_options(${target} PRIVATE LINKER:--no-undefined)
+endfunction()

@@ -24,10 +24,14 @@ struct ExcludedSample {
 };
 
 struct ImportOptions {
-  std::optional<std::string> unit, local_time, azimuth_zero, azimuth_turns;
+  std::optional<std::string> unit, local_time, azimuth_zero, azimuth_turns, patch_order;
   std::optional<double> utc_offset_h, latitude_deg, longitude_deg, elevation_m;
   std::optional<double> sun_zenith_deg, sun_azimuth_deg;
   std::optional<double> saturation, near_sun_deg, band_nm;
+  // Of images (sky_image.h).
+  std::optional<std::string> projection, lens_polynomial, east, primaries, mask;
+  std::optional<double> centre_x_px, centre_y_px, radius_px, north_deg;
+  std::optional<double> lumen_per_watt, calibration, bin_deg;
   std::vector<ExcludedSample> exclude_samples;
   std::optional<std::filesystem::path> sidecar;  // in the place of the one beside the file
 };
@@ -40,10 +44,14 @@ struct ImportOptionRow {
   std::optional<double> ImportOptions::*number = nullptr;
   double lower = 0, upper = 0;  // of the number
   std::optional<std::string> ImportOptions::*text = nullptr;
+  bool (*accepts)(const std::string&) = nullptr;  // the text
   bool on_command_line = true;
 };
 
 std::span<const ImportOptionRow> import_option_table();
+
+// "a,b,c"; empty when a part is no finite number.
+std::vector<double> number_list(std::string_view text);
 
 // Sets what the text says; false when it is not what the row expects.
 bool set_import_option(const ImportOptionRow& row, std::string_view text, ImportOptions& options);

@@ -3,6 +3,10 @@
 //   CSV of samples        sample_csv.h
 //   spectral scan, CSV    spectral_scan_csv.h
 //   the same, a folder    spectral_scan_folder.h
+//   sky scanner EKO       eko_csv.h
+//   145 luminances        patch_csv.h
+//   AERONET almucantar    aeronet_csv.h
+//   fisheye image         sky_image.h
 #pragma once
 
 #include <filesystem>

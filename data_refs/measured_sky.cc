@@ -68,7 +68,7 @@ std::string counted(std::size_t count, std::string_view what) {
 
 }  // namespace
 
-ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place) {
+ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azimuth_is_needed) {
   ScanSun result;
   result.time = time_of(facts, place);
   if (result.time) result.distance_au = sun_distance_au(*result.time);
@@ -79,9 +79,9 @@ ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place) {
     expect_agreement(facts, sun, *result.time, place);
     result.zenith = sun.zenith;
     result.azimuth = sun.azimuth;
-  } else if (facts.sun_zenith_deg && facts.sun_azimuth_deg) {
+  } else if (facts.sun_zenith_deg && (facts.sun_azimuth_deg || !azimuth_is_needed)) {
     result.zenith = *facts.sun_zenith_deg * kDegree;
-    result.azimuth = *facts.sun_azimuth_deg * kDegree;
+    if (facts.sun_azimuth_deg) result.azimuth = *facts.sun_azimuth_deg * kDegree;
   } else {
     fail_without_sun(facts, place);
   }
@@ -142,7 +142,7 @@ void MeasuredSky::add(const Reading& reading) {
   sample.sun_zenith = sun_.zenith;
   sample.view_zenith = reading.view_zenith_deg * kDegree;
   sample.relative_azimuth =
-      std::remainder(from_north_deg * kDegree - sun_.azimuth, 2 * std::numbers::pi);
+      std::remainder(from_north_deg * kDegree - sun_.azimuth.value_or(0), 2 * std::numbers::pi);
   sample.wavelength_nm = reading.wavelength_nm;
   sample.value = reading.value * unit_.factor;
   sample.zero_weight_reason = flaw_of(reading, sample);

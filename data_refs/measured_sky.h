@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "data_refs/civil_time.h"
 #include "data_refs/import_options.h"
@@ -16,9 +17,11 @@
 
 namespace skyfit::refs {
 
-// Of one scan. Radians, azimuth clockwise from north.
+// Of one scan. Radians, azimuth clockwise from north; where it is not known, azimuths of the
+// readings count from the sun.
 struct ScanSun {
-  double zenith = 0, azimuth = 0;
+  double zenith = 0;
+  std::optional<double> azimuth;
   double distance_au = 1;
   std::optional<Instant> time;
 };
@@ -27,7 +30,8 @@ struct ScanSun {
 // time or place is missing, the stated one. Throws std::invalid_argument that begins with `place`
 // when neither is known, they disagree or the sun is below the horizon.
 inline constexpr double kSunAgreement_deg = 0.25;  // one minute of time; the sun's radius
-ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place);
+ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place,
+                    bool azimuth_is_needed = true);
 
 // The unit of the values, from the file or from the options, which may not contradict each other;
 // it must be of one of the quantities. Throws std::invalid_argument that lists the accepted units.
@@ -54,7 +58,11 @@ class MeasuredSky {
 
   // The readings that follow are of this scan.
   void begin_scan(std::string name, const ScanSun& sun);
+  // The readings that follow, of the same scan, have this sun.
+  void move_sun(const ScanSun& sun) { sun_ = sun; }
   void add(const Reading& reading);
+
+  void note(std::string text) { reference_.notes.push_back(std::move(text)); }
 
   // Throws std::invalid_argument when no sample has a weight or an excluded one does not exist.
   Reference finish();

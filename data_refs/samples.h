@@ -43,7 +43,8 @@ struct Reference {
   std::string description;  // one line, with the source
   Quantity quantity = Quantity::kRelativeLuminance;
   std::vector<Sample> samples;
-  std::vector<Scan> scans;  // indexed by Sample::scan; empty when nothing is known of them
+  std::vector<Scan> scans;         // indexed by Sample::scan; empty when nothing is known of them
+  std::vector<std::string> notes;  // what the reader of a measured sky concluded or left out
 };
 
 // Angle between the view ray and the direction to the sun, radians.

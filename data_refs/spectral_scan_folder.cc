@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDefaultBand_nm = 10;
+constexpr double kDefaultBand_nm = 5;  // of the solar irradiance that the model is multiplied with
 constexpr std::string_view kNameExpected =
     "DATE___HH.MM.SS_-_INDEX____AZIMUTH___ALTITUDE.asd.rad.txt";
 

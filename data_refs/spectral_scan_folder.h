@@ -4,7 +4,8 @@
 // `nm<TAB>radiance`, wavelengths ascending. The name holds local time, the number of the direction,
 // and degrees; azimuth runs counter-clockwise from north unless the facts say otherwise. The unit
 // of the layout is W m-2 sr-1 nm-1. Site and offset from UTC come from the options or the sidecar.
-// Radiances are averaged over bands (ImportOptions::band_nm) centred on its multiples.
+// Radiances are averaged over bands (ImportOptions::band_nm) centred on its multiples; 5 nm, where
+// nothing else is said, are the bands of the solar irradiance that the model is multiplied with.
 #pragma once
 
 #include <filesystem>

@@ -142,8 +142,7 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
   check_names(options, model, atmosphere);
   std::vector<FreeParameter> result;
   for (const ParameterInfo& info : parameter_table()) {
-    if (!has_parameter(atmosphere, info.id) || !model.can_fit(info.id) ||
-        !is_free(options, info)) {
+    if (!has_parameter(atmosphere, info.id) || !model.can_fit(info.id) || !is_free(options, info)) {
       continue;
     }
     const FreeParameter parameter = free_parameter(info.id, prior_of(options, info));

@@ -116,7 +116,7 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
   const bool g1_is_free = options.free
                               ? std::ranges::count(*options.free, Parameter::kMiePhaseG1) > 0
                               : has_parameter(atmosphere, Parameter::kMiePhaseG1) &&
-                         model.can_fit(Parameter::kMiePhaseG1) &&
+                                    model.can_fit(Parameter::kMiePhaseG1) &&
                                     !options.fix.contains(Parameter::kMiePhaseG1);
   if (options.use_priors && g1_is_free)
     result.priors.emplace(Parameter::kMiePhaseG1, kForwardLobePrior);
@@ -124,7 +124,8 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
   result.free.emplace();
   for (const ParameterInfo& info : parameter_table()) {
     const bool free = info.free_by_default || info.id == Parameter::kMieAngstromExponent;
-    if (free && has_parameter(atmosphere, info.id) && model.can_fit(info.id) && !options.fix.contains(info.id))
+    if (free && has_parameter(atmosphere, info.id) && model.can_fit(info.id) &&
+        !options.fix.contains(info.id))
       result.free->push_back(info.id);
   }
   return result;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <cmath>
-#include <stdexcept>
-#include <system_error>
+#include <numbers>
 
+#include "model/module_file.h"
 #include "render/module/module.h"
 
 namespace skyfit {
@@ -15,44 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kModuleFile = "skyfit_render_module.so";
-
-// Beside the program or above it (build tree), in the library directory of its prefix (installed),
-// where CMake installs it.
-std::vector<fs::path> module_candidates() {
-  std::vector<fs::path> files;
-  std::error_code none;
-  fs::path directory = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (int level = 0; level < 3 && !directory.empty(); ++level) {
-    files.push_back(directory / kModuleFile);
-    files.push_back(directory / SKYFIT_RENDER_MODULE_SUBDIR / kModuleFile);
-    directory = directory.parent_path();
-  }
-  files.push_back(fs::path(SKYFIT_RENDER_MODULE_DIR) / kModuleFile);
-  return files;
-}
-
-const RenderModule& open_module() {
-  for (const fs::path& file : module_candidates()) {
-    std::error_code none;
-    if (!fs::exists(file, none)) continue;
-    void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (handle == nullptr)
-      throw std::runtime_error(fmt::format("render: cannot load {}", dlerror()));
-    using Entry = const RenderModule* (*)();
-    const auto entry = reinterpret_cast<Entry>(dlsym(handle, "skyfit_render_module"));
-    if (entry == nullptr || entry()->revision != kRenderModuleRevision) {
-      throw std::runtime_error(
-          fmt::format("render: {} belongs to another version of skyfit", file.string()));
-    }
-    return *entry();
-  }
-  throw std::runtime_error(
-      fmt::format("render: {} is not installed with this program", kModuleFile));
-}
-
 const RenderModule& module() {
-  static const RenderModule& opened = open_module();
+  static const auto& opened = module_named<RenderModule>("skyfit_render_module");
   return opened;
 }
 

@@ -4,9 +4,8 @@
 #include "render/gl/image_files.h"
 #include "render/gl/renderer.h"
 
-extern "C" __attribute__((visibility("default"))) const skyfit::RenderModule*
-skyfit_render_module() {
-  static constexpr skyfit::RenderModule kModule = {skyfit::kRenderModuleRevision,
+extern "C" __attribute__((visibility("default"))) const void* skyfit_render_module() {
+  static constexpr skyfit::RenderModule kModule = {skyfit::RenderModule::kRevision,
                                                    skyfit::draw_frame, skyfit::write_exr_file,
                                                    skyfit::write_png_file};
   return &kModule;

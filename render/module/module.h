@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the thin library calls in skyfit_render_module. Both are built together; `revision` refuses
-// a stale module.
+// What the thin library calls in skyfit_render_module (model/module_file.h).
 #pragma once
 
 #include <filesystem>
@@ -10,9 +9,8 @@
 
 namespace skyfit {
 
-inline constexpr int kRenderModuleRevision = 1;
-
 struct RenderModule {
+  static constexpr int kRevision = 1;
   int revision;
   Frame (*render_frame)(const AtmosphereTables&, const FrameOptions&,
                         const std::function<void(double)>&);
@@ -23,4 +21,4 @@ struct RenderModule {
 }  // namespace skyfit
 
 // The module's only symbol.
-extern "C" const skyfit::RenderModule* skyfit_render_module();
+extern "C" const void* skyfit_render_module();

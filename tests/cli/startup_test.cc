@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A command pays for what it uses: neither the start of the program nor a fit loads the image and
-// OpenGL libraries, whose mapping alone takes longer than a start may.
+// A command pays for what it uses: neither the start of the program nor a fit nor a measured sky
+// that is no image loads the image and OpenGL libraries, whose mapping alone takes longer than a
+// start may.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -49,6 +50,12 @@ TEST_F(StartupTest, AFitLoadsNothingHeavy) {
   expect_nothing_heavy(
       loaded_libraries({"fit", "--reference", "cie:12", "--sun-zenith-deg", "40", "--lobes", "1",
                         "--starts", "1", "--max-iterations", "2", "--out", "fitted"}));
+}
+
+TEST_F(StartupTest, AMeasuredSkyLoadsNothingHeavyUnlessItIsAnImage) {
+  const std::string examples = SKYFIT_EXAMPLES;
+  expect_nothing_heavy(loaded_libraries({"check", examples + "spectral_scan.csv"}));
+  EXPECT_THAT(loaded_libraries({"check", examples + "fisheye.exr"}), HasSubstr("libOpenImageIO"));
 }
 
 // The figure is recorded, not asserted: it is the machine's.

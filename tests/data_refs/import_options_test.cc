@@ -9,6 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "complaint.h"
 #include "data_refs/references.h"
 
 namespace skyfit::refs {
@@ -17,12 +18,7 @@ namespace {
 using testing::StartsWith;
 
 std::string complaint(const std::string& json) {
-  try {
-    parse_sidecar(json, "sky.csv.sidecar.json");
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
+  return complaint_of([&] { parse_sidecar(json, "sky.csv.sidecar.json"); });
 }
 
 TEST(Sidecar, HoldsTheFactsOfTheTable) {

@@ -190,7 +190,8 @@ TEST(SampleCsv, FileThatCannotBeReadIsNamed) {
 
 TEST(ShippedExample, IsTheCieSkyItSays) {
   constexpr double kNineDigits = 1e-8;
-  const Reference example = load_reference(SKYFIT_EXAMPLE_CSV, {}, Sampling::kPrincipalPlane);
+  const Reference example =
+      load_reference(SKYFIT_EXAMPLES "clear_sky_two_suns.csv", {}, Sampling::kPrincipalPlane);
   const Reference formula =
       load_reference("cie:12", {30 * kDegree, 60 * kDegree}, Sampling::kPrincipalPlane);
   ASSERT_EQ(example.samples.size(), formula.samples.size());

@@ -7,8 +7,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
+#include "complaint.h"
 #include "data_refs/solar_position.h"
 
 namespace skyfit::refs {
@@ -30,12 +30,7 @@ Reference parse(const std::string& text, const ImportOptions& options = {}) {
 }
 
 std::string complaint(const std::string& text, const ImportOptions& options = {}) {
-  try {
-    parse(text, options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
+  return complaint_of([&] { parse(text, options); });
 }
 
 TEST(SpectralScan, HasASamplePerDirectionAndWavelength) {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
-#include <stdexcept>
 
+#include "complaint.h"
 #include "data_refs/references.h"
 
 namespace skyfit::refs {
@@ -39,12 +39,7 @@ class SpectralScanFolder : public testing::Test {
     return load_reference(folder_.string(), {}, Sampling::kPrincipalPlane, options_);
   }
   std::string complaint() const {
-    try {
-      load();
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return "accepted";
+    return complaint_of([&] { load(); });
   }
 
   fs::path folder_;
@@ -65,9 +60,9 @@ TEST_F(SpectralScanFolder, HoldsBandMeansInTheDirectionsOfTheNames) {
   write("notes.txt", "a dog walked by");
   const Reference scan = load();
   EXPECT_EQ(scan.quantity, Quantity::kSpectralRadiance);
-  ASSERT_EQ(scan.samples.size(), 2u * 46);  // 370, 380 .. 820 nm: bands within 360 to 830
-  EXPECT_EQ(scan.samples.front().wavelength_nm, 370);
-  EXPECT_EQ(scan.samples.back().wavelength_nm, 820);
+  ASSERT_EQ(scan.samples.size(), 2u * 93);  // 365, 370 .. 825 nm: bands within 360 to 830
+  EXPECT_EQ(scan.samples.front().wavelength_nm, 365);
+  EXPECT_EQ(scan.samples.back().wavelength_nm, 825);
   EXPECT_EQ(scan.samples.back().direction, 12);
   for (const Sample& sample : scan.samples) {
     // The mean of a straight line over a band is its value in the middle.

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/image/image_module.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace skyfit::refs {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& error) {
+  throw std::runtime_error(
+      fmt::format("{}: cannot be read: {}", file.string(), error.substr(0, error.find('\n'))));
+}
+
+Image read(const std::filesystem::path& file) {
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
+  if (!input) fail(file, OIIO::geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.depth > 1 || spec.deep) fail(file, "expected a flat image");
+  Image image{spec.width, spec.height, spec.channelnames, {}};
+  image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
+    fail(file, input->geterror());
+  return image;
+}
+
+}  // namespace
+}  // namespace skyfit::refs
+
+extern "C" __attribute__((visibility("default"))) const void* skyfit_image_module() {
+  static constexpr skyfit::refs::ImageModule kModule = {skyfit::refs::ImageModule::kRevision,
+                                                        skyfit::refs::read};
+  return &kModule;
+}

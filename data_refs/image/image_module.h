@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readers of images call in skyfit_image_module (model/module_file.h), the part of
+// data_refs/ that loads OpenImageIO.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace skyfit::refs {
+
+// Rows from the upper edge, channels interleaved.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;  // "R", "G", "B", ..
+  std::vector<float> pixels;          // height x width x channels
+  const float* pixel(int x, int y) const {
+    return &pixels[(static_cast<std::size_t>(y) * width + x) * channels.size()];
+  }
+};
+
+struct ImageModule {
+  static constexpr int kRevision = 1;
+  int revision;
+  // Throws std::runtime_error `file: cannot be read: ...`.
+  Image (*read)(const std::filesystem::path& file);
+};
+
+}  // namespace skyfit::refs
+
+// The module's only symbol.
+extern "C" const void* skyfit_image_module();

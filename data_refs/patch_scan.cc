@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/patch_scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace skyfit::refs {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+
+// Mean angle between the sun and the brightest patches of the scans, degrees, when azimuths start
+// at `zero`, radians from north.
+double brightest_from_sun_deg(std::span<const PatchScan> scans,
+                              std::span<const SkyDirection> directions, double zero, bool counter) {
+  constexpr std::size_t kBrightest = 3;
+  double sum = 0;
+  for (const PatchScan& scan : scans) {
+    std::vector<std::size_t> order(kPatches);
+    std::iota(order.begin(), order.end(), 0u);
+    const auto brightness = [&](std::size_t i) {
+      return std::isfinite(scan.values[i]) ? scan.values[i] : 0.0;
+    };
+    std::ranges::partial_sort(order, order.begin() + kBrightest, std::greater{}, brightness);
+    for (std::size_t k = 0; k < kBrightest; ++k) {
+      const SkyDirection& patch = directions[order[k]];
+      Sample sample;
+      sample.sun_zenith = scan.sun.zenith;
+      sample.view_zenith = patch.view_zenith;
+      sample.relative_azimuth =
+          zero + (counter ? -1 : 1) * patch.relative_azimuth - scan.sun.azimuth.value_or(0);
+      sum += scattering_angle(sample) / kDegree;
+    }
+  }
+  return sum / static_cast<double>(kBrightest * scans.size());
+}
+
+// Sets facts.azimuth_zero, or throws; returns what to note.
+std::optional<std::string> settle_azimuth_zero(const std::string& source, ImportOptions& facts,
+                                               std::span<const PatchScan> scans,
+                                               std::span<const SkyDirection> directions) {
+  constexpr double kNear_deg = 40, kApart_deg = 40;  // of a patch of 12 deg and a bright aureole
+  const bool counter = facts.azimuth_turns == "counter-clockwise";
+  const double north = brightest_from_sun_deg(scans, directions, 0, counter);
+  const double south = brightest_from_sun_deg(scans, directions, kPi, counter);
+  const std::string found = fmt::format(
+      "the brightest patches are {:.0f} deg from the sun with north, {:.0f} deg with south", north,
+      south);
+  const bool is_clear = std::min(north, south) < kNear_deg && std::abs(north - south) > kApart_deg;
+  const std::string says = north < south ? "north" : "south";
+  if (!facts.azimuth_zero) {
+    if (!is_clear) {
+      throw std::invalid_argument(
+          fmt::format("{}: azimuth_zero: not stated, expected north or south: {}", source, found));
+    }
+    facts.azimuth_zero = says;
+    return fmt::format("azimuth_zero is {}: {}", says, found);
+  }
+  if (is_clear && *facts.azimuth_zero != says) {
+    throw std::invalid_argument(fmt::format("{}: azimuth_zero = {}: expected {}: {}", source,
+                                            *facts.azimuth_zero, says, found));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<SkyDirection> patch_directions(const ImportOptions& facts) {
+  std::vector<SkyDirection> directions = sampling_directions(Sampling::kTregenza);
+  if (facts.patch_order == "rows") return directions;
+  bool downward = false;
+  for (auto first = directions.begin(); first != directions.end(); downward = !downward) {
+    const auto last = std::find_if(first, directions.end(), [&](const SkyDirection& direction) {
+      return direction.view_zenith != first->view_zenith;
+    });
+    if (downward) std::reverse(first, last);
+    first = last;
+  }
+  return directions;
+}
+
+Reference patch_reference(std::string source, const Unit& unit, ImportOptions facts,
+                          std::span<const PatchScan> scans) {
+  const std::vector<SkyDirection> directions = patch_directions(facts);
+  const std::optional<std::string> note = settle_azimuth_zero(source, facts, scans, directions);
+  MeasuredSky sky(std::move(source), unit, facts);
+  if (note) sky.note(*note);
+  for (const PatchScan& scan : scans) {
+    sky.begin_scan(scan.name, scan.sun);
+    for (std::size_t i = 0; i < kPatches; ++i) {
+      Reading reading;
+      reading.number = static_cast<int>(i) + 1;  // the channel
+      reading.view_zenith_deg = directions[i].view_zenith / kDegree;
+      reading.view_azimuth_deg = directions[i].relative_azimuth / kDegree;
+      reading.value = scan.values[i];
+      sky.add(reading);
+    }
+  }
+  return sky.finish();
+}
+
+}  // namespace skyfit::refs

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/sky_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "data_refs/csv.h"
+#include "data_refs/fisheye.h"
+#include "data_refs/measured_sky.h"
+#include "data_refs/sky_bins.h"
+#include "model/module_file.h"
+
+namespace skyfit::refs {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kDefaultBin_deg = 6;
+constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01",
+                           kHdrMagic = "#?R";  // #?RADIANCE or #?RGBE
+
+[[noreturn]] void fail(std::string_view source, const std::string& message) {
+  throw std::invalid_argument(fmt::format("{}: {}", source, message));
+}
+
+// Channels of an image and their weights in its luminance.
+struct LuminanceWeights {
+  std::vector<std::size_t> channels;
+  std::vector<double> weights;
+  std::string name;
+};
+
+std::optional<std::size_t> channel(const Image& image, std::string_view name) {
+  const auto found = std::ranges::find(image.channels, name);
+  if (found == image.channels.end()) return {};
+  return static_cast<std::size_t>(found - image.channels.begin());
+}
+
+LuminanceWeights luminance_weights(const Image& image, bool is_radiance_hdr,
+                                   const ImportOptions& facts, std::string_view source) {
+  if (const auto y = channel(image, "Y")) return {{*y}, {1}, "channel Y"};
+  const auto red = channel(image, "R"), green = channel(image, "G"), blue = channel(image, "B");
+  if (!red || !green || !blue)
+    fail(source,
+         fmt::format("channels {}: expected R, G and B, or Y", fmt::join(image.channels, ", ")));
+  if (facts.primaries.value_or(is_radiance_hdr ? "radiance" : "srgb") == "radiance")
+    return {{*red, *green, *blue}, {0.265, 0.670, 0.065}, "Radiance's primaries"};
+  return {{*red, *green, *blue}, {0.2126, 0.7152, 0.0722}, "sRGB primaries"};
+}
+
+// Of a pixel's luminance, as `unit` and `lumen_per_watt` say.
+struct PixelUnit {
+  Unit unit;
+  double factor;
+};
+
+PixelUnit pixel_unit(const ImportOptions& facts, std::string_view source) {
+  const double calibration = facts.calibration.value_or(1);
+  if (facts.lumen_per_watt.has_value() == facts.unit.has_value()) {
+    fail(source, fmt::format("unit: expected either {} or lumen_per_watt (179 or 683) of pixels in "
+                             "W m-2 sr-1, got {}",
+                             unit_names({Quantity::kLuminance, Quantity::kRelativeLuminance}),
+                             facts.unit ? "both" : "neither"));
+  }
+  if (facts.lumen_per_watt) return {*find_unit("cd m-2"), calibration * *facts.lumen_per_watt};
+  return {stated_unit({}, facts, source, {Quantity::kLuminance, Quantity::kRelativeLuminance}),
+          calibration};
+}
+
+// Adds the pixels of an image to bins.
+class PixelReader {
+ public:
+  PixelReader(const Image& image, const Image* mask, const LuminanceWeights& weights, double factor,
+              const ImportOptions& facts, const ScanSun& sun)
+      : image_(image), mask_(mask), weights_(weights), factor_(factor), facts_(facts), sun_(sun) {}
+
+  void read(const Fisheye& lens, SkyBins& bins) const {
+    for (int y = 0; y < image_.height; ++y) {
+      for (int x = 0; x < image_.width; ++x) {
+        const auto view = lens.view(x + 0.5, y + 0.5);
+        if (!view) continue;
+        const double luminance = luminance_of(x, y);
+        bins.add({view->zenith, view->azimuth}, view->solid_angle_sr, luminance,
+                 flaw_of(x, y, *view, luminance));
+      }
+    }
+  }
+
+ private:
+  double luminance_of(int x, int y) const {
+    const float* const pixel = image_.pixel(x, y);
+    double sum = 0;
+    for (std::size_t k = 0; k < weights_.channels.size(); ++k)
+      sum += weights_.weights[k] * static_cast<double>(pixel[weights_.channels[k]]);
+    return factor_ * sum;
+  }
+
+  std::string_view flaw_of(int x, int y, const Fisheye::View& view, double luminance) const {
+    if (mask_ != nullptr && mask_->pixel(x, y)[0] < 0.5f) return "masked";
+    if (!std::isfinite(luminance)) return "not finite";
+    if (facts_.saturation && brightest_channel(x, y) >= *facts_.saturation) return "saturated";
+    if (!(luminance > 0)) return "not positive";
+    Sample sample;
+    sample.sun_zenith = sun_.zenith;
+    sample.view_zenith = view.zenith;
+    sample.relative_azimuth = view.azimuth - sun_.azimuth.value_or(0);
+    if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kDegree)
+      return "near the sun";
+    return {};
+  }
+
+  double brightest_channel(int x, int y) const {
+    const float* const pixel = image_.pixel(x, y);
+    double brightest = 0;
+    for (const std::size_t c : weights_.channels)
+      brightest = std::max(brightest, static_cast<double>(pixel[c]));
+    return brightest;
+  }
+
+  const Image& image_;
+  const Image* mask_;
+  const LuminanceWeights& weights_;
+  double factor_;
+  const ImportOptions& facts_;
+  const ScanSun& sun_;
+};
+
+// What is not used and where the brightest used bin lies, for whoever checks the orientation.
+void add_notes(const SkyBins& bins, const LuminanceWeights& weights, const ScanSun& sun,
+               MeasuredSky& sky) {
+  for (const auto& [flaw, share] : bins.shares_not_used())
+    sky.note(fmt::format("{:.2g} % of the sky is not used: {}", 100 * share, flaw));
+  const SkyBin brightest = bins.brightest();
+  Sample sample;
+  sample.sun_zenith = sun.zenith;
+  sample.view_zenith = brightest.direction.view_zenith;
+  sample.relative_azimuth = brightest.direction.relative_azimuth - sun.azimuth.value_or(0);
+  sky.note(fmt::format("luminance from {}; the brightest bin is {:.0f} deg from the sun",
+                       weights.name, scattering_angle(sample) / kDegree));
+}
+
+// Its first bytes.
+std::string file_head(const std::filesystem::path& file) {
+  std::string head(kExrMagic.size(), '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head;
+}
+
+// The product of the lines EXPOSURE= of a Radiance file's header.
+double radiance_exposure(const std::filesystem::path& file) {
+  constexpr std::string_view kName = "EXPOSURE=";
+  std::ifstream in(file, std::ios::binary);
+  double product = 1;
+  for (std::string line; std::getline(in, line) && !line.empty();) {
+    if (!line.starts_with(kName)) continue;
+    const std::size_t begin = line.find_first_not_of(' ', kName.size());
+    const auto value = csv_number(begin == line.npos ? "" : std::string_view(line).substr(begin));
+    if (!value || !(*value > 0) || !std::isfinite(*value))
+      fail(file.string(), fmt::format("\"{}\": expected a number > 0", line));
+    product *= *value;
+  }
+  return product;
+}
+
+}  // namespace
+
+bool is_sky_image(const std::filesystem::path& file) {
+  const std::string head = file_head(file);
+  return head.starts_with(kExrMagic) || head.starts_with(kHdrMagic);
+}
+
+Reference sky_image_reference(const Image& image, const Image* mask, bool is_radiance_hdr,
+                              const std::string& source, const ImportOptions& facts) {
+  if (mask != nullptr && (mask->width != image.width || mask->height != image.height)) {
+    fail(source, fmt::format("mask of {} x {} pixels: expected {} x {}", mask->width, mask->height,
+                             image.width, image.height));
+  }
+  const Fisheye lens(facts, image.width, image.height, source);
+  const PixelUnit unit = pixel_unit(facts, source);
+  const LuminanceWeights weights = luminance_weights(image, is_radiance_hdr, facts, source);
+  const ScanSun sun = sun_of_scan(facts, source);
+  SkyBins bins(facts.bin_deg.value_or(kDefaultBin_deg));
+  PixelReader(image, mask, weights, unit.factor, facts, sun).read(lens, bins);
+
+  ImportOptions of_bins = facts;  // pixels are judged, bins need not be; directions are from north
+  of_bins.saturation.reset();
+  of_bins.near_sun_deg.reset();
+  of_bins.azimuth_zero.reset();
+  of_bins.azimuth_turns.reset();
+  MeasuredSky sky(source, unit.unit, of_bins);
+  sky.begin_scan(std::filesystem::path(source).filename().string(), sun);
+  for (const SkyBin& bin : bins.result()) {
+    Reading reading;
+    reading.number = bin.number;
+    reading.view_zenith_deg = bin.direction.view_zenith / kDegree;
+    reading.view_azimuth_deg = bin.direction.relative_azimuth / kDegree;
+    reading.value = bin.luminance;
+    reading.flaw = bin.flaw;
+    sky.add(reading);
+  }
+  add_notes(bins, weights, sun, sky);
+  return sky.finish();
+}
+
+Reference load_sky_image(const std::filesystem::path& file, const ImportOptions& options) {
+  const auto& module = module_named<ImageModule>("skyfit_image_module");
+  ImportOptions facts = options;
+  const bool is_radiance_hdr = file_head(file).starts_with(kHdrMagic);
+  if (is_radiance_hdr) facts.calibration = facts.calibration.value_or(1) / radiance_exposure(file);
+  const Image image = module.read(file);
+  std::optional<Image> mask;
+  if (facts.mask) mask = module.read(*facts.mask);
+  return sky_image_reference(image, mask ? &*mask : nullptr, is_radiance_hdr, file.string(), facts);
+}
+
+}  // namespace skyfit::refs

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Modules: shared libraries that hold what few commands need and that take long to load. They are
+// built with the program and opened on first use; NAME.so has one symbol, `extern "C" const void*
+// NAME()`, which returns a struct of functions that begins with its revision.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace skyfit {
+
+// What NAME() returns. Looks beside the program and above it (build tree), in the library directory
+// of its prefix (installed) and where CMake installs. Throws std::runtime_error with one line.
+const void* open_module(const std::string& name);
+
+// The struct of that module; kRevision is the one this program knows.
+template <class Module>
+const Module& module_named(const std::string& name) {
+  const auto* module = static_cast<const Module*>(open_module(name));
+  if (module->revision != Module::kRevision)
+    throw std::runtime_error(name + ".so: belongs to another version of skyfit");
+  return *module;
+}
+
+}  // namespace skyfit

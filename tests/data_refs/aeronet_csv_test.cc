@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// An almucantar becomes samples at the sun's height, one scan for the wavelengths taken together;
+// every fault is one line.
+#include "data_refs/aeronet_csv.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "complaint.h"
+
+namespace skyfit::refs {
+namespace {
+
+using testing::StartsWith;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRounding = 1e-12;
+const std::string kHead =
+    "AERONET Version 3;\nSomewhere\nfree text\n"
+    "AERONET_Site,Date(dd:mm:yyyy),Time(hh:mm:ss),Instrument_Number,Nominal_Wavelength(nm),"
+    "Exact_Wavelength(um),Solar_Zenith_Angle(Degrees),Sky_Scan_Type,";
+const std::string kBare = kHead + "-6.000000,0.000000,6.000000,6.000000,90.000000\n";
+
+std::string line(const std::string& time, const std::string& nominal, const std::string& zenith,
+                 const std::string& values, const std::string& type = "Almucantar") {
+  return "Somewhere,03:01:2019," + time + ",620," + nominal + ",-999," + zenith + "," + type + "," +
+         values + "\n";
+}
+
+Reference parse(const std::string& text, const ImportOptions& options = {}) {
+  return parse_aeronet_csv(text, "sky.alm", options);
+}
+
+std::string complaint(const std::string& text, const ImportOptions& options = {}) {
+  return complaint_of([&] { parse(text, options); });
+}
+
+TEST(AeronetCsv, HoldsTheAlmucantarAtTheSunsHeight) {
+  const Reference sky = parse(kBare + line("11:11:49", "440", "60", "22,-999,20,21,2"));
+  EXPECT_EQ(sky.quantity, Quantity::kSpectralRadiance);
+  ASSERT_EQ(sky.samples.size(), 5u);
+  EXPECT_NEAR(sky.samples[0].value, 0.22, kRounding);  // 22 uW cm-2 sr-1 nm-1
+  for (const Sample& sample : sky.samples) {
+    EXPECT_NEAR(sample.view_zenith, 60 * kDegree, kRounding);
+    EXPECT_NEAR(sample.sun_zenith, 60 * kDegree, kRounding);
+    EXPECT_EQ(sample.wavelength_nm, 440);
+  }
+  EXPECT_NEAR(sky.samples[0].relative_azimuth, -6 * kDegree, kRounding);
+  EXPECT_NEAR(sky.samples[4].relative_azimuth, 90 * kDegree, kRounding);
+  EXPECT_EQ(sky.samples[1].zero_weight_reason, "missing");
+  EXPECT_EQ(sky.scans[0].time_utc, "2019-01-03T11:11:49Z");
+  EXPECT_FALSE(sky.scans[0].sun_azimuth.has_value());  // the file does not say where it was
+  EXPECT_NEAR(sky.scans[0].sun_distance_au, 0.9833, 1e-4);
+}
+
+TEST(AeronetCsv, ReadsTheLongNamesAndTheSite) {
+  const std::string head = kHead +
+                           "Latitude(Degrees),Longitude(Degrees),Elevation(m),"
+                           "Radiance_for_Azimuth_Angle_in_Degrees(uW/cm^2/sr/nm)_-90.000,"
+                           "Radiance_for_Azimuth_Angle_in_Degrees(uW/cm^2/sr/nm)_6.000,"
+                           "Scattering_Angle_for_Nominal_Azimuth_Angle(Degrees)_6.000\n";
+  const auto with_zenith = [&](const std::string& zenith) {
+    return head + line("11:00:00", "440", zenith, "48,16,200,3,20,5.5");
+  };
+  const Reference sky = parse(with_zenith("-999"));
+  ASSERT_EQ(sky.samples.size(), 2u);
+  EXPECT_NEAR(sky.samples[0].relative_azimuth, -90 * kDegree, 1e-9);
+  EXPECT_NEAR(sky.samples[0].view_zenith, sky.samples[0].sun_zenith, kRounding);
+  EXPECT_EQ(sky.scans[0].elevation_m, 200);
+  EXPECT_NEAR(*sky.scans[0].sun_azimuth / kDegree, 180, 3);  // an hour before noon UTC, 16 deg E
+  EXPECT_THAT(complaint(with_zenith("60")),
+              StartsWith("sky.alm:5: sun_zenith_deg = 60: expected the sun of "
+                         "2019-01-03T11:00:00Z at this site, zenith 70."));
+}
+
+TEST(AeronetCsv, WavelengthsTakenTogetherAreAScan) {
+  const std::string values = "22,-999,20,21,2";
+  const Reference sky = parse(
+      kBare + line("11:11:49", "440", "60", values) + line("11:13:00", "675", "60.1", values) +
+      line("11:14:00", "870", "60.2", values) + line("11:16:00", "440", "60.3", values) +  // again
+      line("12:16:00", "675", "65", values));  // an hour later
+  ASSERT_EQ(sky.scans.size(), 3u);
+  EXPECT_EQ(sky.samples[5].scan, 0);
+  EXPECT_NEAR(sky.samples[5].sun_zenith, 60.1 * kDegree, kRounding);
+  EXPECT_EQ(sky.samples[10].zero_weight_reason, "wavelength outside the model's spectra");
+  EXPECT_EQ(sky.samples[15].scan, 1);
+  EXPECT_EQ(sky.samples[20].scan, 2);
+  EXPECT_EQ(sky.samples[20].direction, 0);
+  EXPECT_EQ(sky.samples[24].direction, 4);
+}
+
+TEST(AeronetCsv, FaultsNameLineAndColumn) {
+  const std::string values = "22,-999,20,21,2";
+  EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", values, "Principal Plane")),
+            "sky.alm:5: Sky_Scan_Type = \"Principal Plane\": expected Almucantar");
+  EXPECT_EQ(complaint(kBare + line("11:11:61", "440", "60", values)),
+            "sky.alm:5: Time(hh:mm:ss) = \"11:11:61\": expected hh:mm:ss of a day that exists");
+  EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", "bright,-999,20,21,2")),
+            "sky.alm:5: -6.000000 = \"bright\": expected a number, -999 where there is none");
+  EXPECT_EQ(complaint(kBare + line("11:11:49", "0", "60", values)),
+            "sky.alm:5: Nominal_Wavelength(nm) = \"0\": expected a wavelength in nm");
+  EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", "22")),
+            "sky.alm:5: expected 13 fields, got 9");
+  EXPECT_THAT(complaint(kBare + line("11:11:49", "440", "-999", values)),
+              StartsWith("sky.alm:5: the sun is not known: expected latitude_deg, longitude_deg"));
+  EXPECT_EQ(complaint(kHead + "note\n" + line("11:11:49", "440", "60", "a")),
+            "sky.alm:4: expected columns of radiances, named by their azimuth");
+  EXPECT_EQ(complaint(kBare),
+            "sky.alm: none of 0 samples can be used, expected at least 1: there "
+            "is none");
+  ImportOptions options;
+  options.unit = "W m-2 sr-1 nm-1";
+  EXPECT_THAT(complaint(kBare + line("11:11:49", "440", "60", values), options),
+              StartsWith("sky.alm: unit = \"uW cm-2 sr-1 nm-1\": expected \"W m-2 sr-1 nm-1\""));
+}
+
+}  // namespace
+}  // namespace skyfit::refs
