@@ -32,17 +32,17 @@ std::string_view unit_of(Quantity quantity) {
 Reference joint_reference(const std::vector<Reference>& references) {
   if (references.empty()) throw std::invalid_argument("no reference given, expected at least one");
   if (references.size() == 1) return references.front();
-  Reference joint{fmt::format("{} and {} more", references.front().name, references.size() - 1),
-                  fmt::format("{} references together", references.size()),
-                  references.front().quantity,
-                  {},
-                  {}};
+  Reference joint;
+  joint.name = fmt::format("{} and {} more", references.front().name, references.size() - 1);
+  joint.description = fmt::format("{} references together", references.size());
+  joint.quantity = references.front().quantity;
   for (const Reference& reference : references) {
     if (reference.quantity != joint.quantity) {
       throw std::invalid_argument(fmt::format("{}: {}: expected {} as in {}", reference.name,
                                               unit_of(reference.quantity), unit_of(joint.quantity),
                                               references.front().name));
     }
+    joint.notes.insert(joint.notes.end(), reference.notes.begin(), reference.notes.end());
     const int first = static_cast<int>(joint.scans.size());
     for (Sample sample : reference.samples) {
       sample.scan += first;
