@@ -3,7 +3,6 @@
 // a directory.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +12,6 @@
 #include "cli/measured_fit.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "data_refs/joint_reference.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
 #include "render/plot/evaluate.h"
@@ -84,27 +82,6 @@ fit::FitResult fit_with_progress(const refs::Reference& reference, const SkyMode
   return fit::fit_atmosphere(reference, refs::standard_spectral_data(), model, options);
 }
 
-std::vector<std::string> names_of(const std::string& list) {
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    names.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return names;
-}
-
-refs::Reference load_references(const FitCommandOptions& options, const CLI::App& command) {
-  std::vector<refs::Reference> references;
-  for (const std::string& name : names_of(options.reference)) {
-    references.push_back(refs::load_reference(name, parse_sun_zeniths(options.sun_zenith),
-                                              parse_sampling(options.sampling),
-                                              parse_import_options(options.import)));
-    warn_of_unused_options(command, name);
-  }
-  return refs::joint_reference(references);
-}
-
 std::vector<std::string> result_files() {
   std::vector<std::string> files = measured_files();
   files.insert(files.end(), {kSamplesFile, kFigureFiles[0], kFigureFiles[1]});
@@ -116,7 +93,8 @@ void run_fit(FitCommandOptions options, const CLI::App& command) {
   const std::map<fit::Instrument, Prior> instrument_priors = take_instrument_priors(options.prior);
   const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
   const fit::FitOptions how = fit_options(options, *model, command);
-  const refs::Reference reference = load_references(options, command);
+  const refs::Reference reference = load_references(options.reference, options.sun_zenith,
+                                                    options.sampling, options.import, command);
   if (is_measured_fit(command, reference)) {
     fit::MeasuredOptions measured;
     measured.common = how;

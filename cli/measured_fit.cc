@@ -74,7 +74,7 @@ void apply(const MeasuredArguments& arguments, fit::MeasuredOptions& options) {
     const std::vector<Parameter> names = parse_parameters("--per-scan", arguments.per_scan);
     options.per_scan = {names.begin(), names.end()};
   }
-  options.calibration = parse_choice("--calibration", arguments.calibration, kCalibrations);
+  options.calibration = parse_choice("--scale", arguments.scale, kCalibrations);
   options.pointing = parse_choice("--pointing", arguments.pointing, kPointings);
   options.loss = parse_choice("--loss", arguments.loss, kLosses);
   if (!arguments.noise.empty()) {
@@ -127,7 +127,7 @@ std::vector<plot::MeasuredSample> measured_samples(const refs::Reference& refere
 }  // namespace
 
 void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
-  arguments.calibration = kCalibrations[0].first;
+  arguments.scale = kCalibrations[0].first;
   arguments.pointing = kPointings[1].first;
   arguments.loss = kLosses[0].first;
   const auto add = [&](const std::string& name, std::string& text, const std::string& meaning,
@@ -136,7 +136,7 @@ void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
   };
   add("--per-scan", arguments.per_scan, "Free parameters of which every scan has its own",
       "NAME,NAME");
-  add("--calibration", arguments.calibration,
+  add("--scale", arguments.scale,
       "absolute, or an unknown scale, shared or per-scan (prior 1+-0.05)", "NAME");
   add("--pointing", arguments.pointing,
       "stated, or an unknown azimuth offset per scan (azimuth), or two tilts as well (tilt)",

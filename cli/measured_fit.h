@@ -13,7 +13,7 @@
 namespace skyfit::cli {
 
 struct MeasuredArguments {
-  std::string per_scan, calibration, pointing, noise, loss, ground, hold_out;
+  std::string per_scan, scale, pointing, noise, loss, ground, hold_out;
   std::vector<std::string> profiles;
   int bootstrap = 0, seed = 1;
   bool keep_absorption_bands = false;

@@ -59,13 +59,17 @@ class Evaluation {
     return pointed(l.stated, data_.scans[scan], instrument);
   }
 
+  int scan_of(const ScanRow& row) const {
+    return data_.looks[static_cast<std::size_t>(row.look)].scan;
+  }
+
   // Calls use(row index, row, look within the group, factor from the weighted radiance).
   template <class Use>
   void for_rows(const Group& group, const Use& use) const {
     for (std::size_t r = 0; r < data_.rows.size(); ++r) {
       const ScanRow& row = data_.rows[r];
       if (row.look < group.first || row.look >= group.last) continue;
-      const int scan = data_.looks[static_cast<std::size_t>(row.look)].scan;
+      const int scan = scan_of(row);
       const double factor = data_.scans[static_cast<std::size_t>(scan)].inverse_distance2 *
                             state_.instrument[static_cast<std::size_t>(scan)]
                                              [static_cast<std::size_t>(Instrument::kScale)];
@@ -99,7 +103,7 @@ class Evaluation {
     for_rows(group, [&](Eigen::Index r, const ScanRow& row, int look, double factor) {
       result_.value(r) = factor * weighted(row, [&](int node) { return sky.at(look, node); });
       for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-        if (slice[u] < 0) continue;
+        if (slice[u] < 0 || !unknowns_[u].applies_to(scan_of(row))) continue;
         result_.derivative(r, static_cast<Eigen::Index>(u)) =
             factor *
             weighted(row, [&](int node) { return sky.derivative_at(slice[u], look, node); });
@@ -131,7 +135,7 @@ class Evaluation {
     }
     const SkyValues sky = model_.radiance(atmosphere(group), data_.nodes, points, {});
     for_rows(group, [&](Eigen::Index r, const ScanRow& row, int look, double factor) {
-      const int scan = data_.looks[static_cast<std::size_t>(row.look)].scan;
+      const int scan = scan_of(row);
       for (std::size_t u = 0; u < unknowns_.size(); ++u) {
         const Instrument* id = std::get_if<Instrument>(&unknowns_[u].what);
         const auto angle = id == nullptr ? angles.end() : std::ranges::find(angles, *id);
@@ -150,7 +154,7 @@ class Evaluation {
       const Instrument* id = std::get_if<Instrument>(&unknowns_[u].what);
       if (id == nullptr || *id != Instrument::kScale) continue;
       for (std::size_t r = 0; r < data_.rows.size(); ++r) {
-        const int scan = data_.looks[static_cast<std::size_t>(data_.rows[r].look)].scan;
+        const int scan = scan_of(data_.rows[r]);
         if (!unknowns_[u].applies_to(scan)) continue;
         const auto row = static_cast<Eigen::Index>(r);
         result_.derivative(row, static_cast<Eigen::Index>(u)) =

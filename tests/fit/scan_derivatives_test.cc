@@ -24,7 +24,8 @@ TEST_P(ScanDerivativesTest, AgreeWithDifferences) {
   const ScanData data =
       scan_data(synthetic_scans(model, true_atmosphere(2), {}), refs::standard_spectral_data(), {});
   SkyState state = start_state(true_atmosphere(2), 2);
-  state.instrument[1][static_cast<std::size_t>(Instrument::kAzimuthOffset)] = 0.1;
+  for (auto& instrument : state.instrument)
+    instrument[static_cast<std::size_t>(Instrument::kAzimuthOffset)] = 0.1;
   const RowValues values = row_values(model, data, state, {unknown});
   const double at = get_unknown(state, unknown), step = 1e-4 * (unknown.upper - unknown.lower);
   const auto moved = [&](double by) {
