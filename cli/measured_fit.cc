@@ -17,6 +17,7 @@
 #include "fit/measured_report.h"
 #include "model/sky_model.h"
 #include "render/plot/measured_csv.h"
+#include "render/plot/measured_figures.h"
 
 namespace skyfit::cli {
 namespace {
@@ -25,6 +26,8 @@ constexpr std::string_view kGroup = "Measured skies";
 constexpr std::string_view kScans = "scans";
 constexpr const char *kPresetFile = "preset.json", *kReportFile = "report.json",
                      *kReportTextFile = "report.txt", *kMeasuredFile = "measured.csv";
+
+constexpr const char* kFigureExtensions[] = {".svg", ".png"};
 
 template <class Enum, std::size_t N>
 Enum parse_choice(std::string_view option, const std::string& text,
@@ -124,6 +127,18 @@ std::vector<plot::MeasuredSample> measured_samples(const refs::Reference& refere
   return samples;
 }
 
+void write_figures(const std::filesystem::path& directory) {
+  const plot::MeasuredOutcome outcome = plot::read_measured_outcome(directory);
+  for (const std::string_view name : plot::measured_figure_names()) {
+    const plot::MeasuredFigure figure = plot::measured_figure_from_name(name);
+    if (!plot::can_draw(figure, outcome)) continue;
+    std::vector<std::filesystem::path> files;
+    for (const char* extension : kFigureExtensions)
+      files.push_back(directory / fmt::format("{}{}", name, extension));
+    plot::write_figure(plot::measured_figure(figure, {&outcome, 1}), files);
+  }
+}
+
 }  // namespace
 
 void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
@@ -192,7 +207,12 @@ bool is_measured_fit(const CLI::App& command, const refs::Reference& reference) 
 }
 
 std::vector<std::string> measured_files() {
-  return {kPresetFile, kReportFile, kReportTextFile, kMeasuredFile};
+  std::vector<std::string> files = {kPresetFile, kReportFile, kReportTextFile, kMeasuredFile};
+  for (const std::string_view name : plot::measured_figure_names()) {
+    for (const char* extension : kFigureExtensions)
+      files.push_back(fmt::format("{}{}", name, extension));
+  }
+  return files;
 }
 
 std::map<fit::Instrument, Prior> take_instrument_priors(std::vector<std::string>& priors) {
@@ -237,6 +257,7 @@ void run_measured_fit(const MeasuredArguments& arguments, refs::Reference refere
     write_text(staging / kReportFile, report);
     write_text(staging / kReportTextFile, fit::full_report(result, checks));
     write_text(staging / kMeasuredFile, plot::measured_to_csv(measured_samples(reference, result)));
+    write_figures(staging);
   });
   if (!result.converged) {
     fmt::print(stderr, "skyfit: warning: the fit stopped before it converged: {}\n",

@@ -40,6 +40,7 @@ json scans_json(const MeasuredResult& result) {
   json rows = json::array();
   for (const ScanOutcome& scan : result.scans) {
     json row = {{"name", scan.info.name},
+                {"time_utc", scan.info.time_utc},
                 {"sun_zenith_deg", scan.info.sun_zenith * 180 / std::numbers::pi},
                 {"directions", scan.directions},
                 {"samples", scan.samples}};

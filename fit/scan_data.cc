@@ -73,10 +73,14 @@ void add_luminance_channel(ScanData& data, const LuminanceRule& rule) {
 }
 
 ScanInfo scan_info(const refs::Reference& reference, const refs::Sample& sample) {
-  ScanInfo info{sample.scan, fmt::format("scan {}", sample.scan + 1), sample.sun_zenith, 0, 1};
+  ScanInfo info;
+  info.number = sample.scan;
+  info.name = fmt::format("scan {}", sample.scan + 1);
+  info.sun_zenith = sample.sun_zenith;
   if (static_cast<std::size_t>(sample.scan) < reference.scans.size()) {
     const refs::Scan& scan = reference.scans[static_cast<std::size_t>(sample.scan)];
     if (!scan.name.empty()) info.name = scan.name;
+    info.time_utc = scan.time_utc;
     info.sun_azimuth = scan.sun_azimuth.value_or(0);
     info.inverse_distance2 = 1 / (scan.sun_distance_au * scan.sun_distance_au);
   }

@@ -33,6 +33,7 @@ struct Look {
 struct ScanInfo {
   int number = 0;  // the reference's
   std::string name;
+  std::string time_utc;                    // empty: not known
   double sun_zenith = 0, sun_azimuth = 0;  // radians; azimuth from north, 0 where it is not known
   double inverse_distance2 = 1;            // au^-2
 };

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "render/plot/gnuplot.h"
+#include "render/plot/figure_file.h"
 #include "render/plot/hemisphere_maps.h"
 #include "render/plot/legend.h"
 #include "render/plot/plane_panels.h"
 #include "render/plot/suns.h"
-#include "render/plot/whole_files.h"
 
 namespace skyfit::plot {
 namespace {
@@ -20,7 +19,6 @@ namespace {
 constexpr double kHeader = 96;  // title, subtitle, legend
 constexpr double kFooter = 72;  // axis title of the panels, colour scale of the maps
 constexpr double kLeft = 84;    // luminance labels
-constexpr double kPixelsPerInch = 100;
 
 struct Layout {
   double width, height;
@@ -86,21 +84,6 @@ void draw_titles(Script& script, const Comparison& comparison, const Suns& suns,
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
 }
 
-std::string terminal(const std::string& extension, const Layout& layout) {
-  if (extension == ".svg")
-    return fmt::format(
-        "svg size {:.0f},{:.0f} dynamic font 'DejaVu Sans,9' fontscale 1.333 background '#ffffff' "
-        "name 'skyfit'",
-        layout.width, layout.height);
-  if (extension == ".png")
-    return fmt::format("pngcairo size {:.0f},{:.0f} font 'DejaVu Sans,9' background '#ffffff'",
-                       layout.width, layout.height);
-  return fmt::format(
-      "pdfcairo size {:.9g}in,{:.9g}in font 'DejaVu Sans,9' fontscale 0.72 linewidth 1.7 "
-      "background '#ffffff'",
-      layout.width / kPixelsPerInch, layout.height / kPixelsPerInch);
-}
-
 std::string figure_body(const Comparison& comparison, const Suns& suns, const Layout& layout) {
   Script script(layout.width, layout.height);
   script.line("set multiplot");
@@ -111,41 +94,15 @@ std::string figure_body(const Comparison& comparison, const Suns& suns, const La
   return script.text();
 }
 
-void check_extensions(const std::vector<std::filesystem::path>& files) {
-  for (const auto& file : files) {
-    const std::string extension = file.extension().string();
-    if (extension != ".svg" && extension != ".png" && extension != ".pdf")
-      throw std::invalid_argument(fmt::format("{}: extension \"{}\": expected .svg, .png or .pdf",
-                                              file.string(), extension));
-  }
-}
-
-// gnuplot may end well without having drawn: what it left must be there.
-void check_drawn(const std::filesystem::path& drawn, const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(drawn, error);
-  if (error || size == 0)
-    throw std::runtime_error(fmt::format("{}: gnuplot left no picture", file.string()));
-}
-
 }  // namespace
 
 void write_comparison(const Comparison& comparison,
                       const std::vector<std::filesystem::path>& files) {
-  check_extensions(files);
+  check_figure_extensions(files);
   validate(comparison);
   const Suns suns = samples_by_sun(comparison);
   const Layout layout = layout_of(suns);
-  const std::string body = figure_body(comparison, suns, layout);
-  WholeFiles whole(files);
-  std::string script = "set encoding utf8\nset minussign\n";
-  for (std::size_t i = 0; i < files.size(); ++i)
-    script += fmt::format("reset\nset terminal {}\nset output {}\n{}unset output\n",
-                          terminal(files[i].extension().string(), layout),
-                          gnuplot_quoted(whole.temporary(i).string()), body);
-  run_gnuplot(script);
-  for (std::size_t i = 0; i < files.size(); ++i) check_drawn(whole.temporary(i), files[i]);
-  whole.commit();
+  write_figure({layout.width, layout.height, figure_body(comparison, suns, layout)}, files);
 }
 
 }  // namespace skyfit::plot

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Unknowns, ScanDerivativesTest,
 
 // A tilt of the axis toward a direction raises what is stated as the zenith there.
 TEST(PointedTest, AxisLeansTowardNorthAndEast) {
-  const ScanInfo scan{0, "", 0.5, 1.2, 1};  // the sun at 1.2 from north
+  const ScanInfo scan{0, "", "", 0.5, 1.2, 1};  // the sun at 1.2 from north
   const SkyPoint north = pointed({0, 0.5, 0, 0}, scan, {0, 0.1, 0, 1});
   EXPECT_NEAR(north.view_zenith, 0.1, 1e-12);
   EXPECT_NEAR(north.relative_azimuth, -1.2, 1e-12);
