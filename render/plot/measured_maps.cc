@@ -11,7 +11,7 @@
 namespace skyfit::plot {
 namespace {
 
-constexpr double kCell = 330, kHeader = 92, kFooter = 84, kTitle = 30, kLabel = 120;
+constexpr double kCell = 330, kHeader = 92, kFooter = 84, kTitle = 30, kLabel = 176;
 constexpr std::size_t kMaxRows = 6;
 constexpr int kScaleSteps = 80;
 

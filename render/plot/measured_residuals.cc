@@ -73,8 +73,10 @@ double limit_percent(const MeasuredOutcome& outcome) {
 void begin_panel(Script& script, const Box& box, std::string_view title, double limit) {
   script.begin_axes(box);
   script.text_label(box.left + box.width / 2, box.bottom - 40, title, "center font ',12'");
-  script.line("set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set yrange [{:.6g}:{:.6g}]",
-              kFrameColor, kGridColor, -limit, limit);
+  script.line(
+      "set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set autoscale x; set yrange "
+      "[{:.6g}:{:.6g}]",
+      kFrameColor, kGridColor, -limit, limit);
   script.line(
       "set xtics nomirror textcolor rgb '#202020'; set ytics nomirror textcolor rgb "
       "'#202020'; set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb "
@@ -118,7 +120,7 @@ Figure residuals_figure(const MeasuredOutcome& outcome) {
   begin_panel(script, box(1), "luminance: view zenith, °", limit);
   draw_scans(script, outcome, 2);
   if (outcome.spectral) {
-    begin_panel(script, box(2), "radiance: wavelength, nm (mean, standard deviation)", limit);
+    begin_panel(script, box(2), "radiance: wavelength, nm (mean ± scatter)", limit);
     script.line(
         "plot $wavelengths using 1:($2-$3):($2+$3) with filledcurves fc rgb '#d8d8d8' "
         "notitle, $wavelengths using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb '{}' "

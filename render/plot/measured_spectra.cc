@@ -12,7 +12,7 @@
 namespace skyfit::plot {
 namespace {
 
-constexpr double kWidth = 1200, kHeader = 92, kFooter = 60, kRow = 320, kLeft = 74, kGap = 62;
+constexpr double kWidth = 1200, kHeader = 64, kFooter = 60, kRow = 320, kLeft = 84, kGap = 70;
 
 struct Chosen {
   std::string meaning;
@@ -74,11 +74,13 @@ void write_data(Script& script, const MeasuredOutcome& outcome, const MeasuredDi
 void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_t index) {
   script.begin_axes(box);
   const MeasuredDirection& d = chosen.direction;
-  script.text_label(
-      box.left + box.width / 2, box.top() + 14,
-      fmt::format("{}: zenith {:.0f}°, azimuth {:.0f}°, {:.0f}° from the sun", chosen.meaning,
-                  d.view_zenith_deg, d.relative_azimuth_deg, d.scattering_angle_deg),
-      "center font ',11'");
+  script.text_label(box.left + box.width / 2, box.top() + 26, chosen.meaning, "center font ',12'");
+  const std::string azimuth =
+      d.view_zenith_deg > 0 ? fmt::format("azimuth {:.0f}°, ", d.relative_azimuth_deg) : "";
+  script.text_label(box.left + box.width / 2, box.top() + 10,
+                    fmt::format("zenith {:.0f}°, {}{:.0f}° from the sun", d.view_zenith_deg,
+                                azimuth, d.scattering_angle_deg),
+                    "center font ',10' textcolor rgb '#404040'");
   script.line("set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set yrange [0:*]", kFrameColor,
               kGridColor);
   script.line(
