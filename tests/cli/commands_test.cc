@@ -26,7 +26,8 @@ class CommandsTest : public ProgramTest {
 };
 
 TEST_F(CommandsTest, EveryCommandHasHelpWithAnExample) {
-  for (const char* command : {"fit", "sky", "plot", "render", "presets", "references", "check"}) {
+  for (const char* command :
+       {"fit", "sky", "plot", "render", "presets", "references", "check", "classify"}) {
     EXPECT_THAT(output({command, "--help"}), HasSubstr(std::string("skyfit ") + command + " "))
         << command;
     EXPECT_THAT(output({command, "--help"}), HasSubstr("Example")) << command;
