@@ -156,13 +156,15 @@ std::string text_of(const json& summary) {
     return fmt::format("{}: valid sidecar, {} excluded samples\n", file,
                        summary["excluded_samples"].get<std::size_t>());
   }
+  const auto scans = summary["scans"].get<std::size_t>();
   return fmt::format(
-             "{}: valid samples of {}: {} ({} with weight{}){} in {} directions and {} scans, sun "
+             "{}: valid samples of {}: {} ({} with weight{}){} in {} directions and {}, sun "
              "zenith {:.9g} to {:.9g} deg\n",
              file, summary["quantity"].get<std::string>(), summary["samples"].get<std::size_t>(),
              summary["samples_with_weight"].get<std::size_t>(), not_used_text(summary),
              wavelengths_text(summary), summary["directions"].get<std::size_t>(),
-             summary["scans"].get<std::size_t>(), summary["sun_zenith_deg"][0].get<double>(),
+             scans == 1 ? "1 scan" : fmt::format("{} scans", scans),
+             summary["sun_zenith_deg"][0].get<double>(),
              summary["sun_zenith_deg"][1].get<double>()) +
          detail_lines(summary);
 }

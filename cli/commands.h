@@ -15,5 +15,6 @@ void add_presets_command(CLI::App& app);
 void add_references_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_classify_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
 
 }  // namespace skyfit::cli

@@ -11,6 +11,7 @@
 
 #include "cli/arguments.h"
 #include "data_refs/joint_reference.h"
+#include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
 
 namespace skyfit::cli {
@@ -71,15 +72,16 @@ void add_sampling_options(CLI::App& command, std::string& sampling, std::string&
 }
 
 void warn_of_unused_options(const CLI::App& command, const std::string& reference) {
-  const bool is_shipped = is_shipped_reference(reference);
-  const std::string reason = is_shipped ? "is no measured sky" : "has its own directions";
+  const bool is_measured = !is_shipped_reference(reference) && !refs::is_perez_name(reference);
+  const bool is_analytic = !is_measured && !reference.starts_with("truth:");
   for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
     const bool is_import = option->get_group() == kImportGroup;
     const bool is_sampling =
         option->check_lname("sampling") || option->check_lname("sun-zenith-deg");
-    if (option->count() == 0 || !(is_shipped ? is_import : is_sampling)) continue;
+    if (!(is_import && !is_measured) && !(is_sampling && !is_analytic)) continue;
     fmt::print(stderr, "skyfit: warning: {} is not used: {} {}\n", option->get_name(), reference,
-               reason);
+               is_import ? "is no measured sky" : "has its own directions");
   }
 }
 
@@ -90,7 +92,7 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
   };
   for (const refs::ImportOptionRow& row : refs::import_option_table()) {
     if (!row.on_command_line) continue;
-    add(import_option_name(row), arguments.facts[std::string(row.name)],
+    add(import_option_name(row), arguments.facts[row.name],
         fmt::format("{} ({})", row.meaning, row.expectation), row.number ? "NUMBER" : "TEXT");
   }
   add(kExcludeSample, arguments.exclude_samples, "Do not use the samples of these numbers", "LIST");
@@ -102,9 +104,8 @@ refs::ImportOptions parse_import_options(const ImportArguments& arguments) {
   for (const refs::ImportOptionRow& row : refs::import_option_table()) {
     const auto given = arguments.facts.find(row.name);
     if (given == arguments.facts.end() || !given->second) continue;
-    if (!refs::set_import_option(row, *given->second, options)) {
-      throw UsageError(import_option_name(row), *given->second,
-                       fmt::format("expected {}", row.expectation));
+    if (!row.set(*given->second, options)) {
+      throw UsageError(import_option_name(row), *given->second, "expected " + row.expectation);
     }
   }
   if (arguments.exclude_samples) {
@@ -157,7 +158,8 @@ refs::Reference load_references(const std::string& names, const std::string& sun
 }
 
 bool is_shipped_reference(const std::string& name) {
-  return std::ranges::count(refs::shipped_references(), name, &refs::ReferenceEntry::name) > 0;
+  return refs::is_perez_name(name) ||
+         std::ranges::count(refs::shipped_references(), name, &refs::ReferenceEntry::name) > 0;
 }
 
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

@@ -55,6 +55,7 @@ refs::Reference load_references(const std::string& names, const std::string& sun
                                 const std::string& sampling, const ImportArguments& import,
                                 const CLI::App& command);
 
+// Analytic: read where the user says.
 bool is_shipped_reference(const std::string& name);
 
 // Threads to use when the user names no number: those of the machine.

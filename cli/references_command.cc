@@ -3,6 +3,7 @@
 // sky in any format, as CSV that `fit` reads back.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "cli/output.h"
 #include "data_refs/references.h"
 #include "data_refs/sample_csv.h"
+#include "data_refs/truth.h"
 
 namespace skyfit::cli {
 namespace {
@@ -22,15 +24,21 @@ struct ReferencesOptions {
 };
 
 void print_list(bool json) {
-  auto list = nlohmann::json::array();
-  for (const refs::ReferenceEntry& entry : refs::shipped_references()) {
-    if (json) {
+  std::vector<refs::ReferenceEntry> entries = refs::shipped_references();
+  entries.push_back({"perez:EPSILON,DELTA",
+                     "Perez, Seals & Michalsky 1993, all-weather sky: clearness, brightness"});
+  for (const refs::TruthEntry& entry : refs::truth_references())
+    entries.push_back({std::string(entry.name), std::string(entry.description)});
+  if (json) {
+    auto list = nlohmann::json::array();
+    for (const refs::ReferenceEntry& entry : entries)
       list.push_back({{"name", entry.name}, {"description", entry.description}});
-    } else {
-      print(fmt::format("{:<26}{}\n", entry.name, entry.description));
-    }
+    return print(list.dump(2) + "\n");
   }
-  if (json) print(list.dump(2) + "\n");
+  std::size_t longest = 0;
+  for (const refs::ReferenceEntry& entry : entries) longest = std::max(longest, entry.name.size());
+  for (const refs::ReferenceEntry& entry : entries)
+    print(fmt::format("{:<{}}{}\n", entry.name, longest + 2, entry.description));
 }
 
 void run_references(const ReferencesOptions& options, const CLI::App& command) {

@@ -22,10 +22,10 @@ namespace {
 
 constexpr double kMissing = -999;
 constexpr std::string_view kUnit = "uW cm-2 sr-1 nm-1";
-constexpr std::string_view kNominal = "Nominal_Wavelength(nm)", kExact = "Exact_Wavelength(um)",
-                           kTime = "Time(hh:mm:ss)", kSunZenith = "Solar_Zenith_Angle(Degrees)",
-                           kType = "Sky_Scan_Type", kLatitude = "Latitude(Degrees)",
-                           kLongitude = "Longitude(Degrees)", kElevation = "Elevation(m)";
+constexpr std::string_view kNominal = "Nominal_Wavelength", kExact = "Exact_Wavelength",
+                           kTime = "Time", kSunZenith = "Solar_Zenith_Angle",
+                           kType = "Sky_Scan_Type", kLatitude = "Latitude",
+                           kLongitude = "Longitude", kElevation = "Elevation", kDate = "Date";
 
 struct AngleColumn {
   std::size_t index;
@@ -40,7 +40,12 @@ std::optional<double> azimuth_of(const std::string& column) {
 }
 
 bool is_header(std::string_view line) {
-  return line.find(kNominal) != line.npos && line.find(kType) != line.npos;
+  return line.find(kNominal) != line.npos && line.find(kSunZenith) != line.npos;
+}
+
+// "Elevation" of "Elevation(m)".
+std::string_view without_unit(std::string_view column) {
+  return column.substr(0, column.find('('));
 }
 
 struct Line {
@@ -68,7 +73,7 @@ class AeronetReader {
 
   std::optional<std::size_t> column(std::string_view name) const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i] == name) return i;
+      if (without_unit(columns_[i]) == name) return i;
     }
     return {};
   }
@@ -96,7 +101,7 @@ class AeronetReader {
   }
 
   Instant time(const Line& line) const {
-    const std::size_t clock = *column(kTime), date = date_column_;
+    const std::size_t clock = *column(kTime), date = *column(kDate);
     static const std::regex day_first(R"((\d{1,2})[:/.-](\d{1,2})[:/.-](\d{4}))");
     std::smatch match;
     if (!std::regex_match(line.fields[date], match, day_first)) fail(line, date, "dd:mm:yyyy");
@@ -117,10 +122,9 @@ class AeronetReader {
   void read_columns(std::vector<std::string> columns, int number) {
     columns_ = std::move(columns);
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].starts_with("Date(")) date_column_ = i;
       if (const auto azimuth = azimuth_of(columns_[i])) angles_.push_back({i, *azimuth});
     }
-    for (const std::string_view name : {kTime, kNominal, kSunZenith, kType}) {
+    for (const std::string_view name : {kDate, kTime, kNominal, kSunZenith, kType}) {
       if (!column(name)) fail_at(source_, number, fmt::format("expected a column {}", name));
     }
     if (angles_.empty())
@@ -139,7 +143,6 @@ class AeronetReader {
 
   std::string source_;
   std::vector<std::string> columns_;
-  std::size_t date_column_ = 0;
   std::vector<AngleColumn> angles_;
   std::vector<Line> lines_;
 };
@@ -173,7 +176,7 @@ void add_line(const AeronetReader& reader, const Line& line, const ScanSun& sun,
 
 bool is_aeronet_csv(std::string_view text) {
   const std::size_t header = text.find(kNominal);
-  return header != text.npos && text.find(kType, header) != text.npos;
+  return header != text.npos && text.find(kSunZenith, header) != text.npos;
 }
 
 Reference parse_aeronet_csv(std::string_view text, std::string_view source,

@@ -144,7 +144,9 @@ std::string read_csv_file(const std::filesystem::path& file, std::string_view ex
     throw std::runtime_error(fmt::format("{}: cannot be read ({}), expected {}", file.string(),
                                          std::strerror(errno), expectation));
   }
-  return std::move(text).str();
+  std::string content = std::move(text).str();
+  if (content.starts_with(kByteOrderMark)) content.erase(0, kByteOrderMark.size());
+  return content;
 }
 
 }  // namespace skyfit::refs

@@ -156,7 +156,8 @@ class EkoReader {
 }  // namespace
 
 bool is_eko_csv(std::string_view first_line) {
-  return first_line.find("MS-321LR") != first_line.npos;
+  return first_line.find("MS-321LR") != first_line.npos ||
+         first_line.find("Sky Scanner") != first_line.npos;
 }
 
 Reference parse_eko_csv(std::string_view text, std::string_view source,

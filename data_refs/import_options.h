@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,25 +37,38 @@ struct ImportOptions {
   std::optional<std::filesystem::path> sidecar;  // in the place of the one beside the file
 };
 
+// The kinds of measured skies that a fact can be about, as bits.
+enum SkyFormats : unsigned {
+  kSampleCsv = 1,
+  kSpectralScan = 2,
+  kSpectralFolder = 4,
+  kPatchScan = 8,
+  kAlmucantar = 16,
+  kSkyImage = 32,
+  kScans = kSpectralScan | kSpectralFolder | kPatchScan | kAlmucantar | kSkyImage
+};
+
 // A row holds either a number or a text.
 struct ImportOptionRow {
-  std::string_view name;         // "latitude_deg"; --latitude-deg on the command line
-  std::string_view expectation;  // "-90 to 90"
-  std::string_view meaning;
+  std::string name;         // "latitude_deg"; --latitude-deg on the command line
+  std::string expectation;  // "-90 to 90"
+  std::string meaning;
   std::optional<double> ImportOptions::*number = nullptr;
-  double lower = 0, upper = 0;  // of the number
+  std::function<bool(double)> accepts_number;
   std::optional<std::string> ImportOptions::*text = nullptr;
-  bool (*accepts)(const std::string&) = nullptr;  // the text
+  std::function<bool(const std::string&)> accepts_text;
+  unsigned formats = kScans;  // that it is about
   bool on_command_line = true;
+
+  bool is_set(const ImportOptions& options) const;
+  // Sets what the text says; false when it is not what the row expects.
+  bool set(std::string_view value, ImportOptions& options) const;
 };
 
 std::span<const ImportOptionRow> import_option_table();
 
 // "a,b,c"; empty when a part is no finite number.
 std::vector<double> number_list(std::string_view text);
-
-// Sets what the text says; false when it is not what the row expects.
-bool set_import_option(const ImportOptionRow& row, std::string_view text, ImportOptions& options);
 
 // Throws std::invalid_argument `latitude_deg = 95: must be -90 to 90`.
 void validate(const ImportOptions& options);

@@ -3,6 +3,8 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "data_refs/aeronet_csv.h"
 #include "data_refs/csv.h"
@@ -15,24 +17,44 @@
 #include "data_refs/spectral_scan_folder.h"
 
 namespace skyfit::refs {
+namespace {
 
-Reference load_measured_sky(const std::filesystem::path& file, const ImportOptions& options) {
-  validate(options);
-  const ImportOptions all = with_sidecar(options, file);
-  if (std::filesystem::is_directory(file)) return load_spectral_scan_folder(file, all);
-  if (is_sky_image(file)) return load_sky_image(file, all);
-  const std::string text = read_csv_file(file, "a measured sky");
-  const std::string name = file.string();
+struct LoadedSky {
+  Reference sky;
+  SkyFormats format;
+};
+
+LoadedSky load_text(const std::string& text, const std::string& name, const ImportOptions& facts) {
   if (text.find('\0') != text.npos) {
     throw std::invalid_argument(
         name + ": no measured sky: expected text, or an image in OpenEXR or Radiance HDR");
   }
   const std::string_view line = first_line(text);
-  if (is_eko_csv(line)) return parse_eko_csv(text, name, all);
-  if (is_aeronet_csv(text)) return parse_aeronet_csv(text, name, all);
-  if (is_spectral_scan(line)) return parse_spectral_scan(text, name, all);
-  if (is_patch_csv(line)) return parse_patch_csv(text, name, all);
-  return parse_sample_csv(text, name);
+  if (is_eko_csv(line)) return {parse_eko_csv(text, name, facts), kPatchScan};
+  if (is_aeronet_csv(text)) return {parse_aeronet_csv(text, name, facts), kAlmucantar};
+  if (is_spectral_scan(line)) return {parse_spectral_scan(text, name, facts), kSpectralScan};
+  if (is_patch_csv(line)) return {parse_patch_csv(text, name, facts), kPatchScan};
+  return {parse_sample_csv(text, name, facts.exclude_samples), kSampleCsv};
+}
+
+LoadedSky load(const std::filesystem::path& file, const ImportOptions& facts) {
+  if (std::filesystem::is_directory(file))
+    return {load_spectral_scan_folder(file, facts), kSpectralFolder};
+  if (is_sky_image(file)) return {load_sky_image(file, facts), kSkyImage};
+  return load_text(read_csv_file(file, "a measured sky"), file.string(), facts);
+}
+
+}  // namespace
+
+Reference load_measured_sky(const std::filesystem::path& file, const ImportOptions& options) {
+  validate(options);
+  const ImportOptions facts = with_sidecar(options, file);
+  LoadedSky loaded = load(file, facts);
+  for (const ImportOptionRow& row : import_option_table()) {
+    if (row.is_set(facts) && (row.formats & loaded.format) == 0)
+      loaded.sky.notes.push_back(row.name + " is not used: it is not about this format");
+  }
+  return std::move(loaded.sky);
 }
 
 }  // namespace skyfit::refs

@@ -13,7 +13,9 @@
 #include "data_refs/cie_sky.h"
 #include "data_refs/embedded.h"
 #include "data_refs/measured_formats.h"
+#include "data_refs/perez_sky.h"
 #include "data_refs/sampling.h"
+#include "data_refs/truth.h"
 
 namespace skyfit::refs {
 namespace {
@@ -54,12 +56,18 @@ Reference sampled(const std::vector<double>& sun_zenith, Sampling sampling,
   return reference;
 }
 
-// `name` is one of shipped_references().
+// `name` is one of the analytic ones of shipped_references(), or "perez:EPSILON,DELTA".
 Reference analytic_reference(std::string_view name, const std::vector<double>& suns,
                              Sampling sampling) {
   if (name == kTraditionalOvercast) {
     return sampled(suns, sampling, [](const Sample& s) {
       return traditional_overcast_relative_luminance(s.view_zenith);
+    });
+  }
+  if (is_perez_name(name)) {
+    const PerezSky sky = perez_sky_named(name);
+    return sampled(suns, sampling, [&](const Sample& s) {
+      return perez_relative_luminance(sky, s.sun_zenith, s.view_zenith, scattering_angle(s));
     });
   }
   const std::span<const CieSky> skies = cie_skies();
@@ -85,6 +93,16 @@ std::vector<ReferenceEntry> shipped_references() {
 
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
                          Sampling sampling, const ImportOptions& options) {
+  if (is_perez_name(name)) {
+    expect_suns(name, sun_zenith);
+    Reference reference = analytic_reference(name, sun_zenith, sampling);
+    reference.name = name;
+    reference.description = "Perez, Seals & Michalsky 1993, all-weather sky";
+    return reference;
+  }
+  for (const TruthEntry& truth : truth_references()) {
+    if (truth.name == name) return truth_reference(name);
+  }
   for (const ReferenceEntry& entry : shipped_references()) {
     if (entry.name != name) continue;
     expect_suns(name, sun_zenith);
@@ -96,7 +114,8 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
   const std::filesystem::path file(name);
   if (std::filesystem::exists(file)) return load_measured_sky(file, options);
   throw std::invalid_argument(
-      fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {} or a measured sky",
+      fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {}, "
+                  "perez:EPSILON,DELTA, a truth: of `skyfit references` or a measured sky",
                   name, cie_skies().size(), kTraditionalOvercast));
 }
 

@@ -21,14 +21,15 @@ struct ReferenceEntry {
   std::string description;  // one line
 };
 
-// The shipped references: cie:1 .. cie:15 and cie:traditional-overcast.
+// The analytic references with a name of their own: cie:1 .. cie:15 and cie:traditional-overcast.
 std::vector<ReferenceEntry> shipped_references();
 
-// `name` is a shipped reference or the path of a measured sky (data_refs/measured_formats.h). For
-// analytic references the suns (zenith, radians) and the sampling say where they are read; a
-// measured sky brings its own, and `options` say what its file leaves open. Throws
-// std::invalid_argument / std::runtime_error with one line that names file, line, field, value,
-// expectation.
+// `name` is a shipped reference, "perez:EPSILON,DELTA" (data_refs/perez_sky.h), one of
+// truth_references() (data_refs/truth.h) or the path of a measured sky
+// (data_refs/measured_formats.h). For analytic references the suns (zenith, radians)
+// and the sampling say where they are read; a measured sky and a table of truth bring their own.
+// `options` say what the file of a measured sky leaves open. Throws std::invalid_argument /
+// std::runtime_error with one line that names file, line, field, value, expectation.
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
                          Sampling sampling, const ImportOptions& options = {});
 

@@ -170,9 +170,23 @@ class SampleReader {
   std::vector<Scan> scans_;  // in the order of their first sample
 };
 
+void exclude(const ExcludedSample& excluded, std::string_view source,
+             std::vector<Sample>& samples) {
+  const auto index = static_cast<std::size_t>(excluded.sample);
+  if (index >= samples.size()) {
+    throw std::invalid_argument(
+        fmt::format("{}: exclude_samples = {}: expected the number of a "
+                    "sample, from 0 in the order of the file",
+                    source, excluded.sample));
+  }
+  samples[index].weight = 0;
+  samples[index].zero_weight_reason = excluded.reason;
+}
+
 }  // namespace
 
-Reference parse_sample_csv(std::string_view text, std::string_view source) {
+Reference parse_sample_csv(std::string_view text, std::string_view source,
+                           std::span<const ExcludedSample> excluded) {
   const CsvTable table(text, source);
   expect_columns(table);
   Reference reference;
@@ -180,6 +194,7 @@ Reference parse_sample_csv(std::string_view text, std::string_view source) {
   reference.quantity = value_column(table).quantity;
   SampleReader reader(table);
   for (const CsvRecord& record : table.records()) reference.samples.push_back(reader.read(record));
+  for (const ExcludedSample& sample : excluded) exclude(sample, source, reference.samples);
   const auto used = std::count_if(reference.samples.begin(), reference.samples.end(),
                                   [](const Sample& sample) { return sample.weight > 0; });
   if (used == 0) {
@@ -191,10 +206,6 @@ Reference parse_sample_csv(std::string_view text, std::string_view source) {
                   quantity_name(reference.quantity), reader.scans().size(), source);
   reference.scans = reader.scans();
   return reference;
-}
-
-Reference load_sample_csv(const std::filesystem::path& file) {
-  return parse_sample_csv(read_csv_file(file, "a CSV of samples"), file.string());
 }
 
 }  // namespace skyfit::refs

@@ -21,20 +21,19 @@
 // Format of the text: data_refs/csv.h.
 #pragma once
 
-#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "data_refs/import_options.h"
 #include "data_refs/samples.h"
 
 namespace skyfit::refs {
 
 // Throws std::invalid_argument with one line that names source, line, column, value and what was
-// expected.
-Reference parse_sample_csv(std::string_view text, std::string_view source);
-
-// Throws std::runtime_error when the file cannot be read.
-Reference load_sample_csv(const std::filesystem::path& file);
+// expected. Excluded samples are numbered from 0 in the order of the file.
+Reference parse_sample_csv(std::string_view text, std::string_view source,
+                           std::span<const ExcludedSample> excluded = {});
 
 // With the columns that the reference has something to say in; numbers have nine digits. Its name
 // and description are a comment.

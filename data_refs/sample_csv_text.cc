@@ -27,7 +27,7 @@ struct OutputColumn {
 
 // As it stands where it can.
 std::string quoted_field(const std::string& text) {
-  if (!text.empty() && text.find_first_of(",\"# \t") == text.npos) return text;
+  if (text.find_first_of(",\"# \t") == text.npos) return text;
   std::string result = "\"";
   for (const char c : text) result.append(c == '"' ? 2 : 1, c);
   result += '"';

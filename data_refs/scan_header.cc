@@ -21,7 +21,7 @@ void read_facts(const CommentLine& comment, std::string_view source, ScanHeader&
     const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
     for (const ImportOptionRow& row : import_option_table()) {
       if (row.name != name) continue;
-      if (!set_import_option(row, value, header.facts)) {
+      if (!row.set(value, header.facts)) {
         fail_at(source, comment.line,
                 fmt::format("{} = {}: expected {}", name, value, row.expectation));
       }

@@ -25,6 +25,19 @@ void check_positive(const Luminance& luminance, std::span<const SkyPoint> points
 
 }  // namespace
 
+LuminanceRule rule_of(const refs::Reference& reference, const SpectralData& spectra, bool coarse) {
+  if (reference.quantity != refs::Quantity::kSpectralRadiance)
+    return coarse ? coarse_luminance_rule(spectra) : luminance_rule(spectra);
+  const double wavelength = reference.samples.empty() ? 0 : reference.samples[0].wavelength_nm;
+  for (const refs::Sample& sample : reference.samples) {
+    if (sample.wavelength_nm == wavelength) continue;
+    throw std::invalid_argument(
+        fmt::format("{}: samples at {:.9g} and {:.9g} nm: must be of one wavelength",
+                    reference.name, wavelength, sample.wavelength_nm));
+  }
+  return {spectral_nodes(spectra, {wavelength}), {spectra.solar_irradiance.at(wavelength)}};
+}
+
 Luminance model_luminance(const SkyModel& model, const LuminanceRule& rule,
                           const Atmosphere<double>& atmosphere, std::span<const SkyPoint> points,
                           std::span<const Parameter> derivatives) {

@@ -13,6 +13,12 @@
 
 namespace skyfit::fit {
 
+// What turns radiances into the quantity of a reference: luminance, or spectral radiance under the
+// sun at 1 au of a reference of one wavelength. Throws std::invalid_argument for several. `coarse`:
+// a rule for a search, where there is one.
+LuminanceRule rule_of(const refs::Reference& reference, const SpectralData& spectra,
+                      bool coarse = false);
+
 struct Luminance {
   Eigen::VectorXd value;       // cd/m^2 per point
   Eigen::MatrixXd derivative;  // [point][parameter], per unit of the parameter

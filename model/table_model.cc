@@ -63,18 +63,6 @@ NodeValues radiance_of(const AtmosphereTables& tables, const Entry& e) {
   return sum;
 }
 
-// Calls use(first wavelength, how many, tables) for every four wavelengths.
-template <class Use>
-void for_every_four(const Atmosphere<double>& atmosphere,
-                    std::span<const WavelengthNode> wavelengths, int threads, const Use& use) {
-  for (std::size_t first = 0; first < wavelengths.size(); first += 4) {
-    const std::size_t count = std::min<std::size_t>(4, wavelengths.size() - first);
-    ColorRule four{};  // no colours are asked for; the last wavelength fills the four
-    for (std::size_t k = 0; k < 4; ++k) four.nodes[k] = wavelengths[first + std::min(k, count - 1)];
-    use(first, count, compute_tables(atmosphere, four, TableSizes{}, threads, {}));
-  }
-}
-
 }  // namespace
 
 TableModel::TableModel(int threads) : threads_(threads) {
@@ -91,16 +79,54 @@ SkyValues TableModel::radiance(const Atmosphere<double>& atmosphere,
   SkyValues values{
       static_cast<int>(points.size()), static_cast<int>(wavelengths.size()), 0, {}, {}};
   values.value.resize(points.size() * wavelengths.size());
-  for_every_four(atmosphere, wavelengths, threads_,
-                 [&](std::size_t first, std::size_t count, const AtmosphereTables& tables) {
-                   tbb::task_arena(threads_).execute([&] {
-                     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-                       const NodeValues l = radiance_of(tables, entry_of(atmosphere, points[i]));
-                       std::copy_n(l.begin(), count, &values.value[i * wavelengths.size() + first]);
-                     });
-                   });
-                 });
+  const std::shared_ptr<const Kept> kept = tables_for(atmosphere, wavelengths);
+  tbb::task_arena(threads_).execute([&] {
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+      const Entry entry = entry_of(atmosphere, points[i]);
+      for (std::size_t four = 0; four < kept->tables.size(); ++four) {
+        const NodeValues l = radiance_of(kept->tables[four], entry);
+        std::copy_n(l.begin(), std::min<std::size_t>(4, wavelengths.size() - 4 * four),
+                    &values.value[i * wavelengths.size() + 4 * four]);
+      }
+    });
+  });
   return values;
+}
+
+std::shared_ptr<const TableModel::Kept> TableModel::tables_for(
+    const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (kept_ && kept_->atmosphere == atmosphere &&
+        std::ranges::equal(kept_->wavelengths, wavelengths)) {
+      return kept_;
+    }
+  }
+  const auto made = std::make_shared<Kept>();
+  made->atmosphere = atmosphere;
+  made->wavelengths.assign(wavelengths.begin(), wavelengths.end());
+  for (std::size_t first = 0; first < wavelengths.size(); first += 4) {
+    ColorRule four{};  // no colours are asked for; the last wavelength fills the four
+    for (std::size_t k = 0; k < 4; ++k)
+      four.nodes[k] = wavelengths[std::min(first + k, wavelengths.size() - 1)];
+    made->tables.push_back(compute_tables(atmosphere, four, TableSizes{}, threads_, {}));
+  }
+  return made;
+}
+
+std::size_t TableModel::prepare(const Atmosphere<double>& atmosphere,
+                                std::span<const WavelengthNode> wavelengths) const {
+  validate(atmosphere);
+  const std::shared_ptr<const Kept> made = tables_for(atmosphere, wavelengths);
+  std::size_t bytes = 0;
+  for (const AtmosphereTables& t : made->tables) {
+    for (const Table* table :
+         {&t.optical_depth, &t.irradiance, &t.rayleigh_like, &t.single_mie, &t.phase})
+      bytes += table->rgba.size() * sizeof(float);
+  }
+  const std::lock_guard lock(mutex_);
+  kept_ = made;
+  return bytes;
 }
 
 }  // namespace skyfit

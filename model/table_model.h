@@ -4,7 +4,12 @@
 // differs from `reference`, whose light the tables hold, by the interpolation in them.
 #pragma once
 
+#include <memory>
+#include <mutex>
+#include <vector>
+
 #include "model/sky_model.h"
+#include "model/tables.h"
 
 namespace skyfit {
 
@@ -16,9 +21,20 @@ class TableModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
+  std::size_t prepare(const Atmosphere<double>& atmosphere,
+                      std::span<const WavelengthNode> wavelengths) const override;
 
  private:
+  struct Kept {
+    Atmosphere<double> atmosphere;
+    std::vector<WavelengthNode> wavelengths;
+    std::vector<AtmosphereTables> tables;  // one per four wavelengths
+  };
+  std::shared_ptr<const Kept> tables_for(const Atmosphere<double>& atmosphere,
+                                         std::span<const WavelengthNode> wavelengths) const;
   int threads_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const Kept> kept_;
 };
 
 }  // namespace skyfit

@@ -21,7 +21,13 @@ constexpr int kModes = kPhi;                     // cosines of the azimuth
 
 double theta_of(int i) { return kPi * (i + 0.5) / kTheta; }
 double phi_of(int k) { return kPi * (k + 0.5) / kPhi; }
-double nu_of(int i) { return Shared<double>{}.bruneton_nu_from_unit(unit_of(i, Sizes::nu)); }
+
+// The angle between ray and sun of a texel, as near to it as the two zenith angles allow.
+double nu_of(int i, double mu, double mu_s) {
+  const double nu = Shared<double>{}.bruneton_nu_from_unit(unit_of(i, Sizes::nu));
+  const double reach = std::sqrt(std::max((1 - mu * mu) * (1 - mu_s * mu_s), 0.0));
+  return std::clamp(nu, mu * mu_s - reach, mu * mu_s + reach);
+}
 
 }  // namespace
 
@@ -76,17 +82,30 @@ class BrunetonSolver {
     });
   }
 
+  // Sun and angle of the texels of a ray.
+  struct RaySun {
+    double mu_s, nu;
+  };
+  std::vector<RaySun> suns_of(const BrunetonGeometry::Ray& ray) const {
+    std::vector<RaySun> suns;
+    for (int k = 0; k < kSunNu; ++k) {
+      const double mu_s = geometry_.sun_of_texel(k / Sizes::nu);
+      suns.push_back({mu_s, nu_of(k % Sizes::nu, ray.mu, mu_s)});
+    }
+    return suns;
+  }
+
   // The cosine of the sun's zenith angle at the distance s along a ray.
-  double sun_along(const BrunetonGeometry::Ray& ray, const RayNode& node, double mu_s,
-                   double nu) const {
+  double sun_along(const BrunetonGeometry::Ray& ray, const RayNode& node, const RaySun& sun) const {
     const double r0 = geometry_.bottom() + ray.height, r = geometry_.bottom() + node.height;
-    return std::clamp((r0 * mu_s + node.s * nu) / r, -1.0, 1.0);
+    return std::clamp((r0 * sun.mu_s + node.s * sun.nu) / r, -1.0, 1.0);
   }
 
   void single_scattering(const SunColumns<N>& sun) {
     tbb::parallel_for(0, Sizes::r * Sizes::mu, [&](int i) {
       const int r = i / Sizes::mu, mu = i % Sizes::mu;
       const BrunetonGeometry::Ray& ray = geometry_.ray(r, mu);
+      const std::vector<RaySun> suns = suns_of(ray);
       Dual<N>* rayleigh = &tables_.rayleigh_like_.at({r, mu, 0, 0});
       Dual<N>* mie = &tables_.single_mie_.at({r, mu, 0, 0});
       for (const BrunetonGeometry::Node& node : ray.nodes) {
@@ -96,9 +115,8 @@ class BrunetonSolver {
                       by_aerosol = through * air_.aerosol_scattering * density.aerosol;
         const Between row = sun.row(node.at.height);
         for (int k = 0; k < kSunNu; ++k) {
-          const Dual<N> light = sun.light(
-              row,
-              sun_along(ray, node.at, geometry_.sun_of_texel(k / Sizes::nu), nu_of(k % Sizes::nu)));
+          const Dual<N> light =
+              sun.light(row, sun_along(ray, node.at, suns[static_cast<std::size_t>(k)]));
           add_product(by_air, light, rayleigh[k]);
           add_product(by_aerosol, light, mie[k]);
         }
@@ -242,8 +260,8 @@ class BrunetonSolver {
         const std::array<Dual<N>, kModes> modes = outgoing_modes(r, i, in);
         Dual<N>* out = &source_.at({r, i, sun, 0});
         for (int n = 0; n < Sizes::nu; ++n) {
-          const double cosine =
-              std::clamp((nu_of(n) - mu * mu_s) / std::max(sine * sun_sine, 1e-7), -1.0, 1.0);
+          const double cosine = std::clamp(
+              (nu_of(n, mu, mu_s) - mu * mu_s) / std::max(sine * sun_sine, 1e-7), -1.0, 1.0);
           Dual<N> by_aerosol(0.0), second(0.0);
           double now = 1, before = cosine;  // Chebyshev: cos(m phi)
           for (std::size_t m = 0; m < kModes; ++m) {
@@ -284,6 +302,7 @@ class BrunetonSolver {
     tbb::parallel_for(0, Sizes::r * Sizes::mu, [&](int i) {
       const int r = i / Sizes::mu, mu = i % Sizes::mu;
       const BrunetonGeometry::Ray& ray = geometry_.ray(r, mu);
+      const std::vector<RaySun> suns = suns_of(ray);
       Dual<N>* out = &order_.at({r, mu, 0, 0});
       std::fill_n(out, kSunNu, Dual<N>(0.0));
       std::vector<Dual<N>> slab(kSunNu);
@@ -292,8 +311,8 @@ class BrunetonSolver {
         const Dual<N> through = node.at.weight * exp(-air_.optical_depth(node.at.columns));
         for (int k = 0; k < kSunNu; ++k) {
           const int n = k % Sizes::nu;
-          const Between sun = geometry_.sun_texel(
-              sun_along(ray, node.at, geometry_.sun_of_texel(k / Sizes::nu), nu_of(n)));
+          const Between sun =
+              geometry_.sun_texel(sun_along(ray, node.at, suns[static_cast<std::size_t>(k)]));
           const Dual<N>* near = &slab[static_cast<std::size_t>(sun.low * Sizes::nu + n)];
           Dual<N> source = (1 - sun.part) * near[0];
           add_scaled(sun.part, near[Sizes::nu], source);
@@ -302,7 +321,8 @@ class BrunetonSolver {
       }
       Dual<N>* sum = &tables_.rayleigh_like_.at({r, mu, 0, 0});
       for (int k = 0; k < kSunNu; ++k) {
-        add_scaled(1 / Shared<double>{}.rayleigh_phase(air_.depolarisation, nu_of(k % Sizes::nu)),
+        add_scaled(1 / Shared<double>{}.rayleigh_phase(air_.depolarisation,
+                                                       suns[static_cast<std::size_t>(k)].nu),
                    out[k], sum[k]);
       }
     });

@@ -114,9 +114,9 @@ void check_view(const SkyPoint& point) {
 }
 
 void check_turbidity(double turbidity) {
-  if (turbidity >= 1.25 && turbidity <= 10) return;
+  if (turbidity >= 1.7 && turbidity <= 10) return;
   throw std::domain_error(
-      fmt::format("{} model: turbidity (tau_R + tau_M) / tau_R = {:.9g}: must be in 1.25 .. 10",
+      fmt::format("{} model: turbidity (tau_R + tau_M) / tau_R = {:.9g}: must be in 1.7 .. 10",
                   kName, turbidity));
 }
 

@@ -26,12 +26,12 @@ struct Layout {
   Box maps;
 };
 
-Layout layout_of(const Suns& suns) {
+Layout layout_of(const Suns& suns, std::size_t curves) {
   const std::size_t count = suns.shown.size(), columns = panel_columns(count);
   const std::size_t rows = (count + columns - 1) / columns;
   const double row_height = rows == 1 ? 420 : rows == 2 ? 340 : 270;
   const double height = kHeader + row_height * static_cast<double>(rows) + kFooter;
-  const double width = suns.has_hemisphere ? 1600 : 1080;
+  const double width = suns.has_hemisphere || curves > kMapCurves ? 1600 : 1080;
   const double right = suns.has_hemisphere ? 910 : width - 10;
   const double body = height - kHeader - kFooter;
   const Grid panels{columns, rows, {kLeft, kFooter, right - kLeft, body}};
@@ -51,6 +51,8 @@ bool relative_to_zenith(const Suns& suns) {
 
 std::string luminance_title(const Comparison& comparison, const Suns& suns) {
   if (comparison.quantity == refs::Quantity::kLuminance) return "luminance (cd m⁻²)";
+  if (comparison.quantity == refs::Quantity::kSpectralRadiance)
+    return "spectral radiance (W m⁻² sr⁻¹ nm⁻¹)";
   return relative_to_zenith(suns) ? "luminance / zenith luminance (relative, no unit)"
                                   : "relative luminance (unit of the reference)";
 }
@@ -98,10 +100,10 @@ std::string figure_body(const Comparison& comparison, const Suns& suns, const La
 
 void write_comparison(const Comparison& comparison,
                       const std::vector<std::filesystem::path>& files) {
-  check_figure_extensions(files);
+  check_figure_files(files);
   validate(comparison);
   const Suns suns = samples_by_sun(comparison);
-  const Layout layout = layout_of(suns);
+  const Layout layout = layout_of(suns, comparison.curves.size());
   write_figure({layout.width, layout.height, figure_body(comparison, suns, layout)}, files);
 }
 

@@ -18,14 +18,14 @@ std::string terminal(const std::string& extension, const Figure& figure) {
     return fmt::format(
         "svg size {:.0f},{:.0f} dynamic font 'DejaVu Sans,9' fontscale 1.333 background '#ffffff' "
         "name 'skyfit'",
-        figure.width, figure.height);
+        figure.width_px, figure.height_px);
   if (extension == ".png")
     return fmt::format("pngcairo size {:.0f},{:.0f} font 'DejaVu Sans,9' background '#ffffff'",
-                       figure.width, figure.height);
+                       figure.width_px, figure.height_px);
   return fmt::format(
       "pdfcairo size {:.9g}in,{:.9g}in font 'DejaVu Sans,9' fontscale 0.72 linewidth 1.7 "
       "background '#ffffff'",
-      figure.width / kPixelsPerInch, figure.height / kPixelsPerInch);
+      figure.width_px / kPixelsPerInch, figure.height_px / kPixelsPerInch);
 }
 
 // gnuplot may end well without having drawn: what it left must be there.
@@ -38,7 +38,7 @@ void check_drawn(const std::filesystem::path& drawn, const std::filesystem::path
 
 }  // namespace
 
-void check_figure_extensions(const std::vector<std::filesystem::path>& files) {
+void check_figure_files(const std::vector<std::filesystem::path>& files) {
   for (const auto& file : files) {
     const std::string extension = file.extension().string();
     if (extension != ".svg" && extension != ".png" && extension != ".pdf")
@@ -48,7 +48,7 @@ void check_figure_extensions(const std::vector<std::filesystem::path>& files) {
 }
 
 void write_figure(const Figure& figure, const std::vector<std::filesystem::path>& files) {
-  check_figure_extensions(files);
+  check_figure_files(files);
   WholeFiles whole(files);
   std::string script = "set encoding utf8\nset minussign\n";
   for (std::size_t i = 0; i < files.size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One figure as files of several formats.
+// A figure as files: .svg, .png or .pdf, all of them or none.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 namespace skyfit::plot {
 
 struct Figure {
-  double width = 0, height = 0;  // pixels
-  std::string body;              // gnuplot, between `set multiplot` and `unset multiplot`
+  double width_px = 0, height_px = 0;
+  std::string body;  // gnuplot commands, see Script
 };
 
-// Throws std::invalid_argument unless every extension is .svg, .png or .pdf.
-void check_figure_extensions(const std::vector<std::filesystem::path>& files);
+// Throws std::invalid_argument that names the file whose extension is none of the three.
+void check_figure_files(const std::vector<std::filesystem::path>& files);
 
-// All files appear whole, or none does. Throws std::invalid_argument (extension) or
-// std::runtime_error (cannot write; gnuplot) with one line.
+// Throws as check_figure_files() does, or std::runtime_error (cannot write; gnuplot), with one
+// line.
 void write_figure(const Figure& figure, const std::vector<std::filesystem::path>& files);
 
 }  // namespace skyfit::plot

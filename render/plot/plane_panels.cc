@@ -144,13 +144,16 @@ class Panels {
                     sun.sun_zenith_deg),
         "left font ',12'");
     script_.text_label(box.right(), y, "%", "right font ',12'");
+    const bool many = sun.plane.size() > kMapCurves;
     double right = box.right() - 20;
     for (std::size_t i = sun.plane.size(); i-- > 0;) {
       const double rms = rms_log_percent(sun.plane[i]);
-      script_.text_label(right, y, std::isnan(rms) ? "–" : fmt::format("{:.1f}", rms),
-                         fmt::format("right font ',12' textcolor rgb '{}'",
-                                     several ? kCurveColors[i] : "#000000"));
-      right -= 38;
+      script_.text_label(
+          right, y,
+          std::isnan(rms) ? "–" : fmt::format("{:.{}f}", rms, many && rms >= 99.95 ? 0 : 1),
+          fmt::format("right font ',{}' textcolor rgb '{}'", many ? 10 : 12,
+                      several ? kCurveColors[i] : "#000000"));
+      right -= many ? 34 : 38;
     }
     script_.text_label(right + 4, y, "RMS", "right font ',12'");
   }

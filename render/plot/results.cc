@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "data_refs/perez_sky.h"
 #include "data_refs/references.h"
 #include "render/plot/evaluate.h"
 
@@ -53,9 +54,10 @@ FitRecord record_of(const FitOutcome& fit) {
 }
 
 bool is_analytic(const std::string& reference) {
-  return std::ranges::any_of(refs::shipped_references(), [&](const refs::ReferenceEntry& entry) {
-    return entry.name == reference;
-  });
+  return refs::is_perez_name(reference) ||
+         std::ranges::any_of(refs::shipped_references(), [&](const refs::ReferenceEntry& entry) {
+           return entry.name == reference;
+         });
 }
 
 std::vector<ComparedSample> hemisphere_samples(const FitOutcome& fit, const FitRecord& record,
@@ -98,9 +100,9 @@ FitOutcome read_fit_outcome(const std::filesystem::path& directory) {
 
 Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,
                          const SkyModel& model) {
-  if (fits.empty() || fits.size() > kMaxCurves)
+  if (fits.empty() || fits.size() > kMapCurves)
     throw std::invalid_argument(
-        fmt::format("figure: {} fits: expected 1 to {}", fits.size(), kMaxCurves));
+        fmt::format("figure: {} fits: expected 1 to {}", fits.size(), kMapCurves));
   const FitRecord first = record_of(fits[0]);
   Comparison comparison;
   comparison.reference_label = "reference " + first.reference;

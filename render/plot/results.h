@@ -28,7 +28,7 @@ FitOutcome read_fit_outcome(const std::filesystem::path& directory);
 // One curve per fit. The panels show the fits' own samples. The maps show the 145 Tregenza patches,
 // on which an analytic reference and the preset are evaluated with `model`; for a measured
 // reference they show the samples. Throws std::invalid_argument with one line when the fits cannot
-// share a figure: different units, none, more than kMaxCurves.
+// share a figure: different units, none, more than kMapCurves.
 Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,
                          const SkyModel& model);
 

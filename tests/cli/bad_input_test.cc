@@ -276,5 +276,27 @@ TEST_F(BadInputTest, RenderNumbers) {
   refuse("--exposure-stops", "1e6");
 }
 
+TEST_F(BadInputTest, WhatAModelCannotDo) {
+  const auto sky = [&](const std::string& model, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"sky", "--preset", "earth-clear", "--model", model};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  expect_refusal(sky("nielsen", {"--sun-zenith-deg", "92", "--view-zenith-deg", "0"}),
+                 {"nielsen model", "92", "twilight"});
+  expect_refusal(sky("preetham",
+                     {"--sun-zenith-deg", "30", "--view-zenith-deg", "170", "--altitude-m", "1e6"}),
+                 {"preetham model", "altitude_m", "1000000"});
+  expect_refusal(
+      {"fit", "--reference", "cie:12", "--model", "nielsen", "--lobes", "2", "--out", "x"},
+      {"fit.lobes = 2", "nielsen"});
+  expect_refusal(
+      {"fit", "--reference", "cie:12", "--model", "oneil", "--free", "ozone.column", "--out", "x"},
+      {"ozone.column", "oneil"});
+  expect_refusal({"compare", "--reference", "model:reference", "--out", "x"}, {"--preset"});
+  expect_refusal({"compare", "--reference", "cie:12", "--models", "nonsense", "--out", "x"},
+                 {"nonsense", "expected one of"});
+}
+
 }  // namespace
 }  // namespace skyfit::cli

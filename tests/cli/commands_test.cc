@@ -27,11 +27,42 @@ class CommandsTest : public ProgramTest {
 
 TEST_F(CommandsTest, EveryCommandHasHelpWithAnExample) {
   for (const char* command :
-       {"fit", "sky", "plot", "render", "presets", "references", "check", "classify"}) {
+       {"fit", "sky", "plot", "render", "presets", "references", "check", "classify", "compare"}) {
     EXPECT_THAT(output({command, "--help"}), HasSubstr(std::string("skyfit ") + command + " "))
         << command;
     EXPECT_THAT(output({command, "--help"}), HasSubstr("Example")) << command;
     EXPECT_THAT(output({"--help"}), HasSubstr(command));
+  }
+}
+
+TEST_F(CommandsTest, CompareLeavesTablesAndFigures) {
+  const std::string text =
+      output({"compare", "--reference", "perez:6,0.15", "--sun-zenith-deg", "30,60", "--models",
+              "oneil,nielsen,hoffman-preetham", "--fitted", "--out", "compared"});
+  EXPECT_THAT(text, HasSubstr("oneil"));
+  EXPECT_THAT(files(),
+              ::testing::IsSupersetOf({"compared/comparison.txt", "compared/comparison.csv",
+                                       "compared/comparison.json", "compared/comparison.svg",
+                                       "compared/comparison.png", "compared/fisheye.png"}));
+  const json models = json::parse(read("compared/comparison.json")).at("models");
+  ASSERT_EQ(models.size(), 6u);  // three models, unfitted and fitted
+  for (std::size_t i = 0; i < 6; i += 2) {
+    EXPECT_LT(models[i + 1].at("rms_log_percent").get<double>(),
+              models[i].at("rms_log_percent").get<double>())
+        << models[i].at("model");
+  }
+  EXPECT_EQ(lines(read("compared/comparison.csv")).size(), 7u);
+}
+
+TEST_F(CommandsTest, ModelsFitWhatTheyHave) {
+  output({"fit", "--reference", "cie:12", "--model", "nielsen", "--sun-zenith-deg", "20,50",
+          "--out", "fitted"});
+  const json report = json::parse(read("fitted/report.json"));
+  for (const json& parameter : report.at("parameters")) {
+    const std::string name = parameter.at("name");
+    if (name == "rayleigh.scale_height" || name == "mie.single_scattering_albedo") {
+      EXPECT_FALSE(parameter.at("free").get<bool>()) << name;
+    }
   }
 }
 

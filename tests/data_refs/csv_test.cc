@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace skyfit::refs {
@@ -55,6 +57,16 @@ TEST(Csv, OnlyFiniteNumbersAreNumbers) {
   }
   EXPECT_EQ(complaint("a,b\n,1\n"), "t.csv:2: a = \"\": expected a finite number");
   EXPECT_EQ(complaint("a\n-1.5E-3\n"), "accepted");
+}
+
+TEST(Csv, AnyNumberMayBeNoFiniteOne) {
+  const CsvTable table("a\nnan\n-inf\n+2\nabc\n", "t.csv");
+  EXPECT_TRUE(std::isnan(table.any_number(table.records()[0], "a")));
+  EXPECT_EQ(table.any_number(table.records()[1], "a"), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(table.any_number(table.records()[2], "a"), 2);
+  EXPECT_THAT([&] { table.any_number(table.records()[3], "a"); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  "t.csv:5: a = \"abc\": expected a number, or nan where there is none"));
 }
 
 }  // namespace

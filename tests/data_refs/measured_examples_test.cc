@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
+#include <ostream>
 #include <string>
 
 #include "data_refs/references.h"
@@ -20,13 +20,15 @@ struct Example {
   Quantity quantity;
   std::size_t samples, used, scans;
   double digits;  // to which the file holds its values, relative
+
+  friend void PrintTo(const Example& example, std::ostream* out) { *out << example.file; }
 };
 
 class MeasuredExamples : public testing::TestWithParam<Example> {};
 
 // Of the sample in the unit of the reference, at the sun's distance.
 double model_value(const Sample& sample, Quantity quantity, double distance_au) {
-  static const auto model = make_sky_model("reference", 1);
+  static const auto model = make_sky_model("reference", standard_spectral_data(), 1);
   static const Preset preset = parse_preset(shipped_preset_json("earth-clear"), "earth-clear");
   const SpectralData& data = standard_spectral_data();
   const SkyPoint point{0, sample.sun_zenith, sample.view_zenith, sample.relative_azimuth};

@@ -68,6 +68,8 @@ TEST(References, UnknownNameAndNightAreErrors) {
   EXPECT_THAT(load("cie:12", {95 * kPi / 180}),
               ThrowsMessage<std::invalid_argument>("cie:12: sun_zenith_deg = 95: expected 0 <= "
                                                    "sun_zenith_deg < 90, a sun above the horizon"));
+  EXPECT_THAT(load(testing::TempDir(), {}),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("no measured sky: expected files")));
   EXPECT_THROW(load("cie:12", {kPi / 2})(), std::invalid_argument);
   EXPECT_THROW(load("cie:12", {std::nan("")})(), std::invalid_argument);
 }

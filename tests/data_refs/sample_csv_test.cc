@@ -15,7 +15,6 @@
 namespace skyfit::refs {
 namespace {
 
-using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -178,14 +177,17 @@ TEST(SampleCsv, AnEmptyReferenceIsAnError) {
   EXPECT_EQ(complaint(""), "sky.csv: is empty, expected a line of column names");
 }
 
-TEST(SampleCsv, FileThatCannotBeReadIsNamed) {
-  EXPECT_THAT(
-      [] { load_sample_csv("no/such.csv"); },
-      testing::ThrowsMessage<std::runtime_error>(
-          "no/such.csv: cannot be read (No such file or directory), expected a CSV of samples"));
-  EXPECT_THAT([] { load_sample_csv(testing::TempDir()); },
-              testing::ThrowsMessage<std::runtime_error>(
-                  EndsWith("(Is a directory), expected a CSV of samples")));
+TEST(SampleCsv, SamplesAreExcludedByTheirOrder) {
+  const std::string text = kHeader + "\n30,60,0,5\n30,50,0,6\n";
+  const std::vector<ExcludedSample> second = {{1, "a bird"}}, third = {{2, "a bird"}};
+  const Reference reference = parse_sample_csv(text, "sky.csv", second);
+  EXPECT_EQ(reference.samples[0].weight, 1);
+  EXPECT_EQ(reference.samples[1].weight, 0);
+  EXPECT_EQ(reference.samples[1].zero_weight_reason, "a bird");
+  EXPECT_THAT([&] { parse_sample_csv(text, "sky.csv", third); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  "sky.csv: exclude_samples = 2: expected the number of a sample, from 0 in the "
+                  "order of the file"));
 }
 
 TEST(ShippedExample, IsTheCieSkyItSays) {

@@ -25,6 +25,9 @@ if(NOT EXISTS ${WORK_DIR}/frame.exr)
   message(FATAL_ERROR "the installed skyfit render left no frame")
 endif()
 
+# And the one that it reads images with.
+run(${prefix}/bin/skyfit check ${CONSUMER}/../../../data_refs/examples/fisheye.exr)
+
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK_DIR}/build -G Ninja -D CMAKE_PREFIX_PATH=${prefix}
   -D CMAKE_CXX_FLAGS=${CXX_FLAGS} -D CMAKE_CXX_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)

@@ -24,7 +24,7 @@ TEST(RoomRules, TheLibrariesKeepThem) {
 }
 
 TEST(RoomRules, EveryRoomHasSourcesToCheck) {
-  for (const char* room : {"model", "data_refs", "fit", "render/plot"}) {
+  for (const char* room : {"model", "data_refs", "data_refs/image", "fit", "render/plot"}) {
     const auto rule = std::ranges::find(room_rules(), room, &RoomRule::room);
     ASSERT_NE(rule, room_rules().end()) << room;
     EXPECT_FALSE(room_sources(SKYFIT_SOURCE_DIR, *rule, room_rules()).empty()) << room;

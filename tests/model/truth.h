@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The truth tables in tests/model/data: Monte Carlo in spherical geometry and discrete ordinates;
-// their headers say how they were made.
+// The truth tables in tests/model/data and data_refs/truth: Monte Carlo in spherical geometry and
+// discrete ordinates; their headers say how they were made.
 #pragma once
 
 #include <cmath>
@@ -175,7 +175,9 @@ inline std::vector<Compared> compare(const SkyModel& model, const Atmosphere<dou
 inline std::vector<Compared> compare_monte_carlo(const SkyModel& model, bool haze) {
   std::vector<SkyPoint> points;
   std::vector<double> truth;
-  for (const Row& r : read_rows(haze ? "earth_550nm_haze_ground.csv" : "earth_550nm_ground.csv")) {
+  for (const Row& r :
+       read_rows("../../../data_refs/truth/" +
+                 std::string(haze ? "earth_550nm_haze_ground.csv" : "earth_550nm_ground.csv"))) {
     points.push_back({0, r.number(0) * kDegree, r.number(1) * kDegree, r.number(2) * kDegree});
     truth.push_back(r.number(7));
   }
@@ -186,7 +188,7 @@ inline std::vector<Compared> compare_plane_parallel(const SkyModel& model,
                                                     const std::string& name) {
   std::vector<SkyPoint> points;
   std::vector<double> truth;
-  for (const Row& r : read_rows("plane_parallel.csv")) {
+  for (const Row& r : read_rows("../../../data_refs/truth/plane_parallel.csv")) {
     if (r.field[0] != name || r.field[6] != "ok") continue;
     points.push_back({0, r.number(2) * kDegree, r.number(3) * kDegree, r.number(4) * kDegree});
     truth.push_back(r.number(5));

@@ -36,8 +36,6 @@ class CosineSky : public SkyModel {
     return values;
   }
 };
-  }
-};
 
 FitOutcome outcome(const std::string& reference,
                    const std::string& quantity = "relative_luminance") {

@@ -80,6 +80,58 @@ TEST_F(SharedFormulas, Mappings) {
   }
 }
 
+TEST_F(SharedFormulas, MappingsOfTheLiterature) {
+  const auto inputs = rays();
+  const auto outputs = run_glsl(
+      "#include \"model/shared/geometry.glsl\"\n#include \"model/shared/mapping.glsl\"\n"
+      "#include \"model/shared/bruneton_mapping.glsl\"\n"
+      "#include \"model/shared/bodare_mapping.glsl\"\n",
+      "float horizon = bodare_horizon(x.x, 6360.0);\n"
+      "y = vec4(bruneton_unit_from_height(x.x, 6360.0, 100.0), "
+      "bruneton_unit_from_sun(x.z, -0.2, 6360.0, 100.0), bodare_unit_from_sun(x.z), "
+      "x.y > horizon ? bodare_unit_from_sky_view(x.y, horizon) "
+      ": bodare_unit_from_ground_view(x.y, horizon));",
+      inputs);
+  constexpr double kFifthRoot = 0.02;  // of a cosine's rounding at the horizon: (1e-7)^0.2 / 2
+  for (std::size_t i = 0; i < inputs.size(); i += 4) {
+    const double h = inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
+    const double horizon = shared_.bodare_horizon(h, kBottom);
+    EXPECT_NEAR(outputs[i], shared_.bruneton_unit_from_height(h, kBottom, kThickness), kCoordinate);
+    EXPECT_NEAR(outputs[i + 1], shared_.bruneton_unit_from_sun(mu_s, -0.2, kBottom, kThickness),
+                4 * kCoordinate);
+    EXPECT_NEAR(outputs[i + 2], shared_.bodare_unit_from_sun(mu_s), kCoordinate);
+    EXPECT_NEAR(outputs[i + 3],
+                mu > horizon ? shared_.bodare_unit_from_sky_view(mu, horizon)
+                             : shared_.bodare_unit_from_ground_view(mu, horizon),
+                std::abs(mu - horizon) < 1e-4 ? kFifthRoot : 1e-4)
+        << "h = " << h << ", mu = " << mu;
+  }
+}
+
+TEST_F(SharedFormulas, ClosedFormsOfTheLiterature) {
+  std::vector<float> inputs;
+  for (const float height_m : {0.0f, 800.0f, 12000.0f}) {
+    for (float mu = 0; mu <= 1; mu += 0.125f)
+      inputs.insert(inputs.end(), {height_m, mu, 0.4f, 0.003f});
+  }
+  const auto outputs = run_glsl(
+      "#include \"model/shared/closed_forms.glsl\"\n",
+      "y = vec4(relative_air_mass(x.y), nielsen_sky_depth(x.y, nielsen_air_zenith_depth(x.x)), "
+      "nielsen_asymmetry(x.x, x.y, x.w, 0.8), oneil_slant(x.y) + "
+      "mixed_path_inscatter(1e-5, 0.1, 2e-5, 0.3, x.z));",
+      inputs);
+  for (std::size_t i = 0; i < inputs.size(); i += 4) {
+    const double h = inputs[i], mu = inputs[i + 1];
+    const double depth = shared_.nielsen_sky_depth(mu, shared_.nielsen_air_zenith_depth(h));
+    EXPECT_NEAR(outputs[i] / shared_.relative_air_mass(mu), 1, 20 * kFloat) << "mu = " << mu;
+    EXPECT_NEAR(outputs[i + 1] / depth, 1, 20 * kFloat) << "mu = " << mu;
+    EXPECT_NEAR(outputs[i + 2], shared_.nielsen_asymmetry(h, mu, inputs[i + 3], 0.8), 10 * kFloat);
+    const double sum =
+        shared_.oneil_slant(mu) + shared_.mixed_path_inscatter(1e-5, 0.1, 2e-5, 0.3, inputs[i + 2]);
+    EXPECT_NEAR(outputs[i + 3] / sum, 1, 20 * kFloat) << "mu = " << mu;
+  }
+}
+
 TEST_F(SharedFormulas, GeometryKeepsItsDigitsNearTheGround) {
   const auto inputs = rays();
   const auto outputs =

@@ -12,7 +12,7 @@ int main() {
       skyfit::parse_preset(skyfit::refs::shipped_preset_json("earth-clear"), "earth-clear");
   const auto rule = skyfit::luminance_rule(skyfit::refs::standard_spectral_data());
   const skyfit::SkyPoint zenith{.sun_zenith = 1.0471975511965976};
-  const auto model = skyfit::make_sky_model("reference", refs::standard_spectral_data(), 1);
+  const auto model = skyfit::make_sky_model("reference", skyfit::refs::standard_spectral_data(), 1);
   const auto sky = model->radiance(preset.atmosphere, rule.nodes, {&zenith, 1}, {});
   double luminance_cd_m2 = 0;
   for (int k = 0; k < sky.wavelengths; ++k) luminance_cd_m2 += rule.weight[k] * sky.at(0, k);

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/plot/fisheye.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "render/plot/figure_file.h"
+#include "render/plot/script.h"
+
+namespace skyfit::plot {
+namespace {
+
+constexpr int kPixels = 96;  // of a sky's side
+constexpr double kTile = 128, kLabel = 170, kHeader = 84, kFooter = 34;
+constexpr double kPi = std::numbers::pi;
+using Rgb = std::array<double, 3>;
+
+double luminance(const Rgb& rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
+
+Rgb at_direction(const FisheyeSky& sky, double zenith, double azimuth) {
+  const double z = std::clamp(zenith / (0.5 * kPi), 0.0, 1.0) * (FisheyeSky::kZeniths - 1);
+  const double a = std::abs(azimuth) / kPi * (FisheyeSky::kAzimuths - 1);
+  const int i = std::min(static_cast<int>(z), FisheyeSky::kZeniths - 2),
+            k = std::min(static_cast<int>(a), FisheyeSky::kAzimuths - 2);
+  const auto texel = [&](int di, int dk) {
+    return sky.rgb[static_cast<std::size_t>((i + di) * FisheyeSky::kAzimuths + k + dk)];
+  };
+  Rgb mean{};
+  for (int di = 0; di < 2; ++di) {
+    for (int dk = 0; dk < 2; ++dk) {
+      const double weight = (di ? z - i : 1 - z + i) * (dk ? a - k : 1 - a + k);
+      for (std::size_t c = 0; c < 3; ++c) mean[c] += weight * texel(di, dk)[c];
+    }
+  }
+  return mean;
+}
+
+// The inverse of the median luminance over the whole of a row: shown at 1 - exp(-0.5) = 0.4.
+double exposure_of(const FisheyeRow& row) {
+  std::vector<double> values;
+  for (const auto& sky : row.skies) {
+    if (!sky) continue;
+    for (const Rgb& rgb : sky->rgb) values.push_back(luminance(rgb));
+  }
+  if (values.empty()) throw std::invalid_argument("figure: the first row of skies is empty");
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return 0.5 / values[values.size() / 2];
+}
+
+int byte_of(double linear) {  // sRGB, IEC 61966-2-1
+  const double x = std::clamp(linear, 0.0, 1.0);
+  const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return static_cast<int>(std::lround(255 * s));
+}
+
+// Rows `x y r g b` of the pixels inside the disc; the sun's side is to the right.
+void write_pixels(Script& script, const std::string& name, const FisheyeSky& sky, double exposure) {
+  script.line("${} << EOD", name);
+  for (int j = 0; j < kPixels; ++j) {
+    for (int i = 0; i < kPixels; ++i) {
+      const double x = 2 * (i + 0.5) / kPixels - 1, y = 2 * (j + 0.5) / kPixels - 1;
+      const double radius = std::hypot(x, y);
+      int rgb[3] = {255, 255, 255};
+      if (radius <= 1) {
+        const Rgb linear = at_direction(sky, 0.5 * kPi * radius, std::atan2(y, x));
+        for (std::size_t c = 0; c < 3; ++c)
+          rgb[c] = byte_of(-std::expm1(-exposure * std::max(linear[c], 0.0)));
+      }
+      script.line("{} {} {} {} {}", i, j, rgb[0], rgb[1], rgb[2]);
+    }
+  }
+  script.line("EOD");
+}
+
+}  // namespace
+
+FisheyeSky fisheye_sky(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                       const SpectralData& spectra, double sun_zenith) {
+  constexpr double kAlmostHorizon = 89.9 / 90;
+  std::vector<SkyPoint> points;
+  for (int i = 0; i < FisheyeSky::kZeniths; ++i) {
+    for (int k = 0; k < FisheyeSky::kAzimuths; ++k) {
+      const double share = i / (FisheyeSky::kZeniths - 1.0);
+      points.push_back({0, sun_zenith, 0.5 * kPi * std::min(share, kAlmostHorizon),
+                        kPi * k / (FisheyeSky::kAzimuths - 1.0)});
+    }
+  }
+  const ColorRule rule = color_rule(spectra);
+  const SkyValues sky = model.radiance(atmosphere, rule.nodes, points, {});
+  FisheyeSky picture;
+  for (int p = 0; p < sky.points; ++p) {
+    Rgb rgb{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      double xyz = 0;
+      for (std::size_t k = 0; k < 4; ++k)
+        xyz += rule.xyz_from_nodes[c][k] * sky.at(p, static_cast<int>(k));
+      for (std::size_t r = 0; r < 3; ++r) rgb[r] += kLinearSrgbFromXyz[r][c] * xyz;
+    }
+    picture.rgb.push_back(rgb);
+  }
+  return picture;
+}
+
+void write_fisheye(const FisheyeFigure& figure, const std::vector<std::filesystem::path>& files) {
+  if (figure.rows.empty())
+    throw std::invalid_argument("figure: expected at least one row of skies");
+  const double exposure = exposure_of(figure.rows.front());
+  const double columns = static_cast<double>(figure.sun_zenith_deg.size()),
+               rows = static_cast<double>(figure.rows.size());
+  Script script(std::max(kLabel + kTile * columns + 20, 620.0), kHeader + kTile * rows + kFooter);
+  script.line("set multiplot");
+  for (std::size_t r = 0; r < figure.rows.size(); ++r) {
+    const FisheyeRow& row = figure.rows[r];
+    const double bottom = kFooter + kTile * (rows - 1 - static_cast<double>(r));
+    for (std::size_t s = 0; s < row.skies.size(); ++s) {
+      if (!row.skies[s]) continue;
+      const std::string name = fmt::format("r{}s{}", r, s);
+      write_pixels(script, name, *row.skies[s], exposure);
+      script.begin_axes(
+          {kLabel + kTile * static_cast<double>(s) + 4, bottom + 4, kTile - 8, kTile - 8});
+      script.line("unset border; set xrange [-0.5:{0}.5]; set yrange [-0.5:{0}.5]", kPixels - 1);
+      script.line("plot ${} using 1:2:3:4:5 with rgbimage notitle", name);
+    }
+  }
+  script.begin_axes({0, 0, script.width(), script.height()});
+  script.line("unset border");
+  script.text_label(16, script.height() - 24, figure.title, "left font ',16'");
+  script.text_label(16, script.height() - 46,
+                    "centre zenith, rim horizon, sun's side right; one exposure for all",
+                    "left font ',11' textcolor rgb '#404040'");
+  for (std::size_t s = 0; s < figure.sun_zenith_deg.size(); ++s) {
+    script.text_label(kLabel + kTile * (static_cast<double>(s) + 0.5),
+                      script.height() - kHeader + 12,
+                      fmt::format("☉ {:.4g}°", figure.sun_zenith_deg[s]), "center font ',12'");
+  }
+  for (std::size_t r = 0; r < figure.rows.size(); ++r) {
+    const double middle = kFooter + kTile * (rows - 0.5 - static_cast<double>(r));
+    script.text_label(16, middle, figure.rows[r].label, "left font ',12'");
+    for (std::size_t s = 0; s < figure.rows[r].skies.size(); ++s) {
+      if (!figure.rows[r].skies[s])
+        script.text_label(kLabel + kTile * (static_cast<double>(s) + 0.5), middle, "–",
+                          "center font ',12'");
+    }
+  }
+  script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
+  script.line("unset multiplot");
+  write_figure({script.width(), script.height(), script.text()}, files);
+}
+
+}  // namespace skyfit::plot

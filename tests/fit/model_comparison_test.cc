@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// A comparison finds the errors that are there: none of a model with itself, the scale of a sky
+// that is twice as bright, the worst direction of one that is wrong in one; what a model cannot do
+// is left out and said.
+#include "fit/model_comparison.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "data_refs/spectra.h"
+#include "data_refs/truth.h"
+#include "tests/fit/synthetic.h"
+
+namespace skyfit::fit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+ModelComparison compared(const refs::Reference& reference, const SkyModel& model,
+                         const Atmosphere<double>& atmosphere) {
+  return compare_model(reference, refs::standard_spectral_data(), model, atmosphere, 0.05, nullptr);
+}
+
+class ModelComparisonTest : public ::testing::Test {
+ protected:
+  ToySky toy_;
+  Atmosphere<double> atmosphere_ = true_atmosphere(1);
+  refs::Reference reference_ = synthetic_reference(atmosphere_, 0);
+};
+
+TEST_F(ModelComparisonTest, OfAModelWithItselfIsNothing) {
+  const ModelComparison row = compared(reference_, toy_, atmosphere_);
+  ASSERT_TRUE(row.unfitted);
+  EXPECT_LT(row.unfitted->rms_log_percent, 1e-10);
+  EXPECT_THAT(row.problem, IsEmpty());
+  EXPECT_EQ(row.table_bytes, 0u);
+  EXPECT_FALSE(row.fitted);
+}
+
+TEST_F(ModelComparisonTest, FindsScaleAndWorstDirection) {
+  for (refs::Sample& sample : reference_.samples) sample.value *= 2;
+  reference_.samples[7].value *= std::exp(-0.3);
+  const ModelComparison row = compared(reference_, toy_, atmosphere_);
+  ASSERT_TRUE(row.unfitted);
+  EXPECT_EQ(row.unfitted->worst, 7u);
+  EXPECT_NEAR(row.unfitted->worst_percent, 30, 1.5);  // less its share of the scan's scale
+  EXPECT_NEAR(row.unfitted->scale, 2, 0.05);
+}
+
+TEST_F(ModelComparisonTest, LeavesOutWhatTheModelRefuses) {
+  const refs::Reference truth = refs::truth_reference("truth:earth-550nm-ground");
+  const auto nielsen = make_sky_model("nielsen", refs::standard_spectral_data(), 1);
+  const ModelComparison row =
+      compared(truth, *nielsen, refs::truth_preset("truth:earth-550nm-ground").atmosphere);
+  ASSERT_TRUE(row.unfitted);
+  EXPECT_LT(row.unfitted->samples, static_cast<int>(truth.samples.size()));
+  EXPECT_THAT(row.problem, HasSubstr("the model has no twilight"));
+}
+
+TEST_F(ModelComparisonTest, TablesHoldOneLinePerState) {
+  const std::vector<ModelComparison> rows = {compared(reference_, toy_, atmosphere_)};
+  const std::string csv = comparison_csv(reference_, rows);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
+  EXPECT_EQ(comparison_json(reference_, rows).at("models").size(), 1u);
+  EXPECT_THAT(comparison_text(reference_, rows), HasSubstr("toy"));
+}
+
+}  // namespace
+}  // namespace skyfit::fit
