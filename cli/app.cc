@@ -38,6 +38,7 @@ void add_commands(CLI::App& app) {
   add_presets_command(app);
   add_references_command(app);
   add_check_command(app);
+  add_classify_command(app);
   add_compare_command(app);
   app.footer(
       "Example: skyfit fit --reference cie:12 --out fitted\nMore about a command: skyfit COMMAND "

@@ -14,6 +14,7 @@ void add_render_command(CLI::App& app);
 void add_presets_command(CLI::App& app);
 void add_references_command(CLI::App& app);
 void add_check_command(CLI::App& app);
+void add_classify_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 
 }  // namespace skyfit::cli

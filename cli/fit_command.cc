@@ -9,6 +9,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/measured_fit.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
@@ -29,6 +30,7 @@ struct FitCommandOptions {
   std::string free, preset, site_pressure, out, exclude_sun = "3";
   std::vector<std::string> fix, prior;
   ImportArguments import;
+  MeasuredArguments measured;
   int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads();
   bool no_priors = false, force = false, json = false;
@@ -44,7 +46,11 @@ fit::FitOptions fit_options(const FitCommandOptions& options, const SkyModel& mo
   result.threads = options.threads;
   if (command.count("--preset") > 0) result.start = preset_named(options.preset);
   result.site_pressure_hpa = parse_site_pressure(options.site_pressure);
-  if (command.count("--free") > 0) result.free = parse_parameters("--free", options.free);
+  if (options.free == "none") {
+    result.free.emplace();
+  } else if (command.count("--free") > 0) {
+    result.free = parse_parameters("--free", options.free);
+  }
   result.fix = parse_fixed("--fix", options.fix);
   result.priors = parse_priors("--prior", options.prior);
   result.use_priors = !options.no_priors;
@@ -76,17 +82,31 @@ fit::FitResult fit_with_progress(const refs::Reference& reference, const SkyMode
   return fit::fit_atmosphere(reference, refs::standard_spectral_data(), model, options);
 }
 
-void run_fit(const FitCommandOptions& options, const CLI::App& command) {
-  const ResultDirectory out(
-      options.out,
-      {kPresetFile, kReportFile, kReportTextFile, kSamplesFile, kFigureFiles[0], kFigureFiles[1]},
-      options.force);
+std::vector<std::string> result_files() {
+  std::vector<std::string> files = measured_files();
+  files.insert(files.end(), {kSamplesFile, kFigureFiles[0], kFigureFiles[1]});
+  return files;
+}
+
+void run_fit(FitCommandOptions options, const CLI::App& command) {
+  const ResultDirectory out(options.out, result_files(), options.force);
+  const std::map<fit::Instrument, Prior> instrument_priors = take_instrument_priors(options.prior);
   const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
   const fit::FitOptions how = fit_options(options, *model, command);
-  const refs::Reference reference =
-      refs::load_reference(options.reference, parse_sun_zeniths(options.sun_zenith),
-                           parse_sampling(options.sampling), parse_import_options(options.import));
-  warn_of_unused_options(command, options.reference);
+  const refs::Reference reference = load_references(options.reference, options.sun_zenith,
+                                                    options.sampling, options.import, command);
+  if (is_measured_fit(command, reference)) {
+    fit::MeasuredOptions measured;
+    measured.common = how;
+    measured.instrument_priors = instrument_priors;
+    run_measured_fit(options.measured, reference, measured, *model, options.json, out);
+    return;
+  }
+  if (!instrument_priors.empty()) {
+    throw UsageError("--prior",
+                     std::string(fit::instrument_info(instrument_priors.begin()->first).name),
+                     "expected an absolute or spectral reference with an instrument's prior");
+  }
   const fit::FitResult result = fit_with_progress(reference, *model, how);
   out.publish([&](const std::filesystem::path& staging) {
     write_result(staging, reference, *model, how, result);
@@ -107,7 +127,9 @@ void add_problem_options(CLI::App& command, FitCommandOptions& options) {
       ->capture_default_str();
   command.add_option("--max-iterations", options.max_iterations, "Iterations of one start")
       ->capture_default_str();
-  command.add_option("--free", options.free, "The free parameters, exactly these")
+  command
+      .add_option("--free", options.free,
+                  "The free parameters, exactly these; none evaluates measured skies")
       ->type_name("NAME,NAME");
   command.add_option("--fix", options.fix, "Hold parameters at a value")
       ->type_name("NAME=VALUE")
@@ -140,12 +162,13 @@ void add_fit_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("fit", "Fits an atmosphere to a reference.");
   command
       ->add_option("--reference", options->reference,
-                   "Shipped reference (skyfit references) or a measured sky")
+                   "Shipped reference (skyfit references) or measured skies, fitted jointly")
       ->required()
-      ->type_name("NAME|FILE");
+      ->type_name("NAME|FILE,FILE");
   add_sampling_options(*command, options->sampling, options->sun_zenith);
   add_problem_options(*command, *options);
   add_import_options(*command, options->import);
+  add_measured_options(*command, options->measured);
   command->add_option("--model", options->model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();

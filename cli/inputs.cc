@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/arguments.h"
+#include "data_refs/joint_reference.h"
 #include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
 
@@ -137,6 +138,23 @@ refs::Sampling parse_sampling(const std::string& text) {
   if (text == "principal") return refs::Sampling::kPrincipalPlane;
   if (text == "tregenza") return refs::Sampling::kTregenza;
   throw UsageError("--sampling", text, "expected principal or tregenza");
+}
+
+refs::Reference load_references(const std::string& names, const std::string& sun_zenith,
+                                const std::string& sampling, const ImportArguments& import,
+                                const CLI::App& command) {
+  const std::vector<double> suns = parse_sun_zeniths(sun_zenith);
+  const refs::Sampling how = parse_sampling(sampling);
+  const refs::ImportOptions options = parse_import_options(import);
+  std::vector<refs::Reference> references;
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t end = std::min(names.find(',', begin), names.size());
+    const std::string name = names.substr(begin, end - begin);
+    references.push_back(refs::load_reference(name, suns, how, options));
+    warn_of_unused_options(command, name);
+    begin = end + 1;
+  }
+  return refs::joint_reference(references);
 }
 
 bool is_shipped_reference(const std::string& name) {

@@ -48,6 +48,13 @@ std::vector<double> parse_sun_zeniths(const std::string& text);
 // "principal" or "tregenza"; throws UsageError.
 refs::Sampling parse_sampling(const std::string& text);
 
+// A shipped reference, a measured sky, or several of one quantity separated by commas that become
+// one (data_refs/joint_reference.h). Warns of options that are not used. Throws UsageError, and
+// what load_reference() throws.
+refs::Reference load_references(const std::string& names, const std::string& sun_zenith,
+                                const std::string& sampling, const ImportArguments& import,
+                                const CLI::App& command);
+
 // Analytic: read where the user says.
 bool is_shipped_reference(const std::string& name);
 

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // `skyfit plot`: the comparison figure of one or several finished fits.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <memory>
 
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/spectra.h"
 #include "model/sky_model.h"
 #include "render/plot/comparison.h"
+#include "render/plot/measured_figures.h"
 #include "render/plot/results.h"
 
 namespace skyfit::cli {
@@ -15,11 +21,33 @@ namespace {
 
 struct PlotOptions {
   std::vector<std::string> directories, out;
+  std::string figure;  // of measured skies
+  int scan = 1;
   int threads = default_threads();
 };
 
+void draw_measured(const PlotOptions& options, const std::vector<std::filesystem::path>& files) {
+  std::vector<plot::MeasuredOutcome> fits;
+  for (const std::string& directory : options.directories)
+    fits.push_back(plot::read_measured_outcome(directory));
+  const std::string name =
+      options.figure.empty() ? std::string(plot::measured_figure_names().front()) : options.figure;
+  plot::write_figure(
+      plot::measured_figure(plot::measured_figure_from_name(name), fits, options.scan), files);
+}
+
 void run_plot(const PlotOptions& options) {
   require_output_files(options.out, {".svg", ".png", ".pdf"});
+  const std::vector<std::filesystem::path> files(options.out.begin(), options.out.end());
+  const auto measured = std::ranges::count_if(
+      options.directories, [](const std::string& d) { return plot::is_measured_result(d); });
+  if (measured == static_cast<std::ptrdiff_t>(options.directories.size()))
+    return draw_measured(options, files);
+  if (measured > 0 || !options.figure.empty()) {
+    throw UsageError(options.figure.empty() ? "directories" : "--figure",
+                     options.figure.empty() ? options.directories.front() : options.figure,
+                     "expected fits of measured skies only");
+  }
   std::vector<plot::FitOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(plot::read_fit_outcome(directory));
@@ -41,13 +69,29 @@ void add_plot_command(CLI::App& app) {
       ->required()
       ->type_name("FILE.{svg,png,pdf}")
       ->allow_extra_args(false);
+  command
+      ->add_option("--figure", options->figure,
+                   fmt::format("Of a fit of measured skies: {}",
+                               fmt::join(plot::measured_figure_names(), ", ")))
+      ->type_name("NAME");
+  command->add_option("--scan", options->scan, "The scan of --figure spectra, from 1")
+      ->check(CLI::Range(1, 1000000).description(""))
+      ->capture_default_str();
   add_threads_option(*command, options->threads);
   command->footer(
       "Reference, fit and start in the principal plane, one panel per sun position, "
       "and maps of the\n"
       "residual over the sky. Several directories are drawn into one figure.\n"
       "\n"
-      "Example: skyfit plot one-lobe two-lobes --out comparison.pdf");
+      "A fit of measured skies has figures of its own: maps of measured, model and ratio, "
+      "spectra,\n"
+      "residuals, the corner of the covariance, and series of unknowns over a day, of one fit "
+      "with\n"
+      "--per-scan or of several fits.\n"
+      "\n"
+      "Examples:\n"
+      "  skyfit plot one-lobe two-lobes --out comparison.pdf\n"
+      "  skyfit plot measured --figure spectra --scan 2 --out spectra.png");
   command->callback([options] { run_plot(*options); });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/derived.h"
 
+#include <cmath>
+
 #include "model/phase_moments.h"
 #include "model/profile.h"
 
@@ -20,6 +22,10 @@ double rayleigh_optical_depth(const Atmosphere<double>& atmosphere) {
 
 double aerosol_mean_cosine(const Atmosphere<double>& atmosphere) {
   return aerosol_phase_moments(atmosphere.mie.phase, 2)[1];
+}
+
+double standard_pressure_hpa(double elevation_m) {
+  return kStandardPressureHpa * std::pow(1 - 2.25577e-5 * elevation_m, 5.25588);
 }
 
 }  // namespace skyfit::fit

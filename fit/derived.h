@@ -14,4 +14,7 @@ double rayleigh_optical_depth(const Atmosphere<double>& atmosphere);  // scatter
 // 1992, eq. 9, is not g: <cos> = g 3 (4 + g^2) / (5 (2 + g^2)).
 double aerosol_mean_cosine(const Atmosphere<double>& atmosphere);
 
+// Of the standard atmosphere (ISO 2533) at a height above the sea, metres, below 11 km.
+double standard_pressure_hpa(double elevation_m);
+
 }  // namespace skyfit::fit

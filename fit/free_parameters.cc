@@ -82,21 +82,6 @@ void check_start(const FreeParameter& parameter, double start) {
 
 }  // namespace
 
-double FreeParameter::scaled(double value) const {
-  return logarithmic ? std::log(value / lower) / std::log(upper / lower)
-                     : (value - lower) / (upper - lower);
-}
-
-double FreeParameter::value(double scaled) const {
-  if (scaled <= 0) return lower;
-  if (scaled >= 1) return upper;
-  return logarithmic ? lower * std::pow(upper / lower, scaled) : lower + (upper - lower) * scaled;
-}
-
-double FreeParameter::value_per_scaled(double scaled) const {
-  return logarithmic ? value(scaled) * std::log(upper / lower) : upper - lower;
-}
-
 Atmosphere<double> with_lobes(const Atmosphere<double>& atmosphere, int lobes) {
   Atmosphere<double> result = atmosphere;
   AerosolPhase<double>& phase = result.mie.phase;
@@ -147,6 +132,11 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
   return result;
 }
 
+FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior) {
+  const ParameterInfo& info = parameter_info(id);
+  return {{info.lower, info.upper, is_scale(id) && info.lower > 0, prior}, id};
+}
+
 std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, const SkyModel& model,
                                                   const Atmosphere<double>& atmosphere) {
   check_names(options, model, atmosphere);
@@ -155,8 +145,7 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
     if (!has_parameter(atmosphere, info.id) || !model.can_fit(info.id) || !is_free(options, info)) {
       continue;
     }
-    const FreeParameter parameter{info.id, info.lower, info.upper,
-                                  is_scale(info.id) && info.lower > 0, prior_of(options, info)};
+    const FreeParameter parameter = free_parameter(info.id, prior_of(options, info));
     check_start(parameter, get_parameter(atmosphere, info.id));
     result.push_back(parameter);
   }

@@ -9,19 +9,16 @@
 #include <vector>
 
 #include "fit/fit.h"
+#include "fit/variable.h"
 
 namespace skyfit::fit {
 
-struct FreeParameter {
+struct FreeParameter : Variable {
   Parameter id;
-  double lower, upper;         // in the parameter's unit
-  bool logarithmic;            // requires lower > 0
-  std::optional<Prior> prior;  // in the parameter's unit
-
-  double scaled(double value) const;
-  double value(double scaled) const;
-  double value_per_scaled(double scaled) const;  // d value / d scaled
 };
+
+// With the bounds of the table.
+FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior);
 
 // The atmosphere before the fit: the start preset as given (coefficients moved to 550 nm along
 // their power laws, because the bounds are meant there), or the table's defaults with the phase

@@ -28,4 +28,9 @@ struct Noise {
 Noise estimate_noise(const Observations& observations, const Eigen::VectorXd& residual,
                      int free_parameters);
 
+// The length of that field, radians; 0 where neighbours do not agree.
+double correlation_length(const Observations& observations, const Eigen::VectorXd& residual);
+// exp(-angle / length) between the view directions of points; the unit matrix for a length of 0.
+Eigen::MatrixXd angular_correlation(const std::vector<SkyPoint>& points, double length);
+
 }  // namespace skyfit::fit

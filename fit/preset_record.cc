@@ -13,10 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string quantity_name(refs::Quantity quantity) {
-  return quantity == refs::Quantity::kLuminance ? "luminance_cd_m2" : "relative_luminance";
-}
-
 json sun_list(const FitResult& result) {
   json suns = json::array();
   for (const RmsOfSun& sun : result.per_sun) {
@@ -101,6 +97,18 @@ Eigen::MatrixXd read_matrix(const json& rows, const std::vector<Parameter>& para
 }
 
 }  // namespace
+
+std::string_view quantity_name(refs::Quantity quantity) {
+  switch (quantity) {
+    case refs::Quantity::kLuminance:
+      return "luminance_cd_m2";
+    case refs::Quantity::kSpectralRadiance:
+      return "spectral_radiance_w_m2_sr_nm";
+    case refs::Quantity::kRelativeLuminance:
+      break;
+  }
+  return "relative_luminance";
+}
 
 FittedCovariance fitted_covariance(const Preset& preset, std::string_view source) {
   if (!preset.fit.is_object() || !preset.fit.contains("covariance")) {

@@ -24,6 +24,9 @@ struct FittedCovariance {
 // `source` is the file name that the message shows.
 FittedCovariance fitted_covariance(const Preset& preset, std::string_view source);
 
+// "luminance_cd_m2", "relative_luminance", "spectral_radiance_w_m2_sr_nm"
+std::string_view quantity_name(refs::Quantity quantity);
+
 // Numbers that are not finite (no sigma, a singular condition) become null.
 nlohmann::json finite_or_null(double value);
 nlohmann::json matrix_json(const Eigen::MatrixXd& matrix);  // array of rows; null when empty

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Ceres problem: one parameter block with all free parameters (scaled to 0..1, bounded), one
-// residual block for the samples and one for the priors.
+// The fit of luminances with a free scale per scan as a problem of least squares.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "fit/free_parameters.h"
+#include "fit/least_squares.h"
 #include "fit/observations.h"
 
 namespace skyfit::fit {
@@ -18,11 +18,6 @@ struct Problem {
   const Observations* observations;
   const std::vector<FreeParameter>* parameters;
   double sigma_log = 1;  // the residuals are divided by it; 1 when the observations have sigma
-};
-
-struct SolverLimits {
-  int max_iterations = 100;
-  double function_tolerance = 1e-8;
 };
 
 struct Solution {

@@ -20,17 +20,16 @@ struct Normalised {
   Eigen::VectorXd scale;  // square roots of the former diagonal
 };
 
-Normalised normal_matrix(const std::vector<FreeParameter>& parameters,
-                         const std::vector<int>& inside, const Eigen::VectorXd& scaled,
-                         const Eigen::MatrixXd& jacobian) {
+Normalised normal_matrix(const std::vector<Variable>& variables, const std::vector<int>& inside,
+                         const Eigen::VectorXd& scaled, const Eigen::MatrixXd& jacobian) {
   const Eigen::Index count = static_cast<Eigen::Index>(inside.size());
   Eigen::MatrixXd columns(jacobian.rows(), count);
   Eigen::VectorXd prior = Eigen::VectorXd::Zero(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const FreeParameter& parameter = parameters[inside[k]];
-    const double unit = parameter.value_per_scaled(scaled(inside[k]));
+    const Variable& variable = variables[inside[k]];
+    const double unit = variable.value_per_scaled(scaled(inside[k]));
     columns.col(k) = unit * jacobian.col(inside[k]);
-    if (parameter.prior) prior(k) = unit / parameter.prior->sigma;
+    if (variable.prior) prior(k) = unit / variable.prior->sigma;
   }
   Normalised result{columns.transpose() * columns, Eigen::VectorXd(count)};
   result.matrix.diagonal() += prior.cwiseAbs2();
@@ -41,25 +40,24 @@ Normalised normal_matrix(const std::vector<FreeParameter>& parameters,
   return result;
 }
 
-double sigma_without_data(const FreeParameter& parameter, double value_per_scaled) {
-  return parameter.prior ? parameter.prior->sigma : kUniformSigma * value_per_scaled;
+double sigma_without_data(const Variable& variable, double value_per_scaled) {
+  return variable.prior ? variable.prior->sigma : kUniformSigma * value_per_scaled;
 }
 
 }  // namespace
 
-Uncertainty uncertainty(const std::vector<FreeParameter>& parameters,
-                        const Atmosphere<double>& atmosphere, const Eigen::MatrixXd& jacobian) {
-  const Eigen::VectorXd scaled = scaled_values(parameters, atmosphere);
+Uncertainty uncertainty(const std::vector<Variable>& variables, const Eigen::VectorXd& scaled,
+                        const Eigen::MatrixXd& jacobian) {
   Uncertainty result;
-  result.sigma.assign(parameters.size(), std::numeric_limits<double>::quiet_NaN());
-  result.identifiable.assign(parameters.size(), true);
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
+  result.sigma.assign(variables.size(), std::numeric_limits<double>::quiet_NaN());
+  result.identifiable.assign(variables.size(), true);
+  for (std::size_t p = 0; p < variables.size(); ++p) {
     result.at_bound.push_back(scaled(p) < kBoundRim || scaled(p) > 1 - kBoundRim);
     if (!result.at_bound[p]) result.inside.push_back(static_cast<int>(p));
   }
   const Eigen::Index count = static_cast<Eigen::Index>(result.inside.size());
   if (count == 0) return result;
-  const Normalised normal = normal_matrix(parameters, result.inside, scaled, jacobian);
+  const Normalised normal = normal_matrix(variables, result.inside, scaled, jacobian);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal.matrix);
   const Eigen::VectorXd& values = eigen.eigenvalues();
   const double smallest = kSingular * values(count - 1);
@@ -77,20 +75,51 @@ Uncertainty uncertainty(const std::vector<FreeParameter>& parameters,
       eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::VectorXd unit(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const FreeParameter& parameter = parameters[result.inside[k]];
-    const double value_per_scaled = parameter.value_per_scaled(scaled(result.inside[k]));
+    const Variable& variable = variables[result.inside[k]];
+    const double value_per_scaled = variable.value_per_scaled(scaled(result.inside[k]));
     unit(k) = normal.scale(k) > 0 ? value_per_scaled / normal.scale(k) : 0;
     const bool is_open = std::sqrt(open(k)) > kTakesPart;
     if (!is_open) result.sigma[result.inside[k]] = unit(k) * std::sqrt(inverse(k, k));
     result.identifiable[result.inside[k]] =
         !is_open && result.sigma[result.inside[k]] <
-                        kLargestShareOfPrior * sigma_without_data(parameter, value_per_scaled);
+                        kLargestShareOfPrior * sigma_without_data(variable, value_per_scaled);
   }
   if (singular) return result;
   result.covariance = unit.asDiagonal() * inverse * unit.asDiagonal();
   const Eigen::VectorXd spread = inverse.diagonal().cwiseSqrt().cwiseInverse();
   result.correlation = spread.asDiagonal() * inverse * spread.asDiagonal();
   return result;
+}
+
+Uncertainty with_correlated_residuals(const Uncertainty& independent,
+                                      const std::vector<Variable>& variables,
+                                      const Eigen::VectorXd& scaled, const Eigen::MatrixXd& m) {
+  Uncertainty result = independent;
+  if (independent.covariance.size() == 0) return result;
+  Eigen::MatrixXd middle = m(independent.inside, independent.inside);
+  for (std::size_t k = 0; k < independent.inside.size(); ++k) {
+    const std::optional<Prior>& prior = variables[independent.inside[k]].prior;
+    const auto i = static_cast<Eigen::Index>(k);
+    if (prior) middle(i, i) += 1 / (prior->sigma * prior->sigma);
+  }
+  result.covariance = independent.covariance * middle * independent.covariance;
+  const Eigen::VectorXd sigma = result.covariance.diagonal().cwiseSqrt();
+  const Eigen::VectorXd inverse = sigma.cwiseInverse();
+  result.correlation = inverse.asDiagonal() * result.covariance * inverse.asDiagonal();
+  for (std::size_t k = 0; k < independent.inside.size(); ++k) {
+    const int p = independent.inside[k];
+    const double without =
+        sigma_without_data(variables[p], variables[p].value_per_scaled(scaled(p)));
+    result.sigma[p] = sigma(static_cast<Eigen::Index>(k));
+    result.identifiable[p] = result.sigma[p] < kLargestShareOfPrior * without;
+  }
+  return result;
+}
+
+Uncertainty uncertainty(const std::vector<FreeParameter>& parameters,
+                        const Atmosphere<double>& atmosphere, const Eigen::MatrixXd& jacobian) {
+  return uncertainty(std::vector<Variable>(parameters.begin(), parameters.end()),
+                     scaled_values(parameters, atmosphere), jacobian);
 }
 
 }  // namespace skyfit::fit

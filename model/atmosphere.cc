@@ -82,7 +82,7 @@ std::string_view phase_kind(PhaseType type) {
 }
 
 void validate(const Atmosphere<double>& atmosphere) {
-  const auto& [bottom, top, rayleigh, mie, ozone, albedo] = atmosphere;
+  const auto& [bottom, top, rayleigh, mie, ozone, albedo, ground_spectrum] = atmosphere;
   expect(bottom > 0.0, "planet.bottom_radius_m", bottom, "a radius > 0 m");
   expect(top > bottom, "planet.top_radius_m", top,
          fmt::format("a radius > bottom_radius_m = {}", bottom));

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/ground_spectrum.h"
 #include "model/linear_profile.h"
 #include "model/tabulated_phase.h"
 
@@ -83,7 +84,8 @@ struct Atmosphere {
   Rayleigh<T> rayleigh;
   Mie<T> mie;
   Ozone<T> ozone;
-  T ground_albedo{0.1};  // Lambertian
+  T ground_albedo{0.1};  // Lambertian, at 550 nm
+  std::shared_ptr<const GroundSpectrum> ground_spectrum = nullptr;  // null: grey
   bool operator==(const Atmosphere&) const = default;
 };
 

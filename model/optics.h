@@ -117,7 +117,7 @@ Optics<N> uncut_optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& no
   const Dual<N> column = a.ozone.column_du * (kMoleculesPerDobson * node.ozone_cross_section_m2);
   const Column unit = o.profiles.ozone.vertical_column();
   o.ozone = column / a.rayleigh.scale_height_m.chain(unit.value, unit.by_scale_height);
-  o.ground_albedo = a.ground_albedo;
+  o.ground_albedo = ground_albedo_at(a, node.wavelength_nm);
   return o;
 }
 

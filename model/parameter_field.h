@@ -64,6 +64,7 @@ Atmosphere<Dual<N>> seeded(const Atmosphere<double>& a, std::span<const Paramete
   s.mie.profile = a.mie.profile;
   s.ozone = {a.ozone.column_du, a.ozone.profile, a.ozone.table};
   s.ground_albedo = a.ground_albedo;
+  s.ground_spectrum = a.ground_spectrum;
   if (parameters.size() > static_cast<std::size_t>(N))
     throw std::logic_error("seeded: too many parameters");
   for (std::size_t i = 0; i < parameters.size(); ++i) {

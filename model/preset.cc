@@ -151,8 +151,13 @@ Preset read_preset(const PresetReader& root, const PresetTables& tables) {
   preset.atmosphere.mie = read_mie(root.object("mie"), tables);
   preset.atmosphere.ozone = read_ozone(root.object("ozone"), tables);
   const PresetReader ground = root.object("ground");
-  ground.expect_only({"albedo"});
+  ground.expect_only({"albedo", "spectrum"});
   preset.atmosphere.ground_albedo = ground.number("albedo");
+  if (ground.has("spectrum")) {
+    const PresetReader spectrum = ground.object("spectrum");
+    if (spectrum.text("type") != kTabulated) spectrum.fail_value("type", kTabulated);
+    preset.atmosphere.ground_spectrum = tables.read<GroundSpectrum>(spectrum, kGroundFormat);
+  }
   if (root.has("fit")) preset.fit = root.object("fit").value();
   return preset;
 }
@@ -237,6 +242,8 @@ std::string preset_to_json(const Preset& preset) {
       {"mie", to_json(a.mie)},
       {"ozone", to_json(a.ozone)},
       {"ground", {{"albedo", a.ground_albedo}}}};
+  if (a.ground_spectrum)
+    root["ground"]["spectrum"] = table_to_json(a.ground_spectrum->table(), kGroundFormat);
   if (!preset.fit.is_null()) root["fit"] = preset.fit;
   // A name that is not UTF-8 is written with replacement characters.
   return root.dump(2, ' ', false, json::error_handler_t::replace) + "\n";

@@ -55,9 +55,11 @@ NodeValues radiance_of(const AtmosphereTables& tables, const Entry& e) {
   const NodeValues through = lookup_transmittance(tables, e.place, ground, true),
                    beam = lookup_sun_transmittance(tables, 0, ground.mu_s),
                    sky = lookup_irradiance(tables, 0, ground.mu_s);
-  const double reflected = tables.atmosphere.ground_albedo / std::numbers::pi;
-  for (std::size_t k = 0; k < 4; ++k)
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double reflected =
+        ground_albedo_at(tables.atmosphere, tables.color.nodes[k].wavelength_nm) / std::numbers::pi;
     sum[k] += through[k] * reflected * (beam[k] * std::max(ground.mu_s, 0.0) + sky[k]);
+  }
   return sum;
 }
 

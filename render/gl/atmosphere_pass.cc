@@ -50,7 +50,12 @@ AtmospherePass::AtmospherePass(const AtmosphereTables& tables)
   empty_ = GlVertexArray(id);
   set_atmosphere(tables, program_.id());
   const Uniforms uniforms(program_.id());
-  uniforms.set("ground_albedo", glm::vec4(static_cast<float>(tables.atmosphere.ground_albedo)));
+  glm::vec4 ground_albedo;
+  for (int node = 0; node < 4; ++node) {
+    ground_albedo[node] = static_cast<float>(ground_albedo_at(
+        tables.atmosphere, tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm));
+  }
+  uniforms.set("ground_albedo", ground_albedo);
   glm::mat4x3 xyz_from_nodes;
   glm::mat3 srgb_from_xyz;
   for (int row = 0; row < 3; ++row) {

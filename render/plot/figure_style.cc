@@ -21,6 +21,29 @@ constexpr std::array<Rgb, 9> kRedBlue = {{{33, 102, 172},
                                           {214, 96, 77},
                                           {178, 24, 43}}};
 
+constexpr std::array<Rgb, 9> kViridis = {{{68, 1, 84},
+                                          {71, 44, 122},
+                                          {59, 81, 139},
+                                          {44, 113, 142},
+                                          {33, 144, 141},
+                                          {39, 173, 129},
+                                          {92, 200, 99},
+                                          {170, 220, 50},
+                                          {253, 231, 37}}};
+
+// The color at a share 0..1 of the way along the list.
+std::string blended(const std::array<Rgb, 9>& colors, double share) {
+  const double position = share * static_cast<double>(colors.size() - 1);
+  const auto lower = std::min(static_cast<std::size_t>(position), colors.size() - 2);
+  const double blend = position - static_cast<double>(lower);
+  std::string color = "#";
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const double level = std::lerp(colors[lower][channel], colors[lower + 1][channel], blend);
+    color += fmt::format("{:02x}", static_cast<int>(std::lround(level)));
+  }
+  return color;
+}
+
 // Plain digits where they are short, a power of ten where they are not.
 std::string tick_label(double mantissa, int exponent) {
   if (exponent >= -3 && exponent <= 3)
@@ -32,16 +55,11 @@ std::string tick_label(double mantissa, int exponent) {
 }  // namespace
 
 std::string diverging_color(double value, double limit) {
-  const double t = std::clamp(value / limit, -1.0, 1.0);
-  const double position = (t + 1) / 2 * (kRedBlue.size() - 1);
-  const auto lower = std::min(static_cast<std::size_t>(position), kRedBlue.size() - 2);
-  const double blend = position - static_cast<double>(lower);
-  std::string color = "#";
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double level = std::lerp(kRedBlue[lower][channel], kRedBlue[lower + 1][channel], blend);
-    color += fmt::format("{:02x}", static_cast<int>(std::lround(level)));
-  }
-  return color;
+  return blended(kRedBlue, (std::clamp(value / limit, -1.0, 1.0) + 1) / 2);
+}
+
+std::string sequential_color(double share) {
+  return blended(kViridis, std::clamp(share, 0.0, 1.0));
 }
 
 double round_up(double value) {

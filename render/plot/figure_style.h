@@ -33,6 +33,10 @@ inline constexpr std::string_view kLeftOutColor = "#808080";
 // above (ColorBrewer RdBu, safe for common colour vision deficiencies).
 std::string diverging_color(double value, double limit);
 
+// Sequential color "#rrggbb" of a share 0..1 (clamped), dark to bright (viridis of Smith & van der
+// Walt 2015, read at nine places).
+std::string sequential_color(double share);
+
 // The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten, >= value > 0.
 double round_up(double value);
 

@@ -13,12 +13,6 @@ constexpr double kTitleStrip = 26;  // as in the panels, so that both grids' tit
 constexpr double kMargin = 8;       // around a map
 constexpr int kScaleSteps = 80;     // colours of the scale
 
-std::string polar(double zenith_deg, double azimuth_deg) {
-  const double azimuth = azimuth_deg * std::numbers::pi / 180;
-  return fmt::format("{:.5f},{:.5f}", zenith_deg / 90 * std::cos(azimuth),
-                     zenith_deg / 90 * std::sin(azimuth));
-}
-
 // Samples of one view zenith, by azimuth in 0..360.
 using Ring = std::map<double, const ComparedSample*>;
 
@@ -42,20 +36,6 @@ bool equally_spaced(const Ring& ring) {
   return true;
 }
 
-// Outline of a patch: out along the inner arc, back along the outer one; every arc by steps of at
-// most 3 degrees.
-std::string outline(const Patch& patch) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(patch.width_deg / 3)));
-  const double first = patch.azimuth_deg - patch.width_deg / 2, step = patch.width_deg / steps;
-  std::string points;
-  for (int i = 0; i <= steps; ++i)
-    points += polar(patch.outer_zenith_deg, first + i * step) + " to ";
-  if (patch.inner_zenith_deg > 0)
-    for (int i = steps; i >= 0; --i)
-      points += polar(patch.inner_zenith_deg, first + i * step) + " to ";
-  return points + polar(patch.outer_zenith_deg, first);
-}
-
 std::string color_of(const ComparedSample& sample, double limit_percent) {
   return sample.weight > 0 ? diverging_color(100 * sample.residual, limit_percent)
                            : std::string(kLeftOutColor);
@@ -66,12 +46,12 @@ void draw_sky(Script& script, const std::vector<ComparedSample>& samples, double
   for (const auto& patch : patches)
     script.line(
         "set object polygon from {} behind fs solid border lc rgb '#ffffff' lw 0.4 fc rgb '{}'",
-        outline(patch), color_of(*patch.sample, limit_percent));
+        patch_outline(patch), color_of(*patch.sample, limit_percent));
   if (!patches.empty()) return;
   for (const auto& sample : samples)
     script.line(
         "set object circle at {} size 0.03 behind fs solid border lc rgb '{}' lw 0.3 fc rgb '{}'",
-        polar(sample.view_zenith_deg, sample.relative_azimuth_deg), kFrameColor,
+        polar_point(sample.view_zenith_deg, sample.relative_azimuth_deg), kFrameColor,
         color_of(sample, limit_percent));
 }
 
@@ -83,11 +63,11 @@ void draw_frame(Script& script, double sun_zenith_deg, bool named) {
   script.line("set object circle at 0,0 size 1 front fs empty border lc rgb '{}' lw 1",
               kFrameColor);
   script.line("set label '☉' at {} center front font ',15' textcolor rgb '#000000'",
-              polar(sun_zenith_deg, 0));
+              polar_point(sun_zenith_deg, 0));
   if (!named) return;
   for (const double zenith : {30.0, 60.0, 90.0})
     script.line("set label '{:.0f}°' at {} center front font ',9' textcolor rgb '#303030'", zenith,
-                polar(zenith - 7, 90));
+                polar_point(zenith - 7, 90));
 }
 
 void draw_map(Script& script, const SunSamples& sun, std::size_t curve, const Box& cell,
@@ -174,6 +154,24 @@ void draw_block_label(Script& script, const Box& block, const std::string& label
 }
 
 }  // namespace
+
+std::string polar_point(double zenith_deg, double azimuth_deg) {
+  const double azimuth = azimuth_deg * std::numbers::pi / 180;
+  return fmt::format("{:.5f},{:.5f}", zenith_deg / 90 * std::cos(azimuth),
+                     zenith_deg / 90 * std::sin(azimuth));
+}
+
+std::string patch_outline(const Patch& patch) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(patch.width_deg / 3)));
+  const double first = patch.azimuth_deg - patch.width_deg / 2, step = patch.width_deg / steps;
+  std::string points;
+  for (int i = 0; i <= steps; ++i)
+    points += polar_point(patch.outer_zenith_deg, first + i * step) + " to ";
+  if (patch.inner_zenith_deg > 0)
+    for (int i = steps; i >= 0; --i)
+      points += polar_point(patch.inner_zenith_deg, first + i * step) + " to ";
+  return points + polar_point(patch.outer_zenith_deg, first);
+}
 
 std::vector<Patch> patches_of(const std::vector<ComparedSample>& samples) {
   const auto rings = rings_of(samples);

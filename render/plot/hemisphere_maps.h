@@ -19,6 +19,12 @@ struct Patch {
   double azimuth_deg = 0, width_deg = 0;
 };
 
+// "x,y" on a map whose rim has radius 1.
+std::string polar_point(double zenith_deg, double azimuth_deg);
+// Corners of a polygon, "x,y to x,y ..": out along the inner arc, back along the outer one; every
+// arc by steps of at most 3 degrees.
+std::string patch_outline(const Patch& patch);
+
 // Cuts the hemisphere into one patch per sample when the samples form rings of equally spaced
 // azimuths (as Tregenza's 145 do): borders lie midway between the rings. Empty when they do not;
 // such samples are drawn as points.

@@ -27,7 +27,7 @@ class CommandsTest : public ProgramTest {
 
 TEST_F(CommandsTest, EveryCommandHasHelpWithAnExample) {
   for (const char* command :
-       {"fit", "sky", "plot", "render", "presets", "references", "check", "compare"}) {
+       {"fit", "sky", "plot", "render", "presets", "references", "check", "classify", "compare"}) {
     EXPECT_THAT(output({command, "--help"}), HasSubstr(std::string("skyfit ") + command + " "))
         << command;
     EXPECT_THAT(output({command, "--help"}), HasSubstr("Example")) << command;
@@ -97,7 +97,7 @@ TEST_F(CommandsTest, SkyTakesTablesBesideThePresetAndASitePressure) {
 
 TEST_F(CommandsTest, ReferencesPrintWhatCheckAccepts) {
   const json list = json::parse(output({"references", "--json"}));
-  EXPECT_EQ(list.size(), 16u);
+  EXPECT_EQ(list.size(), 22u);
   write("sky.csv",
         output({"references", "cie:12", "--sampling", "tregenza", "--sun-zenith-deg", "0:80:10"}));
   const json summary = json::parse(output({"check", "--json", "sky.csv"}));

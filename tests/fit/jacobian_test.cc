@@ -48,8 +48,8 @@ TEST_P(JacobianTest, EqualsCentralDifferences) {
 INSTANTIATE_TEST_SUITE_P(Lobes, JacobianTest, testing::Values(1, 2));
 
 TEST(FreeParameterTest, ScalingIsUndoneByItsInverseAndDifferentiated) {
-  const FreeParameter logarithmic{Parameter::kMieScattering, 1e-7, 2e-3, true, std::nullopt};
-  const FreeParameter linear{Parameter::kMiePhaseG, -0.6, 0.98, false, std::nullopt};
+  const FreeParameter logarithmic{{1e-7, 2e-3, true, std::nullopt}, Parameter::kMieScattering};
+  const FreeParameter linear{{-0.6, 0.98, false, std::nullopt}, Parameter::kMiePhaseG};
   for (const FreeParameter& parameter : {logarithmic, linear}) {
     for (const double scaled : {0.01, 0.3, 0.99}) {
       EXPECT_NEAR(parameter.scaled(parameter.value(scaled)), scaled, 1e-14);

@@ -20,7 +20,7 @@ std::vector<FreeParameter> all_free(int lobes) {
 }
 
 FreeParameter free_parameter(Parameter id) {
-  return {id, parameter_info(id).lower, parameter_info(id).upper, false, std::nullopt};
+  return {{parameter_info(id).lower, parameter_info(id).upper, false, std::nullopt}, id};
 }
 
 class StartsTest : public testing::TestWithParam<int> {};

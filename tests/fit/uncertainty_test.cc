@@ -19,8 +19,8 @@ Atmosphere<double> atmosphere() { return true_atmosphere(1); }
 
 // Two parameters with r = A p: the covariance is the inverse of A^T A + the prior's information.
 TEST(UncertaintyTest, EqualsTheInverseOfTheNormalMatrix) {
-  const std::vector<FreeParameter> parameters = {{kMieScattering, 1e-7, 2e-3, true, std::nullopt},
-                                                 {kGroundAlbedo, 0, 1, false, Prior{0.15, 0.1}}};
+  const std::vector<FreeParameter> parameters = {{{1e-7, 2e-3, true, std::nullopt}, kMieScattering},
+                                                 {{0, 1, false, Prior{0.15, 0.1}}, kGroundAlbedo}};
   Eigen::MatrixXd jacobian(3, 2);
   jacobian << 1e6, 20, -2e6, 10, 3e5, -7;
   Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
@@ -42,7 +42,7 @@ TEST(UncertaintyTest, EqualsTheInverseOfTheNormalMatrix) {
 // Data that say exactly as much as the prior leave sigma at 1 / sqrt(2) = 0.707 of it; just more
 // makes the parameter identifiable.
 TEST(UncertaintyTest, IdentifiableWhenTheDataSayMoreThanThePrior) {
-  const std::vector<FreeParameter> parameters = {{kGroundAlbedo, 0, 1, false, Prior{0.15, 0.1}}};
+  const std::vector<FreeParameter> parameters = {{{0, 1, false, Prior{0.15, 0.1}}, kGroundAlbedo}};
   const Eigen::MatrixXd weak = Eigen::MatrixXd::Constant(1, 1, 0.95 / 0.1);
   const Eigen::MatrixXd strong = Eigen::MatrixXd::Constant(1, 1, 1.1 / 0.1);
   EXPECT_FALSE(uncertainty(parameters, atmosphere(), weak).identifiable[0]);
@@ -52,9 +52,9 @@ TEST(UncertaintyTest, IdentifiableWhenTheDataSayMoreThanThePrior) {
 // Two equal columns without prior: both open, the third parameter keeps its sigma, no matrix.
 TEST(UncertaintyTest, SingularDirectionIsReported) {
   const std::vector<FreeParameter> parameters = {
-      {kRayleighScaleHeight, 5000, 12000, true, std::nullopt},
-      {kGroundAlbedo, 0, 1, false, std::nullopt},
-      {kMiePhaseG, -0.6, 0.98, false, std::nullopt}};
+      {{5000, 12000, true, std::nullopt}, kRayleighScaleHeight},
+      {{0, 1, false, std::nullopt}, kGroundAlbedo},
+      {{-0.6, 0.98, false, std::nullopt}, kMiePhaseG}};
   Eigen::MatrixXd jacobian(4, 3);
   jacobian << 1e-3, 2, 5, 2e-3, 4, -3, -1e-3, -2, 40, 0.5e-3, 1, 1;
   const Uncertainty result = uncertainty(parameters, atmosphere(), jacobian);
@@ -69,8 +69,8 @@ TEST(UncertaintyTest, SingularDirectionIsReported) {
 }
 
 TEST(UncertaintyTest, ParameterWithoutEffectIsReported) {
-  const std::vector<FreeParameter> parameters = {{kGroundAlbedo, 0, 1, false, std::nullopt},
-                                                 {kMiePhaseG, -0.6, 0.98, false, std::nullopt}};
+  const std::vector<FreeParameter> parameters = {{{0, 1, false, std::nullopt}, kGroundAlbedo},
+                                                 {{-0.6, 0.98, false, std::nullopt}, kMiePhaseG}};
   Eigen::MatrixXd jacobian(2, 2);
   jacobian << 0, 30, 0, 10;
   const Uncertainty result = uncertainty(parameters, atmosphere(), jacobian);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+
+#include "fit/measured.h"
+
+namespace skyfit::fit {
+namespace {
+
+struct Pair {
+  double model = 0, measured = 0;
+};
+
+double percent_of_norm(double difference2, double measured2) {
+  return measured2 > 0 ? 100 * std::sqrt(difference2 / measured2)
+                       : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+MeasuredErrors measured_errors(const refs::Reference& reference, const std::vector<double>& model,
+                               const SpectralData& spectra, double exclude_sun, int scan) {
+  constexpr double kShortestNm = 400, kLongestNm = 700, kRounding = 1e-9;
+  const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
+  std::map<std::tuple<int, double, double>, Pair> luminance_of_look;
+  double difference2 = 0, measured2 = 0;
+  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
+    const refs::Sample& s = reference.samples[i];
+    if (s.weight == 0 || (scan != kAllScans && s.scan != scan)) continue;
+    if (refs::scattering_angle(s) < exclude_sun - kRounding) continue;
+    const double weight = spectral ? spectra.y_bar.at(s.wavelength_nm) : 1;
+    Pair& luminance = luminance_of_look[{s.scan, s.view_zenith, s.relative_azimuth}];
+    luminance.model += weight * model[i];
+    luminance.measured += weight * s.value;
+    if (!spectral || s.wavelength_nm < kShortestNm || s.wavelength_nm > kLongestNm) continue;
+    difference2 += std::pow(model[i] - s.value, 2);
+    measured2 += s.value * s.value;
+  }
+  double sum = 0, squares = 0;
+  for (const auto& [look, luminance] : luminance_of_look) {
+    const double relative = luminance.model / luminance.measured - 1;
+    sum += relative;
+    squares += relative * relative;
+  }
+  const auto count = static_cast<double>(luminance_of_look.size());
+  return {100 * std::sqrt(squares / count), percent_of_norm(difference2, measured2),
+          100 * sum / count};
+}
+
+}  // namespace skyfit::fit

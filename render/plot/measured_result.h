@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a fit of measured skies leaves, as its figures read it: measured.csv and report.json.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "render/plot/measured_csv.h"
+
+namespace skyfit::plot {
+
+struct MeasuredScan {
+  std::string name, time_utc;                                      // either may be empty
+  double luminance_error_percent = 0, spectral_error_percent = 0;  // NaN: not known
+};
+
+struct MeasuredUnknown {
+  std::string name, unit;
+  int scan = 0;  // from 1; 0: all scans share it
+  double fitted = 0;
+  double sigma = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct MeasuredOutcome {
+  std::string title;
+  bool spectral = true;  // else cd/m^2
+  std::vector<MeasuredSample> samples;
+  std::vector<MeasuredScan> scans;
+  std::vector<MeasuredUnknown> unknowns;
+  std::vector<std::string> covariance_unknowns;
+  std::vector<std::vector<double>> covariance;  // empty when singular
+};
+
+// Whether the directory holds such a result.
+bool is_measured_result(const std::filesystem::path& directory);
+
+// Throws std::runtime_error or std::invalid_argument with one line that names the file and the line
+// or the field.
+MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory);
+
+// One direction of one scan with its luminance: of spectra the sum of 683 y_bar radiance over the
+// wavelengths at hand by the trapezoidal rule. cd/m^2.
+struct MeasuredDirection {
+  int scan;
+  double sun_zenith_deg, view_zenith_deg, relative_azimuth_deg, scattering_angle_deg;
+  double measured, model;
+  bool counted;  // some sample of it has a weight
+};
+std::vector<MeasuredDirection> directions_of(const MeasuredOutcome& outcome);
+
+}  // namespace skyfit::plot

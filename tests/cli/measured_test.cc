@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit fit` of spectral scans leaves its files and figures and says how far off it is; plot
+// draws from them, classify names a standard sky, and bad options are refused in one line.
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "data_refs/spectra.h"
+#include "tests/cli/program.h"
+
+namespace skyfit::cli {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class MeasuredTest : public ProgramTest {
+ protected:
+  // A scan of a preset's own sky in the layout of spectral scans, absolute and turned by 8 deg; a
+  // few directions and wavelengths.
+  void write_scan(const std::string& name, double sun_zenith_deg) {
+    const std::string views = "15,45,75", wavelengths = "440,500,550,600,670";
+    const Outcome sky = run({"sky", "--preset", "earth-clear", "--sun-zenith-deg",
+                             fmt_number(sun_zenith_deg), "--view-zenith-deg", views,
+                             "--azimuth-deg", "8:308:60", "--wavelength-nm", wavelengths});
+    EXPECT_EQ(sky.status, 0) << sky.err;
+    std::string text = "# sun_zenith_deg=" + fmt_number(sun_zenith_deg) +
+                       " sun_azimuth_deg=180\n# radiance_<nm> in W m^-2 sr^-1 nm^-1\n"
+                       "sample,view_azimuth_deg,view_zenith_deg";
+    // altitude, sun zenith, view zenith, azimuth, wavelength, radiance per irradiance
+    std::map<std::pair<double, double>, std::map<double, double>> spectra;
+    const std::vector<std::string> rows = lines(sky.out);
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+      const std::vector<std::string> row = fields(rows[r]);
+      spectra[{std::stod(row[2]), std::stod(row[3])}][std::stod(row[4])] = std::stod(row[5]);
+    }
+    for (const auto& [nm, ignored] : spectra.begin()->second) text += ",radiance_" + fmt_number(nm);
+    const Spectrum& sun = refs::standard_spectral_data().solar_irradiance;
+    int sample = 0;
+    for (const auto& [look, spectrum] : spectra) {
+      text += "\n" + std::to_string(sample++) + "," +
+              fmt_number(std::fmod(look.second - 8 + 180, 360)) + "," + fmt_number(look.first);
+      for (const auto& [nm, radiance] : spectrum) text += "," + fmt_number(sun.at(nm) * radiance);
+    }
+    write(name, text + "\n");
+  }
+
+  static std::string fmt_number(double value) {
+    std::ostringstream out;
+    out.precision(10);
+    out << value;
+    return out.str();
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+};
+
+TEST_F(MeasuredTest, JointFitLeavesReportsAndFigures) {
+  write_scan("a.csv", 40);
+  write_scan("b.csv", 60);
+  const Outcome fit = run({"fit",
+                           "--reference",
+                           "a.csv,b.csv",
+                           "--free",
+                           "mie.scattering,ground.albedo",
+                           "--preset",
+                           "earth-clear",
+                           "--scale",
+                           "shared",
+                           "--prior",
+                           "instrument.scale=1:0.2",
+                           "--starts",
+                           "1",
+                           "--hold-out",
+                           "scans",
+                           "--bootstrap",
+                           "2",
+                           "--profile",
+                           "mie.scattering",
+                           "--out",
+                           "fitted"});
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  EXPECT_THAT(fit.out, HasSubstr("luminance error"));
+  const json report = json::parse(read("fitted/report.json"));
+  EXPECT_LT(report["luminance_error_percent"], 1);
+  EXPECT_EQ(report["scan_results"].size(), 2u);
+  EXPECT_NEAR(report["scan_results"][0]["instrument.azimuth_offset"], 8, 0.5);
+  EXPECT_EQ(report["checks"]["hold_outs"].size(), 2u);
+  EXPECT_EQ(report["checks"]["profiles"].size(), 1u);
+  for (const char* file : {"maps.png", "spectra.svg", "residuals.png", "corner.png", "measured.csv",
+                           "preset.json", "report.txt"})
+    EXPECT_TRUE(exists(std::string("fitted/") + file)) << file;
+  EXPECT_EQ(run({"check", "fitted/preset.json"}).status, 0);
+  EXPECT_EQ(run({"plot", "fitted", "--figure", "spectra", "--scan", "2", "--out", "s.png"}).status,
+            0);
+  const Outcome evaluated =
+      run({"fit", "--reference", "a.csv", "--preset", "fitted/preset.json", "--free", "none",
+           "--pointing", "azimuth", "--out", "evaluated", "--json"});
+  ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+  EXPECT_EQ(json::parse(evaluated.out)["unknowns"].size(), 1u);
+}
+
+TEST_F(MeasuredTest, ClassifyNamesTheType) {
+  const Outcome found =
+      run({"classify", "--reference", "cie:9", "--sun-zenith-deg", "40", "--json"});
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_EQ(json::parse(found.out)["nearest_type"], 9);
+}
+
+TEST_F(MeasuredTest, BadOptionsAreRefusedInOneLine) {
+  write_scan("a.csv", 40);
+  const auto refused = [&](std::vector<std::string> more, const std::string& message) {
+    std::vector<std::string> arguments = {"fit", "--reference", "a.csv", "--out", "never"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+    EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
+    EXPECT_FALSE(exists("never"));
+  };
+  refused({"--scale", "loose"}, "--scale \"loose\": expected one of absolute, shared, per-scan");
+  refused({"--noise", "-1"}, "--noise \"-1\": expected RELATIVE[:FLOOR]");
+  refused({"--hold-out", "1"}, "--hold-out \"1\": expected scans, or into how many parts");
+  refused({"--ground", "lawn"}, "ground \"lawn\": no such file");
+  refused({"--per-scan", "ozone.column"}, "fit.per_scan: ozone.column: must be a free parameter");
+  refused({"--profile", "nothing"}, "fit.profile: nothing: not an unknown of this fit");
+  const Outcome relative =
+      run({"fit", "--reference", "cie:12", "--noise", "0.1", "--out", "never"});
+  EXPECT_THAT(relative.err, HasSubstr("--noise \"cie:12\": expected an absolute or spectral"));
+}
+
+}  // namespace
+}  // namespace skyfit::cli

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// A joint fit of spectral scans that the model made returns the parameters, the pointing and the
+// scale that made them, and reports the errors that it leaves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fit/measured.h"
+#include "fit/measured_report.h"
+#include "tests/fit/scans.h"
+#include "tests/fit/synthetic.h"
+
+namespace skyfit::fit {
+namespace {
+
+using enum Parameter;
+using testing::HasSubstr;
+
+// Noise-free residuals end at the solver's relative cost tolerance of 1e-5.
+constexpr double kSolved = 2e-3;
+
+MeasuredOptions determined() {
+  MeasuredOptions options;
+  options.common.lobes = 1;
+  options.common.use_priors = false;
+  options.common.free =
+      std::vector{kMieScattering, kMieAngstromExponent, kMiePhaseG, kGroundAlbedo};
+  options.common.fix = {{kRayleighScattering, 1.25e-5}, {kMieSingleScatteringAlbedo, 0.93}};
+  options.noise_is_stated = true;
+  options.noise = {0.01, 0};
+  return options;
+}
+
+MeasuredResult fit_toy(const refs::Reference& reference, const MeasuredOptions& options) {
+  return fit_measured(reference, refs::standard_spectral_data(), ToySky(), options);
+}
+
+const UnknownRow& row_of(const MeasuredResult& result, const std::string& name) {
+  for (const UnknownRow& row : result.unknowns) {
+    if (row.unknown.name() == name) return row;
+  }
+  throw std::logic_error("no unknown " + name);
+}
+
+TEST(MeasuredFitTest, NoiseFreeScansReturnParametersAndPointing) {
+  const Atmosphere<double> truth = true_atmosphere(1);
+  SyntheticScans how;
+  how.azimuth_offset_deg = {7, -4};
+  const MeasuredResult result = fit_toy(synthetic_scans(ToySky(), truth, how), determined());
+  EXPECT_TRUE(result.converged);
+  EXPECT_LT(result.errors.luminance, 0.1);
+  EXPECT_LT(result.errors.spectral, 0.1);
+  EXPECT_NEAR(row_of(result, "mie.scattering").fitted / 1.2e-4, 1, kSolved);
+  EXPECT_NEAR(row_of(result, "mie.angstrom_exponent").fitted, 1.3, kSolved);
+  EXPECT_NEAR(row_of(result, "ground.albedo").fitted, 0.2, kSolved);
+  EXPECT_NEAR(row_of(result, "instrument.azimuth_offset[1]").fitted, 7, 0.02);
+  EXPECT_NEAR(row_of(result, "instrument.azimuth_offset[2]").fitted, -4, 0.02);
+}
+
+// Absolute: at half an astronomical unit more distance the same sky is fainter, and only the
+// distance explains it.
+TEST(MeasuredFitTest, DistanceOfTheSunIsAccountedFor) {
+  SyntheticScans how;
+  how.sun_distance_au = 1.5;
+  const refs::Reference far = synthetic_scans(ToySky(), true_atmosphere(1), how);
+  how.sun_distance_au = 1;
+  const refs::Reference near = synthetic_scans(ToySky(), true_atmosphere(1), how);
+  EXPECT_NEAR(near.samples[0].value / far.samples[0].value, 2.25, 1e-12);
+  EXPECT_NEAR(row_of(fit_toy(far, determined()), "mie.scattering").fitted / 1.2e-4, 1, kSolved);
+}
+
+TEST(MeasuredFitTest, UnknownScaleIsFoundAndSharedByTheScans) {
+  SyntheticScans how;
+  how.scale = 1.2;
+  MeasuredOptions options = determined();
+  options.calibration = Calibration::kSharedScale;
+  const MeasuredResult result =
+      fit_toy(synthetic_scans(ToySky(), true_atmosphere(1), how), options);
+  EXPECT_NEAR(row_of(result, "instrument.scale").fitted, 1.2, kSolved);
+  options.calibration = Calibration::kScalePerScan;
+  const MeasuredResult own = fit_toy(synthetic_scans(ToySky(), true_atmosphere(1), how), options);
+  EXPECT_NEAR(row_of(own, "instrument.scale[2]").fitted, 1.2, kSolved);
+}
+
+TEST(MeasuredFitTest, TiltIsFound) {
+  const Atmosphere<double> truth = true_atmosphere(1);
+  refs::Reference reference = synthetic_scans(ToySky(), truth, {});
+  const ScanData data = scan_data(reference, refs::standard_spectral_data(), {true, 0, {}, 0});
+  SkyState state = start_state(truth, 2);
+  state.instrument[0][static_cast<std::size_t>(Instrument::kTiltNorth)] = 2 * kDegree;
+  state.instrument[0][static_cast<std::size_t>(Instrument::kTiltEast)] = -1 * kDegree;
+  const RowValues values = row_values(ToySky(), data, state, {});
+  for (std::size_t r = 0; r < data.rows.size(); ++r)
+    reference.samples[data.rows[r].sample].value = values.value(static_cast<Eigen::Index>(r));
+  MeasuredOptions options = determined();
+  options.pointing = Pointing::kAzimuthAndTilt;
+  const MeasuredResult result = fit_toy(reference, options);
+  EXPECT_NEAR(row_of(result, "instrument.tilt_north[1]").fitted, 2, 0.02);
+  EXPECT_NEAR(row_of(result, "instrument.tilt_east[1]").fitted, -1, 0.02);
+  EXPECT_NEAR(row_of(result, "instrument.tilt_north[2]").fitted, 0, 0.02);
+}
+
+// Every scan gets its own aerosol when asked, and the others stay shared.
+TEST(MeasuredFitTest, ParametersPerScan) {
+  const Atmosphere<double> morning = true_atmosphere(1);
+  Atmosphere<double> noon = morning;
+  noon.mie.scattering_per_m.value = 2e-4;
+  refs::Reference reference = synthetic_scans(ToySky(), morning, {});
+  const refs::Reference later = synthetic_scans(ToySky(), noon, {});
+  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
+    if (reference.samples[i].scan == 1) reference.samples[i] = later.samples[i];
+  }
+  MeasuredOptions options = determined();
+  options.per_scan = {kMieScattering};
+  const MeasuredResult result = fit_toy(reference, options);
+  EXPECT_NEAR(row_of(result, "mie.scattering[1]").fitted / 1.2e-4, 1, kSolved);
+  EXPECT_NEAR(row_of(result, "mie.scattering[2]").fitted / 2e-4, 1, kSolved);
+  EXPECT_NEAR(row_of(result, "ground.albedo").fitted, 0.2, kSolved);
+  EXPECT_EQ(result.scans[1].atmosphere.mie.scattering_per_m.value,
+            row_of(result, "mie.scattering[2]").fitted);
+}
+
+// A direction that looks at something else draws plain squares away, a Cauchy loss hardly.
+TEST(MeasuredFitTest, RobustLossIgnoresADirection) {
+  SyntheticScans how;
+  how.noise = 0.01;
+  refs::Reference reference = synthetic_scans(ToySky(), true_atmosphere(1), how);
+  for (std::size_t i = 0; i < how.wavelength_nm.size(); ++i) reference.samples[i].value *= 3;
+  MeasuredOptions options = determined();
+  const double plain = row_of(fit_toy(reference, options), "mie.scattering").fitted;
+  options.loss = Loss::kCauchy;
+  const MeasuredResult result = fit_toy(reference, options);
+  const double robust = row_of(result, "mie.scattering").fitted;
+  EXPECT_LT(std::abs(robust / 1.2e-4 - 1), 0.02);
+  EXPECT_GT(std::abs(plain / 1.2e-4 - 1), 3 * std::abs(robust / 1.2e-4 - 1));
+  EXPECT_LT(result.loss_weight[0], 0.05);
+  EXPECT_GT(result.loss_weight.back(), 0.7);
+}
+
+// The errors are those of their definition: a model that is 10 % too bright everywhere.
+TEST(MeasuredErrorsTest, UniformExcess) {
+  const refs::Reference reference = synthetic_scans(ToySky(), true_atmosphere(1), {});
+  std::vector<double> model;
+  for (const refs::Sample& sample : reference.samples) model.push_back(1.1 * sample.value);
+  const MeasuredErrors errors =
+      measured_errors(reference, model, refs::standard_spectral_data(), 0, kAllScans);
+  EXPECT_NEAR(errors.luminance, 10, 1e-9);
+  EXPECT_NEAR(errors.spectral, 10, 1e-9);
+  EXPECT_NEAR(errors.mean_bias, 10, 1e-9);
+}
+
+TEST(MeasuredFitTest, NothingFreeEvaluatesThePreset) {
+  const Atmosphere<double> truth = true_atmosphere(1);
+  MeasuredOptions options = determined();
+  options.common.start = Preset{"truth", truth, {}};
+  options.common.free = std::vector<Parameter>{};
+  options.common.fix.clear();
+  options.pointing = Pointing::kStated;
+  const MeasuredResult result = fit_toy(synthetic_scans(ToySky(), truth, {}), options);
+  EXPECT_TRUE(result.unknowns.empty());
+  EXPECT_LT(result.errors.luminance, 1e-9);
+}
+
+TEST(MeasuredFitTest, ReportsNameErrorsUnknownsAndPhysics) {
+  SyntheticScans how;
+  how.noise = 0.02;
+  const MeasuredResult result =
+      fit_toy(synthetic_scans(ToySky(), true_atmosphere(1), how), determined());
+  const std::string text = full_report(result, {});
+  for (const char* part : {"luminance", "spectral", "instrument.azimuth_offset[2]", "turbidity",
+                           "aerosol optical depth at 550 nm", "plausible"})
+    EXPECT_THAT(text, HasSubstr(part));
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    EXPECT_LE(end - begin, 130u) << text.substr(begin, end - begin);
+    begin = end + 1;
+  }
+  const nlohmann::json json = report_json(result, {});
+  EXPECT_NEAR(json["luminance_error_percent"], result.errors.luminance, 1e-12);
+  EXPECT_EQ(json["unknowns"].size(), result.unknowns.size());
+  EXPECT_TRUE(json["findings"]["turbidity"].contains("plausible_upper"));
+}
+
+std::string message_of(const refs::Reference& reference, const MeasuredOptions& options) {
+  try {
+    fit_toy(reference, options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(MeasuredFitTest, BadInputNamesOptionValueAndExpectation) {
+  refs::Reference reference = synthetic_scans(ToySky(), true_atmosphere(1), {});
+  MeasuredOptions options = determined();
+  options.per_scan = {kOzoneColumn};
+  EXPECT_THAT(message_of(reference, options),
+              HasSubstr("fit.per_scan: ozone.column: must be a free parameter"));
+  options = determined();
+  options.noise = {0, 0};
+  EXPECT_THAT(message_of(reference, options), HasSubstr("fit.noise_relative = 0: must be"));
+  options = determined();
+  options.instrument_priors[Instrument::kScale] = {1, 0.1};
+  EXPECT_THAT(message_of(reference, options),
+              HasSubstr("fit.prior: instrument.scale: must be free to have a prior"));
+  reference.samples[3].value = -1;
+  EXPECT_THAT(message_of(reference, determined()), HasSubstr("sample 4: value = -1: must be"));
+}
+
+}  // namespace
+}  // namespace skyfit::fit

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of measured skies: measured.csv reads back to the same doubles, every figure is drawn
+// by gnuplot, and what cannot be drawn is refused with one line.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "plot_samples.h"
+#include "render/plot/measured_figures.h"
+
+namespace skyfit::plot {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+MeasuredOutcome outcome(bool spectral) {
+  MeasuredOutcome result;
+  result.title = "folder/scans.csv";
+  result.spectral = spectral;
+  for (const int scan : {1, 2}) {
+    for (int k = 0; k < 24; ++k) {
+      for (const double nm : spectral ? std::vector{450.0, 550.0, 650.0} : std::vector{0.0}) {
+        const double value = 0.1 + 0.01 * k / scan;
+        result.samples.push_back({scan, 30.0 * scan, 20.0 + 30 * (k / 8), 45.0 * (k % 8) + 7, nm,
+                                  value, 0.05 * value, value * (1 + 0.05 * std::sin(k)),
+                                  k == 3 ? 0.0 : 1.0});
+      }
+    }
+    result.scans.push_back({"folder/scan" + std::to_string(scan) + ".csv",
+                            scan == 1 ? "2020-06-01T09:00:00Z" : "2020-06-01T10:00:00Z", 5, 6});
+    result.unknowns.push_back(
+        {"instrument.azimuth_offset[" + std::to_string(scan) + "]", "deg", scan, 5.0 + scan, 0.5});
+  }
+  result.unknowns.push_back({"ground.albedo", "1", 0, 0.2, 0.02});
+  result.covariance_unknowns = {"instrument.azimuth_offset[1]", "ground.albedo"};
+  result.covariance = {{0.25, 0.005}, {0.005, 0.0004}};
+  return result;
+}
+
+TEST_F(PlotTest, MeasuredCsvReadsBackToTheSameDoubles) {
+  std::vector<MeasuredSample> samples = outcome(true).samples;
+  samples[0].measured = 1.0 / 3;
+  EXPECT_EQ(parse_measured_csv(measured_to_csv(samples), "measured.csv"), samples);
+}
+
+TEST_F(PlotTest, MeasuredCsvNamesLineAndField) {
+  std::string text = measured_to_csv(outcome(true).samples);
+  text.replace(text.find("\n1,") + 1, 2, "0,");
+  EXPECT_THAT([&] { parse_measured_csv(text, "measured.csv"); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("measured.csv:2: scan = \"0\": expected a whole number >= 1")));
+}
+
+TEST_F(PlotTest, EveryMeasuredFigureIsDrawn) {
+  const MeasuredOutcome fit = outcome(true);
+  for (const std::string_view name : measured_figure_names()) {
+    const MeasuredFigure figure = measured_figure_from_name(name);
+    EXPECT_TRUE(can_draw(figure, fit)) << name;
+    const auto file = folder_ / (std::string(name) + ".png");
+    write_figure(measured_figure(figure, {&fit, 1}), {file});
+    EXPECT_GT(std::filesystem::file_size(file), 5000u) << name;
+  }
+}
+
+TEST_F(PlotTest, LuminancesHaveNoSpectra) {
+  const MeasuredOutcome fit = outcome(false);
+  EXPECT_FALSE(can_draw(MeasuredFigure::kSpectra, fit));
+  EXPECT_THROW(spectra_figure(fit, 1), std::invalid_argument);
+  write_figure(residuals_figure(fit), {folder_ / "residuals.svg"});
+  EXPECT_EQ(directions_of(fit).front().measured, fit.samples[0].measured);
+}
+
+TEST_F(PlotTest, WhatCannotBeDrawnIsRefused) {
+  const MeasuredOutcome fit = outcome(true);
+  EXPECT_THAT([&] { spectra_figure(fit, 3); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("scan 3: expected 1 to 2")));
+  EXPECT_THAT([] { measured_figure_from_name("pie"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("expected one of maps, spectra")));
+  const std::vector<MeasuredOutcome> two = {fit, fit};
+  EXPECT_THROW(measured_figure(MeasuredFigure::kMaps, two), std::invalid_argument);
+  MeasuredOutcome timeless = fit;
+  for (MeasuredScan& scan : timeless.scans) scan.time_utc.clear();
+  EXPECT_FALSE(can_draw(MeasuredFigure::kSeries, timeless));
+  EXPECT_THAT(
+      [&] {
+        series_figure({&timeless, 1});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("its time is not known")));
+}
+
+}  // namespace
+}  // namespace skyfit::plot
