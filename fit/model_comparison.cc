@@ -17,6 +17,7 @@
 #include "fit/observations.h"
 #include "fit/preset_record.h"
 #include "fit/residuals.h"
+#include "fit/starts.h"
 
 namespace skyfit::fit {
 namespace {
@@ -235,9 +236,11 @@ ModelComparison compare_model(const refs::Reference& reference, const SpectralDa
     FitOptions with_lobes = *options;
     with_lobes.lobes = model.lobes();
     std::string refused;
-    // Whether a sun is refused does not depend on the atmosphere; whether it is dark may.
+    const Atmosphere<double> base = start_atmosphere(with_lobes);
+    const Start start =
+        choose_starts(base, choose_free_parameters(with_lobes, model, base), 1, false).front();
     const refs::Reference possible =
-        possible_part(reference, model, rule, start_atmosphere(with_lobes), refused);
+        possible_part(reference, model, rule, start.atmosphere, refused);
     row.fit = fit_atmosphere(possible, spectra, model, with_lobes);
     row.fitted = evaluated(reference, model, rule, row.fit->preset.atmosphere, exclude_sun,
                            row.fit_problem, row);

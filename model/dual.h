@@ -5,13 +5,22 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <type_traits>
 
 namespace skyfit {
+
+// In the place of an array of none, which would take as much room as a number.
+struct NoDerivatives {
+  double& operator[](std::size_t) { throw std::logic_error("Dual<0> has no derivatives"); }
+  double operator[](std::size_t) const { throw std::logic_error("Dual<0> has no derivatives"); }
+};
 
 template <int N>
 struct Dual {
   double v = 0;
-  std::array<double, N> d{};
+  [[no_unique_address]] std::conditional_t<N == 0, NoDerivatives, std::array<double, N>> d{};
 
   Dual() = default;
   Dual(double value) : v(value) {}  // NOLINT: a constant is a dual number with zero derivatives
@@ -68,6 +77,8 @@ struct Dual {
     return a.chain(s, 0.5 / s);
   }
 };
+
+static_assert(sizeof(Dual<0>) == sizeof(double));
 
 inline double value_of(double x) { return x; }
 template <int N>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The inner loop of the tables of Bruneton & Neyret: light scattered at one node of a ray, for all
-// suns and angles. Compiled for several instruction sets. A slab holds kSuns x kAngles dual numbers
+// suns and angles. Compiled for several instruction sets. A slab holds suns x angles dual numbers
 // of N derivatives, as N + 1 doubles each.
 #pragma once
 

@@ -86,6 +86,44 @@ TEST(TableModel, IrradianceTableFollowsTheReference) {
   }
 }
 
+// The renderer's tables of another model hold what the model says, but for the interpolation.
+TEST(TableModel, TablesOfAnotherModelHoldItsLight) {
+  Atmosphere<double> a =
+      parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear").atmosphere;
+  a.ground_albedo = 0;  // light that comes straight from the ground is not in the tables
+  const SpectralData& spectra = refs::standard_spectral_data();
+  for (const char* name : {"bodare", "oneil"}) {
+    const auto model = make_sky_model(name, spectra, 2);
+    const AtmosphereTables tables =
+        compute_tables_of(*model, a, color_rule(spectra), TableSizes{}, 2, {});
+    std::vector<SkyPoint> points;
+    for (const double altitude : {0.0, 9e3}) {
+      for (const double view : {10.0, 60.0, 80.0, 120.0}) {
+        for (const double azimuth : {0.0, 100.0})
+          points.push_back({altitude, 55 * kDegree, view * kDegree, azimuth * kDegree});
+      }
+    }
+    const SkyValues expected = model->radiance(a, tables.color.nodes, points, {});
+    constexpr double kTables = 0.04;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const SkyPoint& p = points[i];
+      const double mu = std::cos(p.view_zenith), mu_s = std::cos(p.sun_zenith);
+      const double nu = mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) *
+                                        std::cos(p.relative_azimuth);
+      if (p.altitude_m == 0 && mu < 0) continue;  // the ray has no length
+      const NodeValues values = lookup_radiance(tables, p.altitude_m, mu, mu_s, nu, mu < 0);
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_NEAR(values[static_cast<std::size_t>(k)] / expected.at(static_cast<int>(i), k), 1,
+                    kTables)
+            << name << ", point " << i << ", node " << k;
+      }
+    }
+  }
+  EXPECT_THROW(compute_tables_of(*make_sky_model("nielsen", spectra, 1), a, color_rule(spectra),
+                                 TableSizes{}, 1, {}),
+               std::invalid_argument);
+}
+
 TEST(TableModel, SaysWhatItCannotDo) {
   const auto model = make_sky_model("tables", refs::standard_spectral_data(), 1);
   const WavelengthNode node{550, 0};
