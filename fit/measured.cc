@@ -122,7 +122,7 @@ Uncertainty uncertainty_at(const MeasuredProblem& problem, const Eigen::VectorXd
   const std::vector<Variable> variables(problem.unknowns.begin(), problem.unknowns.end());
   const Eigen::MatrixXd& jacobian = white.jacobian_per_unit;
   const Uncertainty independent = uncertainty(variables, scaled, jacobian);
-  if (noise.factor == noise.independent_factor) return independent;
+  if (noise.length == 0 && noise.wavelength_correlation == 0) return independent;
   const double variance = std::pow(noise.independent_factor / noise.factor, 2);
   return with_correlated_residuals(
       independent, variables, scaled,

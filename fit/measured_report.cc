@@ -92,6 +92,25 @@ std::string unknowns_text(const MeasuredResult& result) {
   return text + "\n";
 }
 
+// A prior that the misfit overrides: the unknown is neither known nor at its prior.
+std::string pulled_text(const MeasuredResult& result) {
+  constexpr double kPulled = 2;  // prior sigmas
+  std::string text;
+  for (const UnknownRow& row : result.unknowns) {
+    const std::optional<Prior>& prior = row.unknown.prior;
+    if (!prior || row.identifiable) continue;
+    const double pull = (row.fitted * row.unknown.unit_value() - prior->mean) / prior->sigma;
+    if (std::abs(pull) < kPulled) continue;
+    text += fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there{}.\n",
+                        row.unknown.name(), pull,
+                        row.unknown.what == std::variant<Parameter, Instrument>(
+                                                Parameter::kMieSingleScatteringAlbedo)
+                            ? "; an unknown calibration (--scale) may be what it stands for"
+                            : "");
+  }
+  return text.empty() ? text : text + "\n";
+}
+
 std::string correlation_text(const MeasuredResult& result) {
   if (result.correlation.size() == 0) {
     return "No covariance: every unknown is at a bound, or a direction is left open by data and "
@@ -144,11 +163,12 @@ std::string profiles_text(const std::vector<Profile>& profiles) {
 }
 
 std::string bootstrap_text(const MeasuredResult& result, const Bootstrap& bootstrap) {
-  std::string text =
-      fmt::format("Bootstrap over the directions, {} repetitions{}\n{:<32}{:>12}{:>12}{:>22}\n",
-                  bootstrap.repetitions,
-                  bootstrap.failed > 0 ? fmt::format(", {} failed", bootstrap.failed) : "",
-                  "unknown", "mean", "sigma", "sigma of covariance");
+  std::string text = fmt::format(
+      "Bootstrap over the directions (not the priors), {} "
+      "repetitions{}\n{:<32}{:>12}{:>12}{:>22}\n",
+      bootstrap.repetitions,
+      bootstrap.failed > 0 ? fmt::format(", {} failed", bootstrap.failed) : "", "unknown", "mean",
+      "sigma", "sigma of covariance");
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     text += fmt::format("{:<32}{:>12}{:>12}{:>22}\n", result.unknowns[u].unknown.name(),
                         number(bootstrap.mean[u]), number(bootstrap.sigma[u], 3),
@@ -201,8 +221,9 @@ std::string brief_report(const MeasuredResult& result) {
 }
 
 std::string full_report(const MeasuredResult& result, const MeasuredChecks& checks) {
-  return header(result) + errors_text(result) + unknowns_text(result) + downweighted_text(result) +
-         findings_text(result) + correlation_text(result) + profiles_text(checks.profiles) +
+  return header(result) + errors_text(result) + unknowns_text(result) + pulled_text(result) +
+         downweighted_text(result) + findings_text(result) + correlation_text(result) +
+         profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
          hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }
