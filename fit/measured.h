@@ -90,6 +90,9 @@ struct ScanOutcome {
 };
 
 struct MeasuredResult {
+  // As fitted: samples closer to the sun than exclude_sun, where the instrument truly points, have
+  // weight 0.
+  refs::Reference reference;
   Preset preset;  // the atmosphere of the first scan: of all, unless parameters are per scan
   std::vector<UnknownRow> unknowns;
   std::vector<int> covariance_unknowns;  // rows and columns of the matrices: indices of unknowns
@@ -118,9 +121,9 @@ struct MeasuredResult {
 MeasuredResult fit_measured(const refs::Reference& reference, const SpectralData& spectra,
                             const SkyModel& model, const MeasuredOptions& options);
 
-// Errors of values, one per sample of the reference, over the samples with weight at least
-// `exclude_sun` (radians) from the sun, of one scan or of all (kAllScans).
+// Errors of values, one per sample of the reference, over the samples with weight, of one scan or
+// of all (kAllScans).
 MeasuredErrors measured_errors(const refs::Reference& reference, const std::vector<double>& model,
-                               const SpectralData& spectra, double exclude_sun, int scan);
+                               const SpectralData& spectra, int scan);
 
 }  // namespace skyfit::fit

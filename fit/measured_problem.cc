@@ -201,6 +201,11 @@ std::vector<double> sample_values(const MeasuredProblem& problem, const SkyState
   return result;
 }
 
+MeasuredOptions as_pointed(MeasuredOptions options) {
+  options.common.exclude_sun = 0;
+  return options;
+}
+
 MeasuredProblem measured_problem(const refs::Reference& reference, const SpectralData& spectra,
                                  const SkyModel& model, const MeasuredOptions& options) {
   const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
