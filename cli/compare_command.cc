@@ -175,12 +175,13 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
   const Preset preset = preset_of(options);
   if (options.reference == kOurs && options.preset.empty())
     throw UsageError("--preset", "", fmt::format("expected one with --reference {}", kOurs));
-  const refs::Reference reference =
+  const refs::Reference reference = fit::comparison_reference(
       options.reference == kOurs
           ? solved_reference(options, preset)
           : refs::load_reference(options.reference, parse_sun_zeniths(options.sun_zenith),
                                  parse_sampling(options.sampling),
-                                 parse_import_options(options.import));
+                                 parse_import_options(options.import)),
+      refs::standard_spectral_data());
   if (options.reference != kOurs) warn_of_unused_options(command, options.reference);
   const auto rows = compare_all(options, names, reference, preset);
   const std::string text = fit::comparison_text(reference, rows);

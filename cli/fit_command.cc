@@ -69,8 +69,10 @@ void write_result(const std::filesystem::path& directory, const refs::Reference&
                              {result.start_model, result.start_scale}, options.exclude_sun);
   plot::write_samples_csv(directory / kSamplesFile, samples);
   const plot::FitOutcome outcome{directory.string(), result.preset, samples};
-  plot::write_comparison(plot::comparison_of({&outcome, 1}, refs::standard_spectral_data(), model),
-                         {directory / kFigureFiles[0], directory / kFigureFiles[1]});
+  const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
+  plot::write_comparison(
+      plot::comparison_of({&outcome, 1}, refs::standard_spectral_data(), model_named),
+      {directory / kFigureFiles[0], directory / kFigureFiles[1]});
 }
 
 fit::FitResult fit_with_progress(const refs::Reference& reference, const SkyModel& model,

@@ -72,7 +72,7 @@ void add_sampling_options(CLI::App& command, std::string& sampling, std::string&
 }
 
 void warn_of_unused_options(const CLI::App& command, const std::string& reference) {
-  const bool is_measured = !is_shipped_reference(reference) && !refs::is_perez_name(reference);
+  const bool is_measured = !is_shipped_reference(reference);
   const bool is_analytic = !is_measured && !reference.starts_with("truth:");
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;

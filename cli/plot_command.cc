@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "cli/arguments.h"
@@ -22,6 +23,7 @@ namespace {
 struct PlotOptions {
   std::vector<std::string> directories, out;
   std::string figure;  // of measured skies
+  std::string model;   // of the maps; empty: that of each fit
   int scan = 1;
   int threads = default_threads();
 };
@@ -51,10 +53,15 @@ void run_plot(const PlotOptions& options) {
   std::vector<plot::FitOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(plot::read_fit_outcome(directory));
-  const auto model = make_sky_model("reference", refs::standard_spectral_data(), options.threads);
-  plot::write_comparison(
-      plot::comparison_of(fits, refs::standard_spectral_data(), *model),
-      std::vector<std::filesystem::path>(options.out.begin(), options.out.end()));
+  const SpectralData& spectra = refs::standard_spectral_data();
+  std::map<std::string, std::unique_ptr<SkyModel>, std::less<>> models;
+  const auto model_named = [&](std::string_view of_fit) -> const SkyModel& {
+    const std::string name(options.model.empty() ? of_fit : options.model);
+    auto& model = models[name];
+    if (!model) model = make_sky_model(name, spectra, options.threads);
+    return *model;
+  };
+  plot::write_comparison(plot::comparison_of(fits, spectra, model_named), files);
 }
 
 }  // namespace
@@ -73,6 +80,10 @@ void add_plot_command(CLI::App& app) {
       ->add_option("--figure", options->figure,
                    fmt::format("Of a fit of measured skies: {}",
                                fmt::join(plot::measured_figure_names(), ", ")))
+      ->type_name("NAME");
+  command
+      ->add_option("--model", options->model,
+                   "Sky model of the maps of the whole sky; by default that of each fit")
       ->type_name("NAME");
   command->add_option("--scan", options->scan, "The scan of --figure spectra, from 1")
       ->check(CLI::Range(1, 1000000).description(""))

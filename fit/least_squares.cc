@@ -3,6 +3,7 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <exception>
 #include <memory>
@@ -146,7 +147,8 @@ ceres::Solver::Options solver_options(const SolverLimits& limits) {
   options.parameter_tolerance = 1e-8;
   options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
-  options.num_threads = 1;  // the time is in the model, which has its own
+  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres logs failures even so; we throw them
+  options.num_threads = 1;                 // the time is in the model, which has its own
   return options;
 }
 

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "fit/free_parameters.h"
@@ -180,6 +182,39 @@ void for_each_line(const refs::Reference& reference, const std::vector<ModelComp
 }
 
 }  // namespace
+
+refs::Reference comparison_reference(const refs::Reference& reference,
+                                     const SpectralData& spectra) {
+  std::map<std::pair<int, int>, std::vector<const refs::Sample*>> directions;
+  std::set<double> wavelengths;
+  for (const refs::Sample& sample : reference.samples) {
+    directions[{sample.scan, sample.direction}].push_back(&sample);
+    wavelengths.insert(sample.wavelength_nm);
+  }
+  if (reference.quantity != refs::Quantity::kSpectralRadiance || wavelengths.size() == 1)
+    return reference;
+  constexpr double kLumenPerWatt = 683.002;
+  refs::Reference luminances = reference;
+  luminances.quantity = refs::Quantity::kLuminance;
+  luminances.samples.clear();
+  for (const auto& [place, samples] : directions) {
+    const bool whole =
+        samples.size() == wavelengths.size() &&
+        std::ranges::all_of(samples, [](const refs::Sample* s) { return s->weight > 0; });
+    if (!whole) continue;
+    refs::Sample sum = *samples.front();
+    sum.wavelength_nm = sum.value = 0;
+    sum.sigma.reset();
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const double low = samples[k > 0 ? k - 1 : k]->wavelength_nm,
+                   high = samples[std::min(k + 1, samples.size() - 1)]->wavelength_nm;
+      sum.value += kLumenPerWatt * 0.5 * (high - low) *
+                   spectra.y_bar.at(samples[k]->wavelength_nm) * samples[k]->value;
+    }
+    luminances.samples.push_back(sum);
+  }
+  return luminances;
+}
 
 ModelComparison compare_model(const refs::Reference& reference, const SpectralData& spectra,
                               const SkyModel& model, const Atmosphere<double>& atmosphere,

@@ -34,6 +34,11 @@ struct ModelComparison {
   double seconds_per_direction = 0;  // of all nodes; of a model without tables, everything
 };
 
+// What of a reference can be compared: scans of many wavelengths as luminances, 683.002 lm/W times
+// the integral of y_bar L by trapezoids, of the directions whose samples all have weight. Others as
+// they are.
+refs::Reference comparison_reference(const refs::Reference& reference, const SpectralData& spectra);
+
 // `atmosphere` is what the unfitted model is given; `options`: fit, from there, with as many lobes
 // as the model can tell. Suns that the model refuses, and samples at which it is not bright, are
 // left out, and `problem` says so; throws std::invalid_argument for a reference that has no sample

@@ -90,7 +90,8 @@ void run_notebook(notebook::Page& page) {
   // %%
   page.cell();
   const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const std::unique_ptr<SkyModel> model = make_sky_model("reference", refs::standard_spectral_data(), threads);
+  const std::unique_ptr<SkyModel> model =
+      make_sky_model("reference", refs::standard_spectral_data(), threads);
   const SpectralData& spectra = refs::standard_spectral_data();
   const LuminanceRule rule = luminance_rule(spectra);
   const Preset published = parse_preset(refs::shipped_preset_json("bodare-2014"), "bodare-2014");
@@ -186,7 +187,8 @@ void run_notebook(notebook::Page& page) {
       plot::compared_samples(reference, {two_lobes.fitted_model, two_lobes.scale},
                              {two_lobes.start_model, two_lobes.start_scale}, options.exclude_sun);
   const plot::FitOutcome outcome{"two lobes", two_lobes.preset, samples};
-  const plot::Comparison comparison = plot::comparison_of({&outcome, 1}, spectra, *model);
+  const plot::Comparison comparison = plot::comparison_of(
+      {&outcome, 1}, spectra, [&](std::string_view) -> const SkyModel& { return *model; });
   plot::write_comparison(comparison, {page.scratch("comparison.png")});
   page.figure(page.scratch("comparison.png"));
 

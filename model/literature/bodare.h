@@ -14,7 +14,7 @@ namespace skyfit {
 
 struct BodareMethod {
   static constexpr std::string_view kName = "bodare";
-  static constexpr int kBatch = literature::kBodareBatch;
+  static constexpr int kBatch = literature::kTablesAtOnce;
   using Geometry = literature::BodareGeometry;
   template <int N>
   using Tables = literature::BodareTables<N>;

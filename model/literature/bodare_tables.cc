@@ -262,6 +262,6 @@ std::size_t BodareTables<N>::bytes() const {
 }
 
 template class BodareTables<0>;
-template class BodareTables<kBodareBatch>;
+template class BodareTables<kTablesAtOnce>;
 
 }  // namespace skyfit::literature

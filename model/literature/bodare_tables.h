@@ -101,8 +101,7 @@ class BodareTables {
   std::vector<Dual<N>> ground_;        // [sun]
 };
 
-inline constexpr int kBodareBatch = 4;
 extern template class BodareTables<0>;
-extern template class BodareTables<kBodareBatch>;
+extern template class BodareTables<kTablesAtOnce>;
 
 }  // namespace skyfit::literature

@@ -7,7 +7,7 @@
 // Deviations: quadrature (table_rays.h); azimuths of incoming light by sixteen cosines, 16 x 32
 // directions as published; sums over directions are scaled to keep the energy of a forward peak.
 // What is left out: orders beyond the fifth, refraction. What the tables cost is about a second per
-// wavelength, four derivatives two seconds more.
+// wavelength on one core, seven derivatives three seconds.
 #pragma once
 
 #include "model/literature/bruneton_tables.h"
@@ -17,7 +17,7 @@ namespace skyfit {
 
 struct BrunetonMethod {
   static constexpr std::string_view kName = "bruneton";
-  static constexpr int kBatch = literature::kBrunetonBatch;
+  static constexpr int kBatch = literature::kTablesAtOnce;
   using Geometry = literature::BrunetonGeometry;
   template <int N>
   using Tables = literature::BrunetonTables<N>;

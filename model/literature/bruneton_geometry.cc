@@ -2,6 +2,7 @@
 #include <tbb/parallel_for.h>
 
 #include "model/literature/bruneton_tables.h"
+#include "model/literature/slab_kernels.h"
 #include "model/shared/shared.h"
 #include "model/tables.h"
 
@@ -11,6 +12,14 @@ namespace {
 using Sizes = BrunetonSizes;
 constexpr int kHalf = Sizes::mu / 2;
 constexpr int kSunPositions = 1 << 14;  // a texel of the 32 is hundreds of them
+
+static_assert(Sizes::mu_s == SlabShape::suns && Sizes::nu == SlabShape::angles);
+
+double nu_of(int i, double mu, double mu_s) {
+  const double nu = Shared<double>{}.bruneton_nu_from_unit(unit_of(i, Sizes::nu));
+  const double reach = std::sqrt(std::max((1 - mu * mu) * (1 - mu_s * mu_s), 0.0));
+  return std::clamp(nu, mu * mu_s - reach, mu * mu_s + reach);
+}
 
 double evenly_spaced_cosine(int i) { return 2.0 * i / (kSunPositions - 1.0) - 1.0; }
 
@@ -41,10 +50,20 @@ BrunetonGeometry::BrunetonGeometry(const Atmosphere<double>& atmosphere)
       const double mu = ground ? shared.mu_from_ground_unit(unit, height, bottom())
                                : shared.mu_from_upward_unit(unit, height, bottom(), thickness());
       Ray& ray = rays_[static_cast<std::size_t>(r * Sizes::mu + i)];
-      ray = {height, mu, ground, {}};
+      ray = {height, mu, ground, {}, {}};
+      for (int k = 0; k < SlabShape::texels; ++k) {
+        const double mu_s = sun_of_texel(k / Sizes::nu);
+        ray.suns.push_back({mu_s, nu_of(k % Sizes::nu, mu, mu_s)});
+      }
       for (const RayNode& node : ray_nodes(shells_, table_ray(shells_, height, mu, ground))) {
         const double h = std::min(node.height, thickness());
-        ray.nodes.push_back({node, r_texel(h, Sizes::r), mu_texel(h, node.mu, ground)});
+        Node there{node, r_texel(h, Sizes::r), mu_texel(h, node.mu, ground), {}};
+        for (const RaySun& sun : ray.suns) {
+          const Between at = sun_texel(sun_along(ray, node, sun));
+          there.sun.push_back(static_cast<std::uint16_t>(std::min(
+              (at.low + at.part) * SlabShape::parts, (Sizes::mu_s - 1.0) * SlabShape::parts - 1)));
+        }
+        ray.nodes.push_back(std::move(there));
       }
     }
   });

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/hemisphere.h"
+#include "model/literature/slab_kernels.h"
 #include "model/literature/sun_columns.h"
 #include "model/phase_moments.h"
 #include "model/shared/shared.h"
@@ -19,15 +20,18 @@ constexpr int kSunNu = Sizes::mu_s * Sizes::nu;  // texels of one ray
 constexpr int kTheta = 16, kPhi = 16;            // incoming directions; azimuths of half the circle
 constexpr int kModes = kPhi;                     // cosines of the azimuth
 
+// cos(m x) for m below kModes and `count` angles x.
+template <class Angle>
+std::vector<double> mode_cosines(int count, const Angle& angle) {
+  std::vector<double> cosines;
+  for (int i = 0; i < count; ++i) {
+    for (int m = 0; m < kModes; ++m) cosines.push_back(std::cos(m * angle(i)));
+  }
+  return cosines;
+}
+
 double theta_of(int i) { return kPi * (i + 0.5) / kTheta; }
 double phi_of(int k) { return kPi * (k + 0.5) / kPhi; }
-
-// The angle between ray and sun of a texel, as near to it as the two zenith angles allow.
-double nu_of(int i, double mu, double mu_s) {
-  const double nu = Shared<double>{}.bruneton_nu_from_unit(unit_of(i, Sizes::nu));
-  const double reach = std::sqrt(std::max((1 - mu * mu) * (1 - mu_s * mu_s), 0.0));
-  return std::clamp(nu, mu * mu_s - reach, mu * mu_s + reach);
-}
 
 }  // namespace
 
@@ -82,30 +86,10 @@ class BrunetonSolver {
     });
   }
 
-  // Sun and angle of the texels of a ray.
-  struct RaySun {
-    double mu_s, nu;
-  };
-  std::vector<RaySun> suns_of(const BrunetonGeometry::Ray& ray) const {
-    std::vector<RaySun> suns;
-    for (int k = 0; k < kSunNu; ++k) {
-      const double mu_s = geometry_.sun_of_texel(k / Sizes::nu);
-      suns.push_back({mu_s, nu_of(k % Sizes::nu, ray.mu, mu_s)});
-    }
-    return suns;
-  }
-
-  // The cosine of the sun's zenith angle at the distance s along a ray.
-  double sun_along(const BrunetonGeometry::Ray& ray, const RayNode& node, const RaySun& sun) const {
-    const double r0 = geometry_.bottom() + ray.height, r = geometry_.bottom() + node.height;
-    return std::clamp((r0 * sun.mu_s + node.s * sun.nu) / r, -1.0, 1.0);
-  }
-
   void single_scattering(const SunColumns<N>& sun) {
     tbb::parallel_for(0, Sizes::r * Sizes::mu, [&](int i) {
       const int r = i / Sizes::mu, mu = i % Sizes::mu;
       const BrunetonGeometry::Ray& ray = geometry_.ray(r, mu);
-      const std::vector<RaySun> suns = suns_of(ray);
       Dual<N>* rayleigh = &tables_.rayleigh_like_.at({r, mu, 0, 0});
       Dual<N>* mie = &tables_.single_mie_.at({r, mu, 0, 0});
       for (const BrunetonGeometry::Node& node : ray.nodes) {
@@ -115,8 +99,8 @@ class BrunetonSolver {
                       by_aerosol = through * air_.aerosol_scattering * density.aerosol;
         const Between row = sun.row(node.at.height);
         for (int k = 0; k < kSunNu; ++k) {
-          const Dual<N> light =
-              sun.light(row, sun_along(ray, node.at, suns[static_cast<std::size_t>(k)]));
+          const Dual<N> light = sun.light(
+              row, geometry_.sun_along(ray, node.at, ray.suns[static_cast<std::size_t>(k)]));
           add_product(by_air, light, rayleigh[k]);
           add_product(by_aerosol, light, mie[k]);
         }
@@ -129,6 +113,8 @@ class BrunetonSolver {
   // sixteen polar angles do not resolve a forward peak.
   void make_phase_modes() {
     constexpr int kDifferences = 2 * kModes + 1;  // of half the circle
+    const auto difference_of = [](int d) { return kPi * unit_of(d, kDifferences); };
+    const std::vector<double> cosines = mode_cosines(kDifferences, difference_of);
     modes_.resize(static_cast<std::size_t>(Sizes::r) * Sizes::mu * kTheta * kModes);
     tbb::parallel_for(0, Sizes::r * Sizes::mu, [&](int i) {
       const double mu = geometry_.ray(i / Sizes::mu, i % Sizes::mu).mu;
@@ -136,20 +122,19 @@ class BrunetonSolver {
       Dual<N>* modes = &modes_[static_cast<std::size_t>(i) * kTheta * kModes];
       Dual<N> sum(0.0);
       for (int t = 0; t < kTheta; ++t) {
-        const double theta = theta_of(t);
+        const double z = std::cos(theta_of(t)), z_sine = std::sin(theta_of(t));
         for (int d = 0; d < kDifferences; ++d) {
-          const double difference = kPi * unit_of(d, kDifferences);
           const Dual<N> phase = aerosol_phase(
               air_.phase,
-              std::clamp(mu * std::cos(theta) + sine * std::sin(theta) * std::cos(difference), -1.0,
-                         1.0));
+              std::clamp(mu * z + sine * z_sine * cosines[static_cast<std::size_t>(d * kModes + 1)],
+                         -1.0, 1.0));
           const double share = (d == 0 || d == kDifferences - 1 ? 0.5 : 1.0) / (kDifferences - 1);
           for (int m = 0; m < kModes; ++m) {
-            add_scaled((m == 0 ? 1 : 2) * share * std::cos(m * difference), phase,
-                       modes[t * kModes + m]);
+            add_scaled((m == 0 ? 1 : 2) * share * cosines[static_cast<std::size_t>(d * kModes + m)],
+                       phase, modes[t * kModes + m]);
           }
         }
-        add_scaled(2 * kPi * (kPi / kTheta) * std::sin(theta), modes[t * kModes], sum);
+        add_scaled(2 * kPi * (kPi / kTheta) * z_sine, modes[t * kModes], sum);
       }
       for (int k = 0; k < kTheta * kModes; ++k) modes[k] /= sum;
     });
@@ -230,7 +215,7 @@ class BrunetonSolver {
         add_scaled(y * y, light, in.yy);
         add_scaled(x * z, light, in.xz);
         for (int m = 0; m < kModes; ++m) {
-          add_scaled(std::cos(m * phi_of(f)), light,
+          add_scaled(cosines_[static_cast<std::size_t>(f * kModes + m)], light,
                      in.modes[static_cast<std::size_t>(t * kModes + m)]);
         }
       }
@@ -261,7 +246,10 @@ class BrunetonSolver {
         Dual<N>* out = &source_.at({r, i, sun, 0});
         for (int n = 0; n < Sizes::nu; ++n) {
           const double cosine = std::clamp(
-              (nu_of(n, mu, mu_s) - mu * mu_s) / std::max(sine * sun_sine, 1e-7), -1.0, 1.0);
+              (geometry_.ray(r, i).suns[static_cast<std::size_t>(sun * Sizes::nu + n)].nu -
+               mu * mu_s) /
+                  std::max(sine * sun_sine, 1e-7),
+              -1.0, 1.0);
           Dual<N> by_aerosol(0.0), second(0.0);
           double now = 1, before = cosine;  // Chebyshev: cos(m phi)
           for (std::size_t m = 0; m < kModes; ++m) {
@@ -302,44 +290,27 @@ class BrunetonSolver {
     tbb::parallel_for(0, Sizes::r * Sizes::mu, [&](int i) {
       const int r = i / Sizes::mu, mu = i % Sizes::mu;
       const BrunetonGeometry::Ray& ray = geometry_.ray(r, mu);
-      const std::vector<RaySun> suns = suns_of(ray);
       Dual<N>* out = &order_.at({r, mu, 0, 0});
       std::fill_n(out, kSunNu, Dual<N>(0.0));
       std::vector<Dual<N>> slab(kSunNu);
       for (const BrunetonGeometry::Node& node : ray.nodes) {
-        blend_slab(node, slab);
         const Dual<N> through = node.at.weight * exp(-air_.optical_depth(node.at.columns));
-        for (int k = 0; k < kSunNu; ++k) {
-          const int n = k % Sizes::nu;
-          const Between sun =
-              geometry_.sun_texel(sun_along(ray, node.at, suns[static_cast<std::size_t>(k)]));
-          const Dual<N>* near = &slab[static_cast<std::size_t>(sun.low * Sizes::nu + n)];
-          Dual<N> source = (1 - sun.part) * near[0];
-          add_scaled(sun.part, near[Sizes::nu], source);
-          add_product(through, source, out[k]);
+        SlabNode term{{}, {}, node.sun.data(), &through.v};
+        for (int c = 0; c < 4; ++c) {
+          term.corner[c] = &source_.at({node.r.low + c / 2, node.mu.low + c % 2, 0, 0}).v;
+          term.weight[c] =
+              (c / 2 ? node.r.part : 1 - node.r.part) * (c % 2 ? node.mu.part : 1 - node.mu.part);
         }
+        add_node(N, term, &slab[0].v, &out->v);
       }
       Dual<N>* sum = &tables_.rayleigh_like_.at({r, mu, 0, 0});
       for (int k = 0; k < kSunNu; ++k) {
         add_scaled(1 / Shared<double>{}.rayleigh_phase(air_.depolarisation,
-                                                       suns[static_cast<std::size_t>(k)].nu),
+                                                       ray.suns[static_cast<std::size_t>(k)].nu),
                    out[k], sum[k]);
       }
     });
   }
-  void blend_slab(const BrunetonGeometry::Node& node, std::vector<Dual<N>>& slab) const {
-    const double weights[4] = {(1 - node.r.part) * (1 - node.mu.part),
-                               (1 - node.r.part) * node.mu.part, node.r.part * (1 - node.mu.part),
-                               node.r.part * node.mu.part};
-    const Dual<N>* corner[4];
-    for (int c = 0; c < 4; ++c)
-      corner[c] = &source_.at({node.r.low + c / 2, node.mu.low + c % 2, 0, 0});
-    for (std::size_t k = 0; k < kSunNu; ++k) {
-      slab[k] = weights[0] * corner[0][k];
-      for (int c = 1; c < 4; ++c) add_scaled(weights[c], corner[c][k], slab[k]);
-    }
-  }
-
   // Of order k, on the horizontal at a height, over the cosine of the sun.
   std::vector<Dual<N>> irradiance_row(double height, int k) const {
     constexpr int kPolar = 20, kAzimuth = 12;
@@ -385,6 +356,7 @@ class BrunetonSolver {
   Grid<N, 4> source_, order_;    // [r][mu][mu_s][nu]
   std::vector<Dual<N>> ground_;  // irradiance of the ground whose reflection comes next
   std::vector<Dual<N>> modes_;   // [r][mu][theta][m]
+  const std::vector<double> cosines_ = mode_cosines(kPhi, phi_of);  // [phi][m]
 };
 
 template <int N>
@@ -446,6 +418,6 @@ std::size_t BrunetonTables<N>::bytes() const {
 }
 
 template class BrunetonTables<0>;
-template class BrunetonTables<kBrunetonBatch>;
+template class BrunetonTables<kTablesAtOnce>;
 
 }  // namespace skyfit::literature

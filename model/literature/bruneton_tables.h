@@ -5,6 +5,7 @@
 // irradiance.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "model/literature/evaluate.h"
@@ -26,13 +27,24 @@ class BrunetonGeometry {
 
   struct Node {
     RayNode at;
-    Between r, mu;  // in the tables; mu as texel and part, see BrunetonSizes::mu
+    Between r, mu;                   // in the tables; mu as texel and part, see BrunetonSizes::mu
+    std::vector<std::uint16_t> sun;  // of every texel [mu_s][nu] of the ray, see SlabShape
+  };
+  // Sun and angle of a texel, the angle as near to it as the two zenith angles allow.
+  struct RaySun {
+    double mu_s, nu;
   };
   struct Ray {
     double height, mu;
     bool ground;
     std::vector<Node> nodes;
+    std::vector<RaySun> suns;  // [mu_s][nu]
   };
+  // The cosine of the sun's zenith angle at a node of the ray.
+  double sun_along(const Ray& ray, const RayNode& node, const RaySun& sun) const {
+    const double r0 = bottom() + ray.height, r = bottom() + node.height;
+    return std::clamp((r0 * sun.mu_s + node.s * sun.nu) / r, -1.0, 1.0);
+  }
   const Shells& shells() const { return shells_; }
   double bottom() const { return shells_.bottom_radius; }
   double thickness() const { return shells_.top; }
@@ -89,8 +101,7 @@ class BrunetonTables {
   Grid<N, 4> rayleigh_like_, single_mie_;  // [r][mu][mu_s][nu]
 };
 
-inline constexpr int kBrunetonBatch = 4;  // derivatives at once: 170 MB while the tables are made
 extern template class BrunetonTables<0>;
-extern template class BrunetonTables<kBrunetonBatch>;
+extern template class BrunetonTables<kTablesAtOnce>;
 
 }  // namespace skyfit::literature

@@ -8,7 +8,8 @@
 // wavelength that has the model's X, Y, Z, so that a rule of few wavelengths gives them back.
 // Known: far too bright against measurements, by a factor of about 2.4.
 // Left out: everything of the atmosphere but T. Valid on the ground, toward the sky, sun above the
-// horizon, T 1.7 .. 10 (below, F is negative at the zenith); throws std::domain_error for a turbidity outside.
+// horizon, T 1.7 .. 10 (below, F is negative at the zenith); throws std::domain_error for a
+// turbidity outside.
 #pragma once
 
 #include <array>

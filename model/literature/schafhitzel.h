@@ -12,7 +12,7 @@ namespace skyfit {
 
 struct SchafhitzelMethod {
   static constexpr std::string_view kName = "schafhitzel";
-  static constexpr int kBatch = literature::kSchafhitzelBatch;
+  static constexpr int kBatch = literature::kTablesAtOnce;
   using Geometry = literature::SchafhitzelGeometry;
   template <int N>
   using Tables = literature::SchafhitzelTables<N>;

@@ -117,6 +117,6 @@ std::size_t SchafhitzelTables<N>::bytes() const {
 }
 
 template class SchafhitzelTables<0>;
-template class SchafhitzelTables<kSchafhitzelBatch>;
+template class SchafhitzelTables<kTablesAtOnce>;
 
 }  // namespace skyfit::literature

@@ -62,8 +62,7 @@ class SchafhitzelTables {
   Grid<N, 1> air_phase_, aerosol_phase_;  // 1/sr over the angle
 };
 
-inline constexpr int kSchafhitzelBatch = 4;
 extern template class SchafhitzelTables<0>;
-extern template class SchafhitzelTables<kSchafhitzelBatch>;
+extern template class SchafhitzelTables<kTablesAtOnce>;
 
 }  // namespace skyfit::literature

@@ -9,7 +9,7 @@
 namespace skyfit::literature {
 
 std::vector<RayNode> ray_nodes(const Shells& shells, const ViewRay& ray) {
-  constexpr int kShells = 8, kNodes = 3;
+  constexpr int kShells = 6, kNodes = 3;
   if (ray.length <= 0) return {};
   std::vector<double> heights;
   for (int i = 1; i < kShells; ++i) {

@@ -18,7 +18,7 @@ struct RayNode {
   PathColumns columns;  // from the beginning
 };
 
-// Three nodes by Gauss's rule between every two of eight shells that the ray crosses, and between
+// Three nodes by Gauss's rule between every two of six shells that the ray crosses, and between
 // the corners of tabulated profiles. Deviation: the sources take some 50 equal steps, which are
 // longer than an aerosol's scale height.
 std::vector<RayNode> ray_nodes(const Shells& shells, const ViewRay& ray);

@@ -99,7 +99,7 @@ FitOutcome read_fit_outcome(const std::filesystem::path& directory) {
 }
 
 Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,
-                         const SkyModel& model) {
+                         const ModelNamed& model_named) {
   if (fits.empty() || fits.size() > kMapCurves)
     throw std::invalid_argument(
         fmt::format("figure: {} fits: expected 1 to {}", fits.size(), kMapCurves));
@@ -117,7 +117,8 @@ Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& s
     one_reference &= record.reference == first.reference;
     comparison.exclude_sun_deg = std::max(comparison.exclude_sun_deg, record.exclude_sun_deg);
     comparison.curves.push_back(
-        {label_of(fits, i), fits[i].samples, hemisphere_samples(fits[i], record, spectra, model)});
+        {label_of(fits, i), fits[i].samples,
+         hemisphere_samples(fits[i], record, spectra, model_named(record.model))});
   }
   comparison.title = one_reference ? first.description : "Fits compared";
   comparison.subtitle = subtitle_of(comparison, first);

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/photometry.h"
@@ -25,11 +27,14 @@ struct FitOutcome {
 // std::invalid_argument with one line that names the file, and the line or the field.
 FitOutcome read_fit_outcome(const std::filesystem::path& directory);
 
+// The sky model of a name, of make_sky_model().
+using ModelNamed = std::function<const SkyModel&(std::string_view name)>;
+
 // One curve per fit. The panels show the fits' own samples. The maps show the 145 Tregenza patches,
-// on which an analytic reference and the preset are evaluated with `model`; for a measured
-// reference they show the samples. Throws std::invalid_argument with one line when the fits cannot
-// share a figure: different units, none, more than kMapCurves.
+// on which an analytic reference and the preset are evaluated with the model of the fit; for a
+// measured reference they show the samples. Throws std::invalid_argument with one line when the
+// fits cannot share a figure: different units, none, more than kMapCurves.
 Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,
-                         const SkyModel& model);
+                         const ModelNamed& model_named);
 
 }  // namespace skyfit::plot

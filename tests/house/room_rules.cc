@@ -82,7 +82,7 @@ std::span<const RoomRule> room_rules() {
        kMathLibraries + std::vector<std::string>{"OpenImageIO::"}},
       {"fit",
        {"model", "model/shared", "data_refs"},
-       kMath + std::vector<std::string>{"ceres"},
+       kMath + std::vector<std::string>{"ceres", "glog"},
        kMathLibraries + std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::"}},
       {"render",
        {"model", "model/shared"},

@@ -56,7 +56,12 @@ FitOutcome outcome(const std::string& reference,
 }
 
 Comparison figure(const std::vector<FitOutcome>& fits) {
-  return comparison_of(fits, refs::standard_spectral_data(), CosineSky());
+  const CosineSky sky;
+  return comparison_of(fits, refs::standard_spectral_data(),
+                       [&](std::string_view name) -> const SkyModel& {
+                         EXPECT_EQ(name, "cosine");
+                         return sky;
+                       });
 }
 
 TEST(EvaluatedSamples, ScaleLeavesNoMeanResidualPerSun) {
