@@ -135,6 +135,29 @@ void write_figures(const std::filesystem::path& directory) {
   }
 }
 
+void add_check_options(CLI::App& command, MeasuredArguments& arguments) {
+  command
+      .add_option("--profile", arguments.profiles,
+                  "Profile likelihood of an unknown, named as in the report; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->group(std::string(kGroup));
+  command
+      .add_option("--bootstrap", arguments.bootstrap, "Repeat with resampled directions so often")
+      ->check(CLI::Range(0, 100000).description(""))
+      ->group(std::string(kGroup));
+  command
+      .add_option("--hold-out", arguments.hold_out,
+                  "Errors of what is left out of the fit: each scan in turn, or each of N parts of "
+                  "the directions")
+      ->type_name("scans|N")
+      ->group(std::string(kGroup));
+  command.add_option("--seed", arguments.seed, "Of --bootstrap and --hold-out N")
+      ->check(CLI::Range(0, 2147483647).description(""))
+      ->group(std::string(kGroup))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
@@ -166,24 +189,7 @@ void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
       .add_flag("--keep-absorption-bands", arguments.keep_absorption_bands,
                 "Fit 686-694, 715-735 and 758-772 nm too, where oxygen and water vapour absorb")
       ->group(std::string(kGroup));
-  command
-      .add_option("--profile", arguments.profiles,
-                  "Profile likelihood of an unknown, named as in the report; may be repeated")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->group(std::string(kGroup));
-  command
-      .add_option("--bootstrap", arguments.bootstrap, "Repeat with resampled directions so often")
-      ->check(CLI::Range(0, 100000).description(""))
-      ->group(std::string(kGroup));
-  add("--hold-out", arguments.hold_out,
-      "Errors of what is left out of the fit: each scan in turn, or each of N parts of the "
-      "directions",
-      "scans|N");
-  command.add_option("--seed", arguments.seed, "Of --bootstrap and --hold-out N")
-      ->check(CLI::Range(0, 2147483647).description(""))
-      ->group(std::string(kGroup))
-      ->capture_default_str();
+  add_check_options(command, arguments);
 }
 
 bool is_measured_fit(const CLI::App& command, const refs::Reference& reference) {

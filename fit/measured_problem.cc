@@ -208,6 +208,7 @@ MeasuredOptions as_pointed(MeasuredOptions options) {
 
 MeasuredProblem measured_problem(const refs::Reference& reference, const SpectralData& spectra,
                                  const SkyModel& model, const MeasuredOptions& options) {
+  check_lobes(options.common, model);
   const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
   ScanSelection selection{false, options.common.exclude_sun, options.noise, 0};
   MeasuredProblem problem;
