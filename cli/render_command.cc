@@ -11,6 +11,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
+#include "model/sky_model.h"
 #include "model/tables.h"
 #include "render/plot/whole_files.h"
 #include "render/render.h"
@@ -22,7 +23,7 @@ constexpr double kTablesShare = 0.8;  // of the time that a frame takes
 constexpr double kMaxStops = 50;      // 2^50: from the darkest night to the sun's disc and beyond
 
 struct RenderOptions {
-  std::string preset, view = "ground", size = "1280x720", sun_zenith;
+  std::string preset, model = "reference", view = "ground", size = "1280x720", sun_zenith;
   std::string altitude, view_zenith, azimuth, field_of_view, exposure = "0";
   std::vector<std::string> out;
   int samples_per_side = FrameOptions{}.samples_per_side, threads = default_threads();
@@ -67,10 +68,10 @@ ToneOptions tone_options(const std::string& stops) {
                    fmt::format("expected stops from {} to {}", -kMaxStops, kMaxStops));
 }
 
-Frame draw(const Preset& preset, const FrameOptions& frame, int threads) {
+Frame draw(const Preset& preset, const SkyModel& model, const FrameOptions& frame, int threads) {
   Progress progress("rendering");
-  const AtmosphereTables tables = compute_tables(
-      preset.atmosphere, color_rule(refs::standard_spectral_data()), TableSizes{}, threads,
+  const AtmosphereTables tables = compute_tables_of(
+      model, preset.atmosphere, color_rule(refs::standard_spectral_data()), TableSizes{}, threads,
       [&](double done) { progress.show(kTablesShare * done, "tables of the atmosphere"); });
   return render_frame(preset, tables, frame, [&](double done) {
     progress.show(kTablesShare + (1 - kTablesShare) * done, "frame");
@@ -81,7 +82,10 @@ void run_render(const RenderOptions& options, const CLI::App& command) {
   const FrameOptions frame_size = frame_options(options, command);
   const ToneOptions tone = tone_options(options.exposure);
   require_output_files(options.out, {".png", ".exr"});
-  const Frame frame = draw(preset_named(options.preset), frame_size, options.threads);
+  const Frame frame =
+      draw(preset_named(options.preset),
+           *make_sky_model(options.model, refs::standard_spectral_data(), options.threads),
+           frame_size, options.threads);
   plot::WholeFiles files(
       std::vector<std::filesystem::path>(options.out.begin(), options.out.end()));
   for (std::size_t i = 0; i < options.out.size(); ++i) {
@@ -132,6 +136,11 @@ void add_render_command(CLI::App& app) {
   command->add_option("--preset", options->preset, "Shipped preset or preset file")
       ->required()
       ->type_name("FILE|NAME");
+  command
+      ->add_option("--model", options->model,
+                   "Sky model: reference, bruneton, bodare, schafhitzel or oneil")
+      ->type_name("NAME")
+      ->capture_default_str();
   command->add_option("--view", options->view, "Where the camera stands")
       ->type_name("NAME")
       ->capture_default_str();

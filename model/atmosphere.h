@@ -84,7 +84,7 @@ struct Atmosphere {
   Rayleigh<T> rayleigh;
   Mie<T> mie;
   Ozone<T> ozone;
-  T ground_albedo{0.1};  // Lambertian, at 550 nm
+  T ground_albedo{0.1};                                             // Lambertian, at 550 nm
   std::shared_ptr<const GroundSpectrum> ground_spectrum = nullptr;  // null: grey
   bool operator==(const Atmosphere&) const = default;
 };

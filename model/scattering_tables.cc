@@ -11,6 +11,7 @@
 #include "model/shared/shared.h"
 #include "model/table_kernels.h"
 #include "model/table_lookup.h"
+#include "model/texel_rays.h"
 
 namespace skyfit {
 namespace {
@@ -19,13 +20,6 @@ Shared<double> shared;  // stateless
 
 // Levels of a ray: those of the texels, which have a source, and others between them.
 constexpr int kLevelsPerTexel = kSourceStep;
-
-// A texel's ray. The ends of the table's halves, where rays have no length, stand for rays of a
-// decimetre's height.
-struct TexelRay {
-  ViewRay ray;
-  RayPoint sun_point;  // where the sun's height and azimuth are those of the table
-};
 
 class ScatteringBuilder {
  public:
@@ -61,14 +55,9 @@ class ScatteringBuilder {
   }
 
   void set_cells() {
-    const TableSizes& s = tables_.sizes;
-    for (int azimuth = 0; azimuth < s.scattering_azimuth; ++azimuth) {
-      const double cosine = std::cos(std::numbers::pi * azimuth / (s.scattering_azimuth - 1));
-      for (int sun = 0; sun < s.scattering_mu_s; ++sun) {
-        const double mu_s = shared.sun_from_unit(sun / (s.scattering_mu_s - 1.0), kTableLowestSun);
-        mu_s_.push_back(static_cast<float>(mu_s));
-        across_.push_back(static_cast<float>(std::sqrt(1 - mu_s * mu_s) * cosine));
-      }
+    for (const TexelSun& sun : texel_suns(tables_.sizes)) {
+      mu_s_.push_back(static_cast<float>(sun.mu_s));
+      across_.push_back(static_cast<float>(sun.across));
     }
   }
 
@@ -105,31 +94,6 @@ class ScatteringBuilder {
         beam_[level].push_back(static_cast<float>(beam));
       }
     }
-  }
-
-  // Which part of the table the texel is in says whether its ray ends on the ground.
-  TexelRay texel_ray(int mu_index, int r_index) const {
-    const TableSizes& s = tables_.sizes;
-    const double v = (mu_index + 0.5) / (s.scattering_ground + s.scattering_sky);
-    const bool hits_ground = mu_index < s.scattering_ground;
-    const double least = std::min(0.1, 1e-6 * shells_.top),
-                 height = heights_[kLevelsPerTexel * r_index];
-    const double h = hits_ground ? std::max(height, least) : std::min(height, shells_.top - least);
-    const double mu = shared.mu_from_texture(v, h, s.scattering_ground, s.scattering_sky,
-                                             shells_.bottom_radius, shells_.top);
-    ViewRay ray;
-    ray.entry_height = h;
-    ray.entry_mu = mu;
-    ray.hits_ground = hits_ground;
-    const double bottom = shells_.bottom_radius;
-    ray.length = hits_ground ? shared.distance_to_inner_sphere(bottom, h, mu, 0.0)
-                             : shared.distance_to_outer_sphere(bottom, h, mu, shells_.top);
-    ray.tangent_s = hits_ground ? ray.length : std::clamp(-(bottom + h) * mu, 0.0, ray.length);
-    ray.tangent_height =
-        hits_ground ? 0 : std::max(shared.height_after(bottom, h, mu, ray.tangent_s), 0.0);
-    const double to_sun_point =
-        shared.distance_to_sun_point(h, mu, hits_ground, bottom, shells_.top);
-    return {ray, ray_point(ray, bottom, to_sun_point)};
   }
 
   // What kernel nodes point to.
@@ -174,7 +138,8 @@ class ScatteringBuilder {
   }
 
   void scatter(int mu_index, int r_index) {
-    const TexelRay texel = texel_ray(mu_index, r_index);
+    const TexelRay texel =
+        texel_ray(shells_, tables_.sizes, mu_index, heights_[kLevelsPerTexel * r_index]);
     const std::size_t cells = mu_s_.size();
     std::vector<float> nu(cells), phase(cells), single(8 * cells), multiple(16 * cells);
     Scratch scratch;

@@ -40,6 +40,14 @@ void check_point(std::string_view model, const SkyPoint& p) {
   check(std::isfinite(p.relative_azimuth), "relative azimuth (rad)", p.relative_azimuth, "finite");
 }
 
+ScatteredLight SkyModel::scattered_light(const Atmosphere<double>&, std::span<const WavelengthNode>,
+                                         std::span<const SkyPoint>) const {
+  throw std::invalid_argument(
+      fmt::format("{} model: cannot be tabulated for rendering: it does not hold for every height, "
+                  "direction and sun, or does not part air and aerosol",
+                  name()));
+}
+
 std::size_t SkyModel::prepare(const Atmosphere<double>& atmosphere,
                               std::span<const WavelengthNode>) const {
   validate(atmosphere);

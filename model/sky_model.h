@@ -46,6 +46,11 @@ enum Irradiance : int {
 };
 inline constexpr int kIrradianceCount = 4;
 
+// Radiances [point][wavelength] of light that air, or the aerosol, scattered last, 1/sr.
+struct ScatteredLight {
+  std::vector<double> air, aerosol;
+};
+
 class SkyModel {
  public:
   virtual ~SkyModel() = default;
@@ -66,6 +71,13 @@ class SkyModel {
   SkyValues irradiance(const Atmosphere<double>& atmosphere,
                        std::span<const WavelengthNode> wavelengths, double altitude_m,
                        double sun_zenith, std::span<const Parameter> derivatives) const;
+
+  // The light of whole view rays without that which comes straight from the ground: what a renderer
+  // tabulates. Throws as radiance() does, and std::invalid_argument by a model that does not part
+  // the two or does not know every height and sun.
+  virtual ScatteredLight scattered_light(const Atmosphere<double>& atmosphere,
+                                         std::span<const WavelengthNode> wavelengths,
+                                         std::span<const SkyPoint> points) const;
 
   // Whether a sky can tell the parameter by this model: radiance() depends on it, and not only
   // together with others. A fit leaves the rest as it is.

@@ -10,10 +10,13 @@
 
 #include "model/hemisphere.h"
 #include "model/parameter_field.h"
+#include "model/phase_moments.h"
 #include "model/ray.h"
 #include "model/scattering_tables.h"
 #include "model/shared/shared.h"
+#include "model/sky_model.h"
 #include "model/table_lookup.h"
+#include "model/texel_rays.h"
 
 namespace skyfit {
 namespace {
@@ -94,8 +97,62 @@ void make_irradiance(double top, AtmosphereTables& tables) {
   });
 }
 
-AtmosphereTables build(const Atmosphere<double>& atmosphere, const ColorRule& color,
-                       const TableSizes& sizes, const std::function<void(double)>& progress) {
+// One slice of the scattering tables from a model's light.
+void tabulate_slice(const SkyModel& model, const Shells& shells, int slice, double height,
+                    AtmosphereTables& tables) {
+  const TableSizes& sizes = tables.sizes;
+  const std::vector<TexelSun> suns = texel_suns(sizes);
+  std::vector<SkyPoint> points;
+  std::vector<double> length_km, nus;
+  for (int row = 0; row < sizes.scattering_ground + sizes.scattering_sky; ++row) {
+    const TexelRay texel = texel_ray(shells, sizes, row, height);
+    const double r0 = shells.bottom_radius + texel.ray.entry_height,
+                 r = shells.bottom_radius + texel.sun_point.height, mu = texel.sun_point.mu;
+    // A ray along the horizon is kept on its side of it.
+    constexpr double kSide = 1e-9;
+    const double start_mu =
+        std::clamp(texel.ray.entry_mu + (texel.ray.hits_ground ? -kSide : kSide), -1.0, 1.0);
+    for (const TexelSun& sun : suns) {
+      const double nu =
+          std::clamp(mu * sun.mu_s + std::sqrt(std::max(1 - mu * mu, 0.0)) * sun.across, -1.0, 1.0);
+      const double mu_s = std::clamp((r * sun.mu_s - texel.sun_point.s * nu) / r0, -1.0, 1.0);
+      points.push_back({texel.ray.entry_height, std::acos(mu_s), std::acos(start_mu),
+                        std::acos(shared.cosine_of_azimuth(start_mu, mu_s, nu))});
+      length_km.push_back(1e-3 * texel.ray.length);
+      nus.push_back(nu);
+    }
+  }
+  const ScatteredLight light = model.scattered_light(tables.atmosphere, tables.color.nodes, points);
+  const std::size_t first = 4 * points.size() * static_cast<std::size_t>(slice);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double air_phase =
+                     shared.rayleigh_phase(tables.atmosphere.rayleigh.depolarisation, nus[i]),
+                 aerosol = aerosol_phase(tables.atmosphere.mie.phase, nus[i]);
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+      const auto logarithm = [&](double radiance, double phase) {
+        return static_cast<float>(
+            std::log(std::max(radiance / (phase * length_km[i]), kDarkestScattering)));
+      };
+      tables.rayleigh_like.rgba[first + k] = logarithm(light.air[k], air_phase);
+      tables.single_mie.rgba[first + k] = logarithm(light.aerosol[k], aerosol);
+    }
+  }
+}
+
+void tabulate(const SkyModel& model, const Shells& shells, AtmosphereTables& tables,
+              const std::function<void(double)>& progress) {
+  model.prepare(tables.atmosphere, tables.color.nodes);
+  const int slices = tables.sizes.scattering_r;
+  for (int i = 0; i < slices; ++i) {
+    tabulate_slice(model, shells, i, height_of_row(i, slices, shells.top), tables);
+    progress((i + 1.0) / slices);
+  }
+}
+
+// `model`: null for the reference's light.
+AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphere,
+                       const ColorRule& color, const TableSizes& sizes,
+                       const std::function<void(double)>& progress) {
   AtmosphereTables tables;
   tables.atmosphere = atmosphere;
   tables.color = color;
@@ -108,9 +165,14 @@ AtmosphereTables build(const Atmosphere<double>& atmosphere, const ColorRule& co
   tables.rayleigh_like = make_table(width, height, sizes.scattering_r);
   tables.single_mie = make_table(width, height, sizes.scattering_r);
   constexpr double kBefore = 0.15, kScattering = 0.75;  // shares of the time
-  make_scattering_tables(shells, optics, tables, [&](double part) {
+  const auto of_scattering = [&](double part) {
     if (progress) progress(kBefore + kScattering * part);
-  });
+  };
+  if (model != nullptr) {
+    tabulate(*model, shells, tables, of_scattering);
+  } else {
+    make_scattering_tables(shells, optics, tables, of_scattering);
+  }
   make_optical_depth(shells, optics, tables);
   make_irradiance(shells.top, tables);
   if (progress) progress(1);
@@ -124,7 +186,17 @@ AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const Colo
                                 const std::function<void(double)>& progress) {
   validate(atmosphere);
   tbb::task_arena arena(threads);
-  return arena.execute([&] { return build(atmosphere, color, sizes, progress); });
+  return arena.execute([&] { return build(nullptr, atmosphere, color, sizes, progress); });
+}
+
+AtmosphereTables compute_tables_of(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                                   const ColorRule& color, const TableSizes& sizes, int threads,
+                                   const std::function<void(double)>& progress) {
+  if (model.name() == "reference" || model.name() == "tables")
+    return compute_tables(atmosphere, color, sizes, threads, progress);
+  validate(atmosphere);
+  tbb::task_arena arena(threads);
+  return arena.execute([&] { return build(&model, atmosphere, color, sizes, progress); });
 }
 
 }  // namespace skyfit

@@ -59,9 +59,16 @@ struct AtmosphereTables {
                 // the aerosol (1/sr). One texel, which is not read, for the other kinds
 };
 
-// Progress in 0..1; may be empty.
+// Of the reference's light. Progress in 0..1; may be empty.
 AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
                                 const TableSizes& sizes, int threads,
                                 const std::function<void(double)>& progress);
+
+// Of another model's light, by its scattered_light(); `reference` and `tables` are the above.
+// Throws what the model throws.
+class SkyModel;
+AtmosphereTables compute_tables_of(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                                   const ColorRule& color, const TableSizes& sizes, int threads,
+                                   const std::function<void(double)>& progress);
 
 }  // namespace skyfit

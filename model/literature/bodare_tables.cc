@@ -244,16 +244,19 @@ Dual<N> BodareTables<N>::ground_irradiance(double mu_s) const {
 }
 
 template <int N>
-Dual<N> BodareTables<N>::radiance(const View& view) const {
+RayLight<N> BodareTables<N>::light(const View& view) const {
   const ViewRay& ray = view.ray;
-  Dual<N> light(0.0);
+  RayLight<N> light;
   if (ray.length > 0) {
     const InScatter in = in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, ray.hits_ground);
-    light = elek_rayleigh_phase(view.nu) * in.air + aerosol_phase(air_.phase, view.nu) * in.aerosol;
+    light.air = elek_rayleigh_phase(view.nu) * in.air;
+    light.aerosol = aerosol_phase(air_.phase, view.nu) * in.aerosol;
   }
-  if (!ray.hits_ground) return light;
-  return light + ground_light(geometry_.shells(), air_, view,
-                              [&](double mu_s) { return ground_irradiance(mu_s); });
+  if (ray.hits_ground) {
+    light.ground = ground_light(geometry_.shells(), air_, view,
+                                [&](double mu_s) { return ground_irradiance(mu_s); });
+  }
+  return light;
 }
 
 template <int N>

@@ -72,8 +72,8 @@ class BodareTables {
   void add_order();  // after the slices of an order, the first included
   void light_ground();
 
-  // Of the whole ray, light from the ground included, 1/sr.
-  Dual<N> radiance(const View& view) const;
+  // Of the whole ray.
+  RayLight<N> light(const View& view) const;
 
   struct InScatter {
     Dual<N> air, aerosol;  // without their phase functions

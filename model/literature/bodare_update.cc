@@ -87,7 +87,7 @@ std::vector<double> BodareUpdate::radiance(const SkyPoint& point) const {
   const auto add = [&](const BodareSet& set, double weight) {
     const literature::View view = literature::view_of(set.atmosphere(), point);
     for (std::size_t w = 0; w < light.size(); ++w)
-      light[w] += weight * set.tables()[w]->radiance(view).v;
+      light[w] += weight * set.tables()[w]->light(view).sum().v;
   };
   add(*older_, 1 - blend());
   add(*newer_, blend());

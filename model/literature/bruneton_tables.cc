@@ -396,19 +396,20 @@ Dual<N> BrunetonTables<N>::sky_irradiance(double height, double mu_s) const {
 }
 
 template <int N>
-Dual<N> BrunetonTables<N>::radiance(const View& view) const {
+RayLight<N> BrunetonTables<N>::light(const View& view) const {
   const ViewRay& ray = view.ray;
-  Dual<N> light(0.0);
+  RayLight<N> light;
   if (ray.length > 0) {
     const InScatter in =
         in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, view.nu, ray.hits_ground);
-    light = Shared<double>{}.rayleigh_phase(air_.depolarisation, view.nu) * in.rayleigh_like +
-            aerosol_phase(air_.phase, view.nu) * in.single_mie;
+    light.air = Shared<double>{}.rayleigh_phase(air_.depolarisation, view.nu) * in.rayleigh_like;
+    light.aerosol = aerosol_phase(air_.phase, view.nu) * in.single_mie;
   }
-  return ray.hits_ground
-             ? light + ground_light(geometry_.shells(), air_, view,
-                                    [&](double mu_s) { return sky_irradiance(0, mu_s); })
-             : light;
+  if (ray.hits_ground) {
+    light.ground = ground_light(geometry_.shells(), air_, view,
+                                [&](double mu_s) { return sky_irradiance(0, mu_s); });
+  }
+  return light;
 }
 
 template <int N>

@@ -75,8 +75,8 @@ class BrunetonTables {
   BrunetonTables(const BrunetonGeometry& geometry, const Optics<N>& air,
                  std::span<const View> views);
 
-  // Of the whole ray, light from the ground included, 1/sr.
-  Dual<N> radiance(const View& view) const;
+  // Of the whole ray.
+  RayLight<N> light(const View& view) const;
 
   // What the tables hold at a place inside the atmosphere; cosines of view and sun zenith and of
   // the angle between them.

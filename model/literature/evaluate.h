@@ -75,6 +75,14 @@ SkyValues evaluate(const Atmosphere<double>& atmosphere,
   return sky;
 }
 
+// Light of a view ray, 1/sr.
+template <int N>
+struct RayLight {
+  Dual<N> air, aerosol;  // by which of them it was scattered last
+  Dual<N> ground;        // that which comes straight from there
+  Dual<N> sum() const { return air + aerosol + ground; }
+};
+
 // The atmosphere as models without absorption see it.
 template <int N>
 Atmosphere<Dual<N>> without_absorption(Atmosphere<Dual<N>> atmosphere) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/literature/oneil.h"
 
+#include <tbb/parallel_for.h>
+
 #include <numbers>
 
 #include "model/literature/evaluate.h"
@@ -93,7 +95,7 @@ Path path_of(const Atmosphere<double>& atmosphere, const Depths& depths, const S
 }
 
 template <int N>
-Dual<N> radiance_of(const Optics<N>& air, const Path& path) {
+literature::RayLight<N> light_of(const Optics<N>& air, const Path& path) {
   Dual<N> by_air(0.0), by_aerosol(0.0);
   for (const Sample& sample : path.lit) {
     const Dual<N> through = exp(-air.optical_depth(sample.columns));
@@ -102,14 +104,23 @@ Dual<N> radiance_of(const Optics<N>& air, const Path& path) {
     by_aerosol += density.aerosol * through;
   }
   const double nu = path.view.nu;
-  Dual<N> light =
-      path.step * (air.air * Shared<double>{}.rayleigh_phase(air.depolarisation, nu) * by_air +
-                   air.aerosol_scattering * aerosol_phase(air.phase, nu) * by_aerosol);
+  literature::RayLight<N> light;
+  light.air =
+      path.step * Shared<double>{}.rayleigh_phase(air.depolarisation, nu) * air.air * by_air;
+  light.aerosol = path.step * air.aerosol_scattering * aerosol_phase(air.phase, nu) * by_aerosol;
   if (path.ground_lit) {
-    light += air.ground_albedo * (path.ground_mu_s / std::numbers::pi) *
-             exp(-air.optical_depth(path.ground_columns));
+    light.ground = air.ground_albedo * (path.ground_mu_s / std::numbers::pi) *
+                   exp(-air.optical_depth(path.ground_columns));
   }
   return light;
+}
+
+std::vector<Path> paths_of(const Atmosphere<double>& atmosphere, std::span<const SkyPoint> points) {
+  const Depths depths(atmosphere);
+  std::vector<Path> paths(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t i) { paths[i] = path_of(atmosphere, depths, points[i]); });
+  return paths;
 }
 
 }  // namespace
@@ -119,16 +130,34 @@ SkyValues ONeilModel::radiance(const Atmosphere<double>& atmosphere,
                                std::span<const SkyPoint> points,
                                std::span<const Parameter> derivatives) const {
   literature::check_request(kName, atmosphere, points, derivatives);
-  const Depths depths(atmosphere);
-  std::vector<Path> paths;
-  for (const SkyPoint& point : points) paths.push_back(path_of(atmosphere, depths, point));
+  const std::vector<Path> paths = paths_of(atmosphere, points);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
       [&]<int N>(const Atmosphere<Dual<N>>& air, const WavelengthNode& node,
                  std::span<Dual<N>> out) {
         const Optics<N> optics = uncut_optics_at(literature::without_absorption(air), node);
-        for (std::size_t i = 0; i < paths.size(); ++i) out[i] = radiance_of(optics, paths[i]);
+        for (std::size_t i = 0; i < paths.size(); ++i) out[i] = light_of(optics, paths[i]).sum();
       });
+}
+
+ScatteredLight ONeilModel::scattered_light(const Atmosphere<double>& atmosphere,
+                                           std::span<const WavelengthNode> wavelengths,
+                                           std::span<const SkyPoint> points) const {
+  literature::check_request(kName, atmosphere, points, {});
+  const std::vector<Path> paths = paths_of(atmosphere, points);
+  const auto air = literature::without_absorption(seeded<0>(atmosphere, {}));
+  ScatteredLight light;
+  light.air.resize(points.size() * wavelengths.size());
+  light.aerosol.resize(light.air.size());
+  for (std::size_t w = 0; w < wavelengths.size(); ++w) {
+    const Optics<0> optics = uncut_optics_at(air, wavelengths[w]);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const literature::RayLight<0> of_ray = light_of(optics, paths[i]);
+      light.air[i * wavelengths.size() + w] = of_ray.air.v;
+      light.aerosol[i * wavelengths.size() + w] = of_ray.aerosol.v;
+    }
+  }
+  return light;
 }
 
 bool ONeilModel::can_fit(Parameter parameter) const {

@@ -20,6 +20,9 @@ class ONeilModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
+  ScatteredLight scattered_light(const Atmosphere<double>& atmosphere,
+                                 std::span<const WavelengthNode> wavelengths,
+                                 std::span<const SkyPoint> points) const override;
   bool can_fit(Parameter parameter) const override;
 };
 

@@ -98,17 +98,20 @@ typename SchafhitzelTables<N>::InScatter SchafhitzelTables<N>::in_scatter(double
 }
 
 template <int N>
-Dual<N> SchafhitzelTables<N>::radiance(const View& view) const {
-  Dual<N> light(0.0);
+RayLight<N> SchafhitzelTables<N>::light(const View& view) const {
+  RayLight<N> light;
   if (view.ray.length > 0) {
     const std::array<Between, 3> at = place(view);
     const std::array<Between, 1> angle =
         air_phase_.between_texels({std::acos(std::clamp(view.nu, -1.0, 1.0)) / kPi});
-    light = air_phase_.linear(angle) * air_table_.linear(at) +
-            aerosol_phase_.linear(angle) * aerosol_table_.linear(at);
+    light.air = air_phase_.linear(angle) * air_table_.linear(at);
+    light.aerosol = aerosol_phase_.linear(angle) * aerosol_table_.linear(at);
   }
-  if (!view.ray.hits_ground) return light;
-  return light + ground_light(geometry_.shells(), air_, view, [](double) { return Dual<N>(0.0); });
+  if (view.ray.hits_ground) {
+    light.ground =
+        ground_light(geometry_.shells(), air_, view, [](double) { return Dual<N>(0.0); });
+  }
+  return light;
 }
 
 template <int N>

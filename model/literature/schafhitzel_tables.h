@@ -41,8 +41,8 @@ class SchafhitzelTables {
   SchafhitzelTables(const SchafhitzelGeometry& geometry, const Optics<N>& air,
                     std::span<const View> views);
 
-  // Of the whole ray, light that the ground reflects included (eq. 9-10: the sun's alone), 1/sr.
-  Dual<N> radiance(const View& view) const;
+  // Of the whole ray.
+  RayLight<N> light(const View& view) const;
 
   struct InScatter {
     Dual<N> air, aerosol;  // without their phase functions

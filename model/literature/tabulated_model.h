@@ -3,7 +3,7 @@
 //   kName, kBatch (derivatives at once),
 //   Geometry(Atmosphere<double>): all that does not depend on the wavelength,
 //   Tables<N>(geometry, optics, views): the tables, of which those that the views need may do,
-//   with radiance(view) and bytes(); no views: all of them,
+//   with light(view) and bytes(); no views: all of them,
 //   see(Atmosphere<Dual<N>>): the atmosphere as the method sees it,
 //   can_fit(Parameter).
 #pragma once
@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 
 #include "model/literature/evaluate.h"
 
@@ -42,7 +43,7 @@ class TabulatedModel final : public SkyModel {
                      std::span<Dual<N>> out) {
             const auto look_up = [&](const Tables<N>& tables) {
               tbb::parallel_for(std::size_t{0}, views.size(),
-                                [&](std::size_t i) { out[i] = tables.radiance(views[i]); });
+                                [&](std::size_t i) { out[i] = tables.light(views[i]).sum(); });
             };
             if constexpr (N == 0) {
               if (const Tables<0>* tables = kept ? kept->at(node) : nullptr)
@@ -52,6 +53,31 @@ class TabulatedModel final : public SkyModel {
             look_up(Tables<N>(*geometry, uncut_optics_at(Method::see(air), node), views));
           });
     });
+  }
+
+  // Of tables that prepare() has made.
+  ScatteredLight scattered_light(const Atmosphere<double>& atmosphere,
+                                 std::span<const WavelengthNode> wavelengths,
+                                 std::span<const SkyPoint> points) const override {
+    check_request(Method::kName, atmosphere, points, {});
+    const std::shared_ptr<const Kept> kept = kept_for(atmosphere);
+    ScatteredLight light;
+    light.air.resize(points.size() * wavelengths.size());
+    light.aerosol.resize(light.air.size());
+    tbb::task_arena(threads_).execute([&] {
+      tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        const View view = view_of(atmosphere, points[i]);
+        for (std::size_t w = 0; w < wavelengths.size(); ++w) {
+          const Tables<0>* tables = kept ? kept->at(wavelengths[w]) : nullptr;
+          if (tables == nullptr)
+            throw std::invalid_argument("scattered_light: expected tables that prepare() made");
+          const RayLight<0> of_ray = tables->light(view);
+          light.air[i * wavelengths.size() + w] = of_ray.air.v;
+          light.aerosol[i * wavelengths.size() + w] = of_ray.aerosol.v;
+        }
+      });
+    });
+    return light;
   }
 
   std::size_t prepare(const Atmosphere<double>& atmosphere,

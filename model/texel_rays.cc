@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/texel_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/shared/shared.h"
+
+namespace skyfit {
+
+TexelRay texel_ray(const Shells& shells, const TableSizes& s, int row, double height) {
+  Shared<double> shared;
+  const double v = (row + 0.5) / (s.scattering_ground + s.scattering_sky);
+  const bool hits_ground = row < s.scattering_ground;
+  const double least = std::min(0.1, 1e-6 * shells.top);
+  const double h = hits_ground ? std::max(height, least) : std::min(height, shells.top - least);
+  const double mu = shared.mu_from_texture(v, h, s.scattering_ground, s.scattering_sky,
+                                           shells.bottom_radius, shells.top);
+  ViewRay ray;
+  ray.entry_height = h;
+  ray.entry_mu = mu;
+  ray.hits_ground = hits_ground;
+  const double bottom = shells.bottom_radius;
+  ray.length = hits_ground ? shared.distance_to_inner_sphere(bottom, h, mu, 0.0)
+                           : shared.distance_to_outer_sphere(bottom, h, mu, shells.top);
+  ray.tangent_s = hits_ground ? ray.length : std::clamp(-(bottom + h) * mu, 0.0, ray.length);
+  ray.tangent_height =
+      hits_ground ? 0 : std::max(shared.height_after(bottom, h, mu, ray.tangent_s), 0.0);
+  const double to_sun_point = shared.distance_to_sun_point(h, mu, hits_ground, bottom, shells.top);
+  return {ray, ray_point(ray, bottom, to_sun_point)};
+}
+
+std::vector<TexelSun> texel_suns(const TableSizes& s) {
+  Shared<double> shared;
+  std::vector<TexelSun> suns;
+  for (int azimuth = 0; azimuth < s.scattering_azimuth; ++azimuth) {
+    const double cosine = std::cos(std::numbers::pi * azimuth / (s.scattering_azimuth - 1));
+    for (int sun = 0; sun < s.scattering_mu_s; ++sun) {
+      const double mu_s = shared.sun_from_unit(sun / (s.scattering_mu_s - 1.0), kTableLowestSun);
+      suns.push_back({mu_s, std::sqrt(1 - mu_s * mu_s) * cosine});
+    }
+  }
+  return suns;
+}
+
+}  // namespace skyfit
