@@ -184,12 +184,16 @@ void add_fit_command(CLI::App& app) {
   command->footer(
       "Leaves preset.json, report.txt, report.json, samples.csv, comparison.svg and "
       "comparison.png\n"
-      "in the directory. A LIST is a,b,c or start:stop:step, stop included.\n"
+      "in the directory; of measured skies measured.csv and the figures maps, spectra, residuals,\n"
+      "corner and series in the place of the last three. A LIST is a,b,c or start:stop:step, stop "
+      "included.\n"
       "\n" +
       parameter_list() +
       "\nExamples:\n"
       "  skyfit fit --reference cie:12 --out fitted\n"
-      "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted");
+      "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted\n"
+      "  skyfit fit --reference 0930.csv,1030.csv --exclude-sample 0 --per-scan mie.scattering "
+      "--out day");
   command->callback([options, command] { run_fit(*options, *command); });
 }
 

@@ -88,32 +88,28 @@ void apply(const MeasuredArguments& arguments, fit::MeasuredOptions& options) {
   if (!arguments.hold_out.empty()) parse_hold_out(arguments.hold_out);
 }
 
-fit::MeasuredChecks checks_of(const MeasuredArguments& arguments, const refs::Reference& reference,
-                              const SkyModel& model, const fit::MeasuredOptions& options,
+fit::MeasuredChecks checks_of(const MeasuredArguments& arguments, const SkyModel& model,
+                              const fit::MeasuredOptions& options,
                               const fit::MeasuredResult& result) {
   const SpectralData& spectra = refs::standard_spectral_data();
   const auto seed = static_cast<std::uint64_t>(arguments.seed);
   fit::MeasuredChecks checks;
   for (const std::string& name : arguments.profiles)
-    checks.profiles.push_back(
-        fit::profile_likelihood(reference, spectra, model, options, result, name));
+    checks.profiles.push_back(fit::profile_likelihood(spectra, model, options, result, name));
   if (arguments.bootstrap > 0)
-    checks.bootstrap =
-        fit::bootstrap(reference, spectra, model, options, result, arguments.bootstrap, seed);
+    checks.bootstrap = fit::bootstrap(spectra, model, options, result, arguments.bootstrap, seed);
   if (arguments.hold_out.empty()) return checks;
   const int parts = parse_hold_out(arguments.hold_out);
-  checks.hold_outs =
-      parts == 0
-          ? fit::leave_one_scan_out(reference, spectra, model, options, result)
-          : fit::hold_out_directions(reference, spectra, model, options, result, parts, seed);
+  checks.hold_outs = parts == 0
+                         ? fit::leave_one_scan_out(spectra, model, options, result)
+                         : fit::hold_out_directions(spectra, model, options, result, parts, seed);
   return checks;
 }
 
-std::vector<plot::MeasuredSample> measured_samples(const refs::Reference& reference,
-                                                   const fit::MeasuredResult& result) {
+std::vector<plot::MeasuredSample> measured_samples(const fit::MeasuredResult& result) {
   std::vector<plot::MeasuredSample> samples;
-  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    const refs::Sample& s = reference.samples[i];
+  for (std::size_t i = 0; i < result.reference.samples.size(); ++i) {
+    const refs::Sample& s = result.reference.samples[i];
     const auto scan = std::ranges::find(
         result.scans, s.scan, [](const fit::ScanOutcome& outcome) { return outcome.info.number; });
     const SkyPoint point = fit::pointed({0, s.sun_zenith, s.view_zenith, s.relative_azimuth},
@@ -137,6 +133,29 @@ void write_figures(const std::filesystem::path& directory) {
       files.push_back(directory / fmt::format("{}{}", name, extension));
     plot::write_figure(plot::measured_figure(figure, {&outcome, 1}), files);
   }
+}
+
+void add_check_options(CLI::App& command, MeasuredArguments& arguments) {
+  command
+      .add_option("--profile", arguments.profiles,
+                  "Profile likelihood of an unknown, named as in the report; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->group(std::string(kGroup));
+  command
+      .add_option("--bootstrap", arguments.bootstrap, "Repeat with resampled directions so often")
+      ->check(CLI::Range(0, 100000).description(""))
+      ->group(std::string(kGroup));
+  command
+      .add_option("--hold-out", arguments.hold_out,
+                  "Errors of what is left out of the fit: each scan in turn, or each of N parts of "
+                  "the directions")
+      ->type_name("scans|N")
+      ->group(std::string(kGroup));
+  command.add_option("--seed", arguments.seed, "Of --bootstrap and --hold-out N")
+      ->check(CLI::Range(0, 2147483647).description(""))
+      ->group(std::string(kGroup))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -170,24 +189,7 @@ void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
       .add_flag("--keep-absorption-bands", arguments.keep_absorption_bands,
                 "Fit 686-694, 715-735 and 758-772 nm too, where oxygen and water vapour absorb")
       ->group(std::string(kGroup));
-  command
-      .add_option("--profile", arguments.profiles,
-                  "Profile likelihood of an unknown, named as in the report; may be repeated")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
-      ->group(std::string(kGroup));
-  command
-      .add_option("--bootstrap", arguments.bootstrap, "Repeat with resampled directions so often")
-      ->check(CLI::Range(0, 100000).description(""))
-      ->group(std::string(kGroup));
-  add("--hold-out", arguments.hold_out,
-      "Errors of what is left out of the fit: each scan in turn, or each of N parts of the "
-      "directions",
-      "scans|N");
-  command.add_option("--seed", arguments.seed, "Of --bootstrap and --hold-out N")
-      ->check(CLI::Range(0, 2147483647).description(""))
-      ->group(std::string(kGroup))
-      ->capture_default_str();
+  add_check_options(command, arguments);
 }
 
 bool is_measured_fit(const CLI::App& command, const refs::Reference& reference) {
@@ -249,14 +251,14 @@ void run_measured_fit(const MeasuredArguments& arguments, refs::Reference refere
     };
     result = fit::fit_measured(reference, refs::standard_spectral_data(), model, options);
     options.common.progress = {};
-    checks = checks_of(arguments, reference, model, options, result);
+    checks = checks_of(arguments, model, options, result);
   }
   const std::string report = fit::report_json(result, checks).dump(2) + "\n";
   out.publish([&](const std::filesystem::path& staging) {
     write_text(staging / kPresetFile, preset_to_json(result.preset));
     write_text(staging / kReportFile, report);
     write_text(staging / kReportTextFile, fit::full_report(result, checks));
-    write_text(staging / kMeasuredFile, plot::measured_to_csv(measured_samples(reference, result)));
+    write_text(staging / kMeasuredFile, plot::measured_to_csv(measured_samples(result)));
     write_figures(staging);
   });
   if (!result.converged) {

@@ -72,10 +72,7 @@ void check_counts(const Task& task) {
 Task make_task(const refs::Reference& reference, const SpectralData& spectra, const SkyModel& model,
                const FitOptions& options) {
   validate(options);
-  if (options.lobes > model.lobes()) {
-    throw std::invalid_argument(fmt::format("fit.lobes = {}: must be at most {} for the {} model",
-                                            options.lobes, model.lobes(), model.name()));
-  }
+  check_lobes(options, model);
   Task task{reference,
             model,
             options,

@@ -137,6 +137,13 @@ FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior) {
   return {{info.lower, info.upper, is_scale(id) && info.lower > 0, prior}, id};
 }
 
+void check_lobes(const FitOptions& options, const SkyModel& model) {
+  if (options.lobes > model.lobes()) {
+    throw std::invalid_argument(fmt::format("fit.lobes = {}: must be at most {} for the {} model",
+                                            options.lobes, model.lobes(), model.name()));
+  }
+}
+
 std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, const SkyModel& model,
                                                   const Atmosphere<double>& atmosphere) {
   check_names(options, model, atmosphere);

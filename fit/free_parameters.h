@@ -34,6 +34,9 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
 // one lobe made two with it as the stronger one. A tabulated phase function stays.
 Atmosphere<double> with_lobes(const Atmosphere<double>& atmosphere, int lobes);
 
+// Throws std::invalid_argument when the model has fewer lobes than the options ask for.
+void check_lobes(const FitOptions& options, const SkyModel& model);
+
 // Of those that the model can fit. Throws std::invalid_argument when nothing is free, when options
 // name a parameter that the atmosphere does not have or the model cannot fit, or contradict
 // each other, when a prior's parameter is not free, and when

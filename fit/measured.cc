@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "fit/measured_problem.h"
+#include "fit/observations.h"
 #include "fit/preset_record.h"
 #include "fit/scan_noise.h"
 #include "fit/uncertainty.h"
@@ -78,6 +79,27 @@ ScanNoise noise_at(const MeasuredProblem& problem, const ScanData& data,
                     static_cast<int>(problem.unknowns.size()));
 }
 
+// The samples that are not fitted because they truly look too close to the sun.
+refs::Reference without_sun(const refs::Reference& reference, const MeasuredProblem& problem,
+                            const SkyState& state, const MeasuredOptions& options) {
+  refs::Reference result = reference;
+  for (refs::Sample& sample : result.samples) {
+    const auto scan = static_cast<std::size_t>(
+        std::ranges::find(problem.all.scans, sample.scan, &ScanInfo::number) -
+        problem.all.scans.begin());
+    const SkyPoint point =
+        pointed(sky_point(sample), problem.all.scans[scan], state.instrument[scan]);
+    refs::Sample at = sample;
+    at.view_zenith = point.view_zenith;
+    at.relative_azimuth = point.relative_azimuth;
+    if (sample.weight == 0 || refs::scattering_angle(at) >= options.common.exclude_sun) continue;
+    sample.weight = 0;
+    sample.zero_weight_reason = fmt::format("within {:.4g} deg of the sun",
+                                            options.common.exclude_sun * 180 / std::numbers::pi);
+  }
+  return result;
+}
+
 struct Refined {
   Eigen::VectorXd scaled;
   ScanNoise noise;
@@ -122,7 +144,7 @@ Uncertainty uncertainty_at(const MeasuredProblem& problem, const Eigen::VectorXd
   const std::vector<Variable> variables(problem.unknowns.begin(), problem.unknowns.end());
   const Eigen::MatrixXd& jacobian = white.jacobian_per_unit;
   const Uncertainty independent = uncertainty(variables, scaled, jacobian);
-  if (noise.factor == noise.independent_factor) return independent;
+  if (noise.length == 0 && noise.wavelength_correlation == 0) return independent;
   const double variance = std::pow(noise.independent_factor / noise.factor, 2);
   return with_correlated_residuals(
       independent, variables, scaled,
@@ -170,14 +192,14 @@ void describe_uncertainty(const MeasuredProblem& problem, const Eigen::VectorXd&
 
 void describe_values(const MeasuredProblem& problem, const refs::Reference& reference,
                      const SpectralData& spectra, const Eigen::VectorXd& scaled,
-                     const MeasuredOptions& options, MeasuredResult& result) {
+                     MeasuredResult& result) {
   const SkyState& start = problem.start;
   const SkyState fitted = with_unknowns(start, problem.unknowns, scaled);
   result.start_model = sample_values(problem, start, reference.samples.size());
   result.model = sample_values(problem, fitted, reference.samples.size());
   result.model_evaluations += 2;
   const auto errors = [&](const std::vector<double>& model, int scan) {
-    return measured_errors(reference, model, spectra, options.common.exclude_sun, scan);
+    return measured_errors(reference, model, spectra, scan);
   };
   result.start_errors = errors(result.start_model, kAllScans);
   result.errors = errors(result.model, kAllScans);
@@ -205,10 +227,14 @@ MeasuredResult fit_measured(const refs::Reference& reference, const SpectralData
                             const SkyModel& model, const MeasuredOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   validate(options);
-  const MeasuredProblem problem = measured_problem(reference, spectra, model, options);
   MeasuredResult result;
-  const auto [scaled, noise] = refine(problem, options, search(problem, options, result), result);
-  describe_values(problem, reference, spectra, scaled, options, result);
+  const MeasuredProblem as_stated = measured_problem(reference, spectra, model, options);
+  const Eigen::VectorXd found = search(as_stated, options, result);
+  result.reference = without_sun(reference, as_stated, as_stated.state(found), options);
+  const MeasuredProblem problem =
+      measured_problem(result.reference, spectra, model, as_pointed(options));
+  const auto [scaled, noise] = refine(problem, options, found, result);
+  describe_values(problem, result.reference, spectra, scaled, result);
   describe_uncertainty(problem, scaled, noise, result);
   result.preset = measured_preset(reference, model, options, result);
   report(options, 1, "done");

@@ -6,11 +6,12 @@
 // where the reference states none, over the square root of the sample's weight. One residual
 // (unknown - mean) / sigma per prior. A loss acts on the mean square of each direction's residuals.
 //
-// A smooth sky's misfit by another is not noise. Unless the noise is stated, sigma is multiplied
-// with a factor that the residuals show: sqrt(chi^2 / degrees of freedom * N / N_eff), N_eff the
-// number of independent samples of a field that is correlated over angle and wavelength
-// (scan_noise.h), and the fit is repeated with it so that priors weigh what they say. The
-// covariance is that of this estimate under residuals that are so correlated.
+// A smooth sky's misfit by another is not noise: it agrees between neighbouring directions and
+// wavelengths (scan_noise.h). Unless the noise is stated, sigma is multiplied with a factor that
+// the residuals show, sqrt(chi^2 / degrees of freedom / share of independent wavelengths), so that
+// a direction's spectrum weighs against the priors as the few samples that it is worth; the fit is
+// repeated with it. The covariance is that of this estimate under residuals that are correlated
+// over directions as well.
 #pragma once
 
 #include <Eigen/Core>
@@ -89,6 +90,9 @@ struct ScanOutcome {
 };
 
 struct MeasuredResult {
+  // As fitted: samples closer to the sun than exclude_sun, where the instrument truly points, have
+  // weight 0.
+  refs::Reference reference;
   Preset preset;  // the atmosphere of the first scan: of all, unless parameters are per scan
   std::vector<UnknownRow> unknowns;
   std::vector<int> covariance_unknowns;  // rows and columns of the matrices: indices of unknowns
@@ -117,9 +121,9 @@ struct MeasuredResult {
 MeasuredResult fit_measured(const refs::Reference& reference, const SpectralData& spectra,
                             const SkyModel& model, const MeasuredOptions& options);
 
-// Errors of values, one per sample of the reference, over the samples with weight at least
-// `exclude_sun` (radians) from the sun, of one scan or of all (kAllScans).
+// Errors of values, one per sample of the reference, over the samples with weight, of one scan or
+// of all (kAllScans).
 MeasuredErrors measured_errors(const refs::Reference& reference, const std::vector<double>& model,
-                               const SpectralData& spectra, double exclude_sun, int scan);
+                               const SpectralData& spectra, int scan);
 
 }  // namespace skyfit::fit

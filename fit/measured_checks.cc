@@ -140,10 +140,9 @@ void share_instrument(SkyState& state, const std::vector<bool>& scan_left_out) {
 }
 
 MeasuredErrors errors_at(const MeasuredProblem& problem, const refs::Reference& held,
-                         const SpectralData& spectra, const MeasuredOptions& options,
-                         const SkyState& state) {
+                         const SpectralData& spectra, const SkyState& state) {
   return measured_errors(held, sample_values(problem, state, held.samples.size()), spectra,
-                         options.common.exclude_sun, kAllScans);
+                         kAllScans);
 }
 
 // The pointing of the scans that were left out, fitted to them; everything else stays.
@@ -165,11 +164,10 @@ SkyState with_own_pointing(MeasuredProblem problem, const refs::Reference& held,
   return problem.state(minimum.scaled);
 }
 
-HoldOut held_out(const refs::Reference& reference, const SpectralData& spectra,
-                 const SkyModel& model, const MeasuredOptions& options,
+HoldOut held_out(const SpectralData& spectra, const SkyModel& model, const MeasuredOptions& options,
                  const MeasuredResult& result, const Marks& marked, const std::string& name) {
-  const refs::Reference kept = without(reference, marked, false);
-  const refs::Reference held = without(reference, marked, true);
+  const refs::Reference kept = without(result.reference, marked, false);
+  const refs::Reference held = without(result.reference, marked, true);
   const MeasuredProblem problem = measured_problem(kept, spectra, model, options);
   const auto [data, factor] = repeated(problem, options, result);
   const Minimum minimum = problem.solve(data, scaled_solution(result), factor, limits_of(options));
@@ -178,21 +176,22 @@ HoldOut held_out(const refs::Reference& reference, const SpectralData& spectra,
   for (const Look& look : problem.fitted.looks)
     left_out[static_cast<std::size_t>(look.scan)] = false;
   share_instrument(state, left_out);
-  HoldOut outcome{name, errors_at(problem, held, spectra, options, state), {}};
+  HoldOut outcome{name, errors_at(problem, held, spectra, state), {}};
   outcome.pointed =
-      errors_at(problem, held, spectra, options,
+      errors_at(problem, held, spectra,
                 with_own_pointing(problem, held, spectra, options, state, factor, left_out));
   return outcome;
 }
 
 }  // namespace
 
-Profile profile_likelihood(const refs::Reference& reference, const SpectralData& spectra,
-                           const SkyModel& model, const MeasuredOptions& options,
-                           const MeasuredResult& result, std::string_view name) {
+Profile profile_likelihood(const SpectralData& spectra, const SkyModel& model,
+                           const MeasuredOptions& options, const MeasuredResult& result,
+                           std::string_view name) {
   const std::size_t index = index_of(result, name);
   const Eigen::VectorXd solution = scaled_solution(result);
-  const MeasuredProblem whole = measured_problem(reference, spectra, model, options);
+  const MeasuredProblem whole =
+      measured_problem(result.reference, spectra, model, as_pointed(options));
   const Unknown unknown = whole.unknowns[index];
   const auto at = static_cast<Eigen::Index>(index);
   MeasuredProblem others = whole;
@@ -216,10 +215,11 @@ Profile profile_likelihood(const refs::Reference& reference, const SpectralData&
   return profile;
 }
 
-Bootstrap bootstrap(const refs::Reference& reference, const SpectralData& spectra,
-                    const SkyModel& model, const MeasuredOptions& options,
-                    const MeasuredResult& result, int repetitions, std::uint64_t seed) {
-  const MeasuredProblem problem = measured_problem(reference, spectra, model, options);
+Bootstrap bootstrap(const SpectralData& spectra, const SkyModel& model,
+                    const MeasuredOptions& options, const MeasuredResult& result, int repetitions,
+                    std::uint64_t seed) {
+  const MeasuredProblem problem =
+      measured_problem(result.reference, spectra, model, as_pointed(options));
   const auto [data, factor] = repeated(problem, options, result);
   const Eigen::VectorXd solution = scaled_solution(result);
   const std::size_t count = problem.unknowns.size();
@@ -252,8 +252,7 @@ Bootstrap bootstrap(const refs::Reference& reference, const SpectralData& spectr
   return outcome;
 }
 
-std::vector<HoldOut> leave_one_scan_out(const refs::Reference& reference,
-                                        const SpectralData& spectra, const SkyModel& model,
+std::vector<HoldOut> leave_one_scan_out(const SpectralData& spectra, const SkyModel& model,
                                         const MeasuredOptions& options,
                                         const MeasuredResult& result) {
   if (result.scans.size() < 2) {
@@ -263,21 +262,20 @@ std::vector<HoldOut> leave_one_scan_out(const refs::Reference& reference,
   std::vector<HoldOut> outcomes;
   for (const ScanOutcome& scan : result.scans) {
     Marks marked;
-    for (const refs::Sample& sample : reference.samples)
+    for (const refs::Sample& sample : result.reference.samples)
       marked.push_back(sample.scan == scan.info.number);
     outcomes.push_back(
-        held_out(reference, spectra, model, options, result, marked, scan.info.name));
+        held_out(spectra, model, as_pointed(options), result, marked, scan.info.name));
   }
   return outcomes;
 }
 
-std::vector<HoldOut> hold_out_directions(const refs::Reference& reference,
-                                         const SpectralData& spectra, const SkyModel& model,
+std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyModel& model,
                                          const MeasuredOptions& options,
                                          const MeasuredResult& result, int parts,
                                          std::uint64_t seed) {
   std::map<std::tuple<int, double, double>, int> part_of;
-  for (const refs::Sample& s : reference.samples)
+  for (const refs::Sample& s : result.reference.samples)
     part_of[{s.scan, s.view_zenith, s.relative_azimuth}] = 0;
   std::vector<int> dealt;
   for (std::size_t k = 0; k < part_of.size(); ++k) dealt.push_back(static_cast<int>(k) % parts);
@@ -287,9 +285,9 @@ std::vector<HoldOut> hold_out_directions(const refs::Reference& reference,
   std::vector<HoldOut> outcomes;
   for (int part = 0; part < parts; ++part) {
     Marks marked;
-    for (const refs::Sample& s : reference.samples)
+    for (const refs::Sample& s : result.reference.samples)
       marked.push_back(part_of[{s.scan, s.view_zenith, s.relative_azimuth}] == part);
-    outcomes.push_back(held_out(reference, spectra, model, options, result, marked,
+    outcomes.push_back(held_out(spectra, model, as_pointed(options), result, marked,
                                 fmt::format("directions, part {} of {}", part + 1, parts)));
   }
   return outcomes;

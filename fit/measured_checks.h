@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a fit of measured skies can be trusted: the likelihood along one unknown, fits of
 // resampled directions, and the errors of samples that were not fitted. All repeat the fit from the
-// solution, with at most 12 wavelengths unless the noise is stated.
+// solution, on its reference and with its options, with at most 12 wavelengths unless the noise is
+// stated.
 #pragma once
 
 #include <cstdint>
@@ -27,18 +28,18 @@ struct Profile {
 // `name` as in the report, such as "mie.scattering" or "instrument.azimuth_offset[2]". Values reach
 // to three sigmas of the result on both sides, within the bounds. Throws std::invalid_argument that
 // lists the names of the unknowns when there is no such one.
-Profile profile_likelihood(const refs::Reference& reference, const SpectralData& spectra,
-                           const SkyModel& model, const MeasuredOptions& options,
-                           const MeasuredResult& result, std::string_view name);
+Profile profile_likelihood(const SpectralData& spectra, const SkyModel& model,
+                           const MeasuredOptions& options, const MeasuredResult& result,
+                           std::string_view name);
 
 // Directions of every scan drawn with replacement, as many as there are.
 struct Bootstrap {
   int repetitions = 0, failed = 0;
   std::vector<double> mean, sigma;  // per unknown of the result, in the report's unit
 };
-Bootstrap bootstrap(const refs::Reference& reference, const SpectralData& spectra,
-                    const SkyModel& model, const MeasuredOptions& options,
-                    const MeasuredResult& result, int repetitions, std::uint64_t seed);
+Bootstrap bootstrap(const SpectralData& spectra, const SkyModel& model,
+                    const MeasuredOptions& options, const MeasuredResult& result, int repetitions,
+                    std::uint64_t seed);
 
 // Errors of what was left out of a fit of the rest.
 struct HoldOut {
@@ -48,14 +49,12 @@ struct HoldOut {
 };
 
 // Every scan once. Throws std::invalid_argument when there are fewer than two scans.
-std::vector<HoldOut> leave_one_scan_out(const refs::Reference& reference,
-                                        const SpectralData& spectra, const SkyModel& model,
+std::vector<HoldOut> leave_one_scan_out(const SpectralData& spectra, const SkyModel& model,
                                         const MeasuredOptions& options,
                                         const MeasuredResult& result);
 
 // The directions are dealt at random into `parts` >= 2; every part is left out once.
-std::vector<HoldOut> hold_out_directions(const refs::Reference& reference,
-                                         const SpectralData& spectra, const SkyModel& model,
+std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyModel& model,
                                          const MeasuredOptions& options,
                                          const MeasuredResult& result, int parts,
                                          std::uint64_t seed);

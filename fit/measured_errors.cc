@@ -22,15 +22,14 @@ double percent_of_norm(double difference2, double measured2) {
 }  // namespace
 
 MeasuredErrors measured_errors(const refs::Reference& reference, const std::vector<double>& model,
-                               const SpectralData& spectra, double exclude_sun, int scan) {
-  constexpr double kShortestNm = 400, kLongestNm = 700, kRounding = 1e-9;
+                               const SpectralData& spectra, int scan) {
+  constexpr double kShortestNm = 400, kLongestNm = 700;
   const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
   std::map<std::tuple<int, double, double>, Pair> luminance_of_look;
   double difference2 = 0, measured2 = 0;
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {
     const refs::Sample& s = reference.samples[i];
     if (s.weight == 0 || (scan != kAllScans && s.scan != scan)) continue;
-    if (refs::scattering_angle(s) < exclude_sun - kRounding) continue;
     const double weight = spectral ? spectra.y_bar.at(s.wavelength_nm) : 1;
     Pair& luminance = luminance_of_look[{s.scan, s.view_zenith, s.relative_azimuth}];
     luminance.model += weight * model[i];

@@ -201,8 +201,14 @@ std::vector<double> sample_values(const MeasuredProblem& problem, const SkyState
   return result;
 }
 
+MeasuredOptions as_pointed(MeasuredOptions options) {
+  options.common.exclude_sun = 0;
+  return options;
+}
+
 MeasuredProblem measured_problem(const refs::Reference& reference, const SpectralData& spectra,
                                  const SkyModel& model, const MeasuredOptions& options) {
+  check_lobes(options.common, model);
   const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
   ScanSelection selection{false, options.common.exclude_sun, options.noise, 0};
   MeasuredProblem problem;

@@ -50,6 +50,9 @@ MeasuredProblem measured_problem(const refs::Reference& reference, const Spectra
 std::vector<double> sample_values(const MeasuredProblem& problem, const SkyState& state,
                                   std::size_t samples);
 
+// The options for a reference whose samples near the sun have weight 0 already.
+MeasuredOptions as_pointed(MeasuredOptions options);
+
 // The preset of the first scan with the record of the fit.
 Preset measured_preset(const refs::Reference& reference, const SkyModel& model,
                        const MeasuredOptions& options, const MeasuredResult& result);

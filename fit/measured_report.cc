@@ -84,12 +84,34 @@ std::string unknowns_text(const MeasuredResult& result) {
         remark(row)));
   }
   text += fmt::format(
-      "One sigma is {:.3g} times that of independent samples of the assumed noise; {} samples "
-      "count as {:.3g}.\nchi^2 per degree of freedom under the assumed noise: {:.4g}.\n"
+      "Residuals weigh with {:.3g} times the assumed sigma; correlated as they are, {} samples "
+      "count as "
+      "{:.3g}\nindependent ones, and one sigma allows for it. chi^2 per degree of freedom under "
+      "the "
+      "assumed noise: {:.4g}.\n"
       "\"not identifiable\": the data say less about the unknown than its prior (without one: than "
       "its bounds).\nUnknowns at a bound have no sigma; those of the others hold with it there.\n",
       result.sigma_factor, result.samples, result.effective_samples, result.chi_square_per_dof);
   return text + "\n";
+}
+
+// A prior that the misfit overrides: the unknown is neither known nor at its prior.
+std::string pulled_text(const MeasuredResult& result) {
+  constexpr double kPulled = 2;  // prior sigmas
+  std::string text;
+  for (const UnknownRow& row : result.unknowns) {
+    const std::optional<Prior>& prior = row.unknown.prior;
+    if (!prior || row.identifiable) continue;
+    const double pull = (row.fitted * row.unknown.unit_value() - prior->mean) / prior->sigma;
+    if (std::abs(pull) < kPulled) continue;
+    text += fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there{}.\n",
+                        row.unknown.name(), pull,
+                        row.unknown.what == std::variant<Parameter, Instrument>(
+                                                Parameter::kMieSingleScatteringAlbedo)
+                            ? "; an unknown calibration (--scale) may be what it stands for"
+                            : "");
+  }
+  return text.empty() ? text : text + "\n";
 }
 
 std::string correlation_text(const MeasuredResult& result) {
@@ -144,11 +166,12 @@ std::string profiles_text(const std::vector<Profile>& profiles) {
 }
 
 std::string bootstrap_text(const MeasuredResult& result, const Bootstrap& bootstrap) {
-  std::string text =
-      fmt::format("Bootstrap over the directions, {} repetitions{}\n{:<32}{:>12}{:>12}{:>22}\n",
-                  bootstrap.repetitions,
-                  bootstrap.failed > 0 ? fmt::format(", {} failed", bootstrap.failed) : "",
-                  "unknown", "mean", "sigma", "sigma of covariance");
+  std::string text = fmt::format(
+      "Bootstrap over the directions (not the priors), {} "
+      "repetitions{}\n{:<32}{:>12}{:>12}{:>22}\n",
+      bootstrap.repetitions,
+      bootstrap.failed > 0 ? fmt::format(", {} failed", bootstrap.failed) : "", "unknown", "mean",
+      "sigma", "sigma of covariance");
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     text += fmt::format("{:<32}{:>12}{:>12}{:>22}\n", result.unknowns[u].unknown.name(),
                         number(bootstrap.mean[u]), number(bootstrap.sigma[u], 3),
@@ -201,8 +224,9 @@ std::string brief_report(const MeasuredResult& result) {
 }
 
 std::string full_report(const MeasuredResult& result, const MeasuredChecks& checks) {
-  return header(result) + errors_text(result) + unknowns_text(result) + downweighted_text(result) +
-         findings_text(result) + correlation_text(result) + profiles_text(checks.profiles) +
+  return header(result) + errors_text(result) + unknowns_text(result) + pulled_text(result) +
+         downweighted_text(result) + findings_text(result) + correlation_text(result) +
+         profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
          hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }

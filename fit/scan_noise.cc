@@ -82,12 +82,12 @@ ScanNoise scan_noise(const ScanData& data, const Eigen::VectorXd& residual, int 
   ScanNoise noise;
   noise.length = length_of(data, residual);
   noise.wavelength_correlation = wavelength_correlation(data, residual);
+  const double of_wavelengths = share_of_wavelengths(data, noise.wavelength_correlation);
   noise.effective_samples =
-      std::max(1.0, rows * share_of_directions(data, noise.length) *
-                        share_of_wavelengths(data, noise.wavelength_correlation));
+      std::max(1.0, rows * share_of_directions(data, noise.length) * of_wavelengths);
   const double freedom = std::max(1.0, rows - unknowns);
   noise.independent_factor = std::sqrt(std::max(residual.squaredNorm() / freedom, 1e-12));
-  noise.factor = noise.independent_factor * std::sqrt(rows / noise.effective_samples);
+  noise.factor = noise.independent_factor / std::sqrt(of_wavelengths);
   return noise;
 }
 

@@ -15,7 +15,8 @@
 namespace skyfit::fit {
 
 struct ScanNoise {
-  double factor = 1;  // on the sigma of the residuals, independent_factor * sqrt(N / N_eff)
+  // On the sigma of the residuals: independent_factor / sqrt(share of independent wavelengths).
+  double factor = 1;
   double independent_factor = 1;      // sqrt(chi^2 / degrees of freedom)
   double effective_samples = 0;       // 1 .. rows
   double length = 0;                  // radians

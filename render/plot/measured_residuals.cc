@@ -78,7 +78,7 @@ void begin_panel(Script& script, const Box& box, std::string_view title, double 
       "[{:.6g}:{:.6g}]",
       kFrameColor, kGridColor, -limit, limit);
   script.line(
-      "set xtics nomirror textcolor rgb '#202020'; set ytics nomirror textcolor rgb "
+      "set xtics autofreq nomirror textcolor rgb '#202020'; set ytics nomirror textcolor rgb "
       "'#202020'; set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb "
       "'#404040' lw 1 back");
 }
@@ -118,6 +118,7 @@ Figure residuals_figure(const MeasuredOutcome& outcome) {
   begin_panel(script, box(0), "luminance: scattering angle, °", limit);
   draw_scans(script, outcome, 1);
   begin_panel(script, box(1), "luminance: view zenith, °", limit);
+  script.line("set xrange [-3:93]; set xtics 30");  // the zenith does not lie on the axis
   draw_scans(script, outcome, 2);
   if (outcome.spectral) {
     begin_panel(script, box(2), "radiance: wavelength, nm (mean ± scatter)", limit);

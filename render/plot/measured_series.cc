@@ -70,12 +70,13 @@ void draw_panel(Script& script, const Box& box, const std::string& name, const S
       "set xtics format '{}' nomirror textcolor rgb '#202020'; set ytics nomirror "
       "textcolor rgb '#202020'",
       last ? "%H:%M" : "");
-  script.line("set autoscale; set offsets graph 0.03, graph 0.03, graph 0.1, graph 0.1");
+  script.line(
+      "set format y '%g'; set autoscale; set offsets graph 0.03, graph 0.03, graph 0.1, graph 0.1");
   script.line(
       "plot $series{0} using 1:2 with lines lw 1.4 lc rgb '{1}' notitle, $series{0} using "
       "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.6 lc rgb '{1}' notitle",
       index, kCurveColors[0]);
-  script.line("set xdata; set offsets 0, 0, 0, 0");
+  script.line("set xdata; set format y; set offsets 0, 0, 0, 0");
 }
 
 }  // namespace

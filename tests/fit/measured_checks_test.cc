@@ -40,8 +40,7 @@ class ChecksTest : public testing::Test {
 // Near a minimum the likelihood is a parabola whose half width is sigma.
 TEST_F(ChecksTest, ProfileIsAsWideAsSigma) {
   const UnknownRow& row = result.unknowns[2];
-  const Profile profile =
-      profile_likelihood(reference, spectra, model, options, result, row.unknown.name());
+  const Profile profile = profile_likelihood(spectra, model, options, result, row.unknown.name());
   constexpr double kCurved = 0.05;  // the parabola is not exact over three sigmas
   EXPECT_NEAR((profile.percent68.upper - profile.percent68.lower) / (2 * row.sigma), 1, kCurved);
   EXPECT_NEAR((profile.percent95.upper - profile.percent95.lower) / (2 * 1.96 * row.sigma), 1,
@@ -51,7 +50,7 @@ TEST_F(ChecksTest, ProfileIsAsWideAsSigma) {
 
 TEST_F(ChecksTest, ProfileOfNoUnknownListsThem) {
   try {
-    profile_likelihood(reference, spectra, model, options, result, "mie.phase.g9");
+    profile_likelihood(spectra, model, options, result, "mie.phase.g9");
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("fit.profile: mie.phase.g9: not an unknown"));
@@ -61,27 +60,26 @@ TEST_F(ChecksTest, ProfileOfNoUnknownListsThem) {
 
 // 100 repetitions know a standard deviation to 7 %; directions are few (48).
 TEST_F(ChecksTest, BootstrapSpreadsAsTheCovarianceSays) {
-  const Bootstrap outcome = bootstrap(reference, spectra, model, options, result, 100, 1);
+  const Bootstrap outcome = bootstrap(spectra, model, options, result, 100, 1);
   EXPECT_EQ(outcome.failed, 0);
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     EXPECT_NEAR(outcome.sigma[u] / result.unknowns[u].sigma, 1, 0.4)
         << result.unknowns[u].unknown.name();
     EXPECT_NEAR(outcome.mean[u], result.unknowns[u].fitted, 0.5 * result.unknowns[u].sigma);
   }
-  const Bootstrap again = bootstrap(reference, spectra, model, options, result, 3, 7);
-  EXPECT_EQ(again.mean, bootstrap(reference, spectra, model, options, result, 3, 7).mean);
+  const Bootstrap again = bootstrap(spectra, model, options, result, 3, 7);
+  EXPECT_EQ(again.mean, bootstrap(spectra, model, options, result, 3, 7).mean);
 }
 
 // What was left out is predicted as well as the noise allows.
 TEST_F(ChecksTest, HoldOutsSeeTheNoise) {
-  const std::vector<HoldOut> scans = leave_one_scan_out(reference, spectra, model, options, result);
+  const std::vector<HoldOut> scans = leave_one_scan_out(spectra, model, options, result);
   ASSERT_EQ(scans.size(), 2u);
   for (const HoldOut& held : scans) {
     EXPECT_NEAR(held.predicted.spectral, 2, 0.5) << held.name;
     EXPECT_NEAR(held.pointed.spectral, 2, 0.5) << held.name;
   }
-  const std::vector<HoldOut> parts =
-      hold_out_directions(reference, spectra, model, options, result, 3, 1);
+  const std::vector<HoldOut> parts = hold_out_directions(spectra, model, options, result, 3, 1);
   ASSERT_EQ(parts.size(), 3u);
   for (const HoldOut& held : parts) EXPECT_NEAR(held.predicted.spectral, 2, 0.6) << held.name;
 }

@@ -142,10 +142,33 @@ TEST(MeasuredErrorsTest, UniformExcess) {
   std::vector<double> model;
   for (const refs::Sample& sample : reference.samples) model.push_back(1.1 * sample.value);
   const MeasuredErrors errors =
-      measured_errors(reference, model, refs::standard_spectral_data(), 0, kAllScans);
+      measured_errors(reference, model, refs::standard_spectral_data(), kAllScans);
   EXPECT_NEAR(errors.luminance, 10, 1e-9);
   EXPECT_NEAR(errors.spectral, 10, 1e-9);
   EXPECT_NEAR(errors.mean_bias, 10, 1e-9);
+}
+
+// A direction that is stated to look at the sun, but does not, is fitted; one that truly does is
+// not.
+TEST(MeasuredFitTest, ConeAroundTheSunIsAboutTheTrueDirections) {
+  SyntheticScans how;
+  how.view_zenith_deg = {30, 45, 60, 70};
+  how.azimuths = 36;  // azimuths 3, 13, 23 .. deg
+  how.azimuth_offset_deg = {17, 17};
+  MeasuredOptions options = determined();
+  options.common.exclude_sun = 2 * kDegree;
+  const MeasuredResult result =
+      fit_toy(synthetic_scans(ToySky(), true_atmosphere(1), how), options);
+  const auto weight_at = [&](double azimuth_deg) {
+    for (const refs::Sample& s : result.reference.samples) {
+      if (s.scan == 0 && std::abs(s.view_zenith - 30 * kDegree) < 1e-9 &&
+          std::abs(s.relative_azimuth - azimuth_deg * kDegree) < 1e-6)
+        return s.weight;
+    }
+    throw std::logic_error("no such direction");
+  };
+  EXPECT_EQ(weight_at(3), 1);    // 10 deg from the sun in truth
+  EXPECT_EQ(weight_at(-17), 0);  // at the sun
 }
 
 TEST(MeasuredFitTest, NothingFreeEvaluatesThePreset) {
