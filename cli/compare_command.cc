@@ -89,7 +89,11 @@ std::vector<fit::ModelComparison> compare_all(const CompareOptions& options,
   fit::FitOptions how;
   how.starts = options.starts;
   how.threads = options.threads;
-  how.exclude_sun = radians(parse_number("--exclude-sun-deg", options.exclude_sun));
+  how.start = preset;
+  how.exclude_sun = radians(
+      parse_list_within("--exclude-sun-deg", options.exclude_sun, 0, 180, "an angle in degrees")
+          .front());
+  fit::validate(how);
   std::vector<fit::ModelComparison> rows;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double share = 1.0 / static_cast<double>(names.size());
@@ -118,19 +122,20 @@ plot::Comparison figure_of(const refs::Reference& reference,
   figure.reference_label = reference.name;
   figure.quantity = reference.quantity;
   figure.exclude_sun_deg = exclude_sun_deg;
-  bool fitted = false;
+  const bool any_fitted =
+      std::ranges::any_of(rows, [](const auto& row) { return row.fitted.has_value(); });
   for (const fit::ModelComparison& row : rows) {
     if (!shown(row)) continue;
-    fitted |= row.fitted.has_value();
     const std::vector<double> ones(reference.samples.size(), 1);
     plot::Curve curve{
-        row.model,
+        row.model + (any_fitted && !row.fitted ? " (unfitted)" : ""),
         plot::compared_samples(reference, {shown(row)->model, ones}, {}, radians(exclude_sun_deg)),
         {}};
     std::erase_if(curve.plane, [](const plot::ComparedSample& s) { return !(s.model > 0); });
     if (!curve.plane.empty()) figure.curves.push_back(std::move(curve));
   }
-  figure.subtitle = fmt::format("{}; scale free per sun position", fitted ? "fitted" : "unfitted");
+  figure.subtitle =
+      fmt::format("{}; scale free per sun position", any_fitted ? "fitted" : "unfitted");
   return figure;
 }
 

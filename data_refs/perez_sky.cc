@@ -71,7 +71,7 @@ PerezSky perez_sky_named(std::string_view name) {
   }
   if (!(sky.delta > 0 && sky.delta <= 1)) {
     throw std::invalid_argument(
-        fmt::format("{}: delta = {:.9g}: expected a brightness in 0 .. 1", name, sky.delta));
+        fmt::format("{}: delta = {:.9g}: expected a brightness > 0, at most 1", name, sky.delta));
   }
   return sky;
 }

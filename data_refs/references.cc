@@ -67,7 +67,14 @@ Reference analytic_reference(std::string_view name, const std::vector<double>& s
   if (is_perez_name(name)) {
     const PerezSky sky = perez_sky_named(name);
     return sampled(suns, sampling, [&](const Sample& s) {
-      return perez_relative_luminance(sky, s.sun_zenith, s.view_zenith, scattering_angle(s));
+      const double value =
+          perez_relative_luminance(sky, s.sun_zenith, s.view_zenith, scattering_angle(s));
+      if (value > 0) return value;
+      throw std::invalid_argument(fmt::format(
+          "{}: the luminance at sun zenith {:.6g}, view zenith {:.6g} deg is {:.3g} of the "
+          "zenith's: expected a clearness and brightness that go together",
+          name, s.sun_zenith * 180 / std::numbers::pi, s.view_zenith * 180 / std::numbers::pi,
+          value));
     });
   }
   const std::span<const CieSky> skies = cie_skies();

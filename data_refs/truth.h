@@ -19,7 +19,7 @@ struct TruthEntry {
 };
 std::span<const TruthEntry> truth_references();
 
-// Of one of truth_references(); one scan per sun, sigma where the table states it.
+// Of one of truth_references(); one scan per sun.
 Reference truth_reference(std::string_view name);
 
 // The atmosphere that the table was computed for.

@@ -35,8 +35,8 @@ refs::Reference possible_part(refs::Reference reference, const SkyModel& model,
   std::map<int, std::vector<std::size_t>> scans;
   for (std::size_t i = 0; i < reference.samples.size(); ++i)
     scans[reference.samples[i].scan].push_back(i);
-  int dark = 0, refused = 0;
-  std::string reason;
+  int dark = 0;
+  std::map<std::string, int> refusals;  // suns by reason
   for (const auto& [scan, samples] : scans) {
     std::vector<SkyPoint> points;
     for (const std::size_t i : samples) points.push_back(sky_point(reference.samples[i]));
@@ -54,12 +54,13 @@ refs::Reference possible_part(refs::Reference reference, const SkyModel& model,
         reference.samples[i].weight = 0;
         reference.samples[i].zero_weight_reason = cannot.what();
       }
-      reason = cannot.what();
-      ++refused;
+      ++refusals[cannot.what()];
     }
   }
-  if (refused > 0)
-    problem = fmt::format("{} of {} suns refused: {}", refused, scans.size(), reason);
+  for (const auto& [reason, suns] : refusals) {
+    problem += fmt::format("{}{} of {} suns refused: {}", problem.empty() ? "" : "; ", suns,
+                           scans.size(), reason);
+  }
   if (dark > 0) {
     problem +=
         fmt::format("{}dark at {} samples, which are left out", problem.empty() ? "" : "; ", dark);
@@ -113,26 +114,22 @@ double least_seconds(const Work& work) {
   return least;
 }
 
-void measure_cost(const Observations& observations, const SkyModel& model,
-                  const LuminanceRule& rule, const Atmosphere<double>& atmosphere,
-                  ModelComparison& row) {
-  const Clock::time_point begin = Clock::now();
-  row.table_bytes = model.prepare(atmosphere, rule.nodes);
-  row.precompute_seconds = row.table_bytes > 0 ? seconds_since(begin) : 0;
-  row.seconds_per_direction =
-      least_seconds([&] { model.radiance(atmosphere, rule.nodes, observations.points, {}); }) /
-      observations.count();
-}
-
 // What the model can do of the reference, with an atmosphere.
 std::optional<ModelErrors> evaluated(const refs::Reference& reference, const SkyModel& model,
                                      const LuminanceRule& rule,
                                      const Atmosphere<double>& atmosphere, double exclude_sun,
                                      std::string& problem, ModelComparison& row) {
+  const Clock::time_point begin = Clock::now();
+  const std::size_t bytes = model.prepare(atmosphere, rule.nodes);
+  const double precompute_seconds = bytes > 0 ? seconds_since(begin) : 0;
   const Observations observations =
       observe(possible_part(reference, model, rule, atmosphere, problem), exclude_sun);
   if (observations.count() == 0) return {};
-  if (row.seconds_per_direction == 0) measure_cost(observations, model, rule, atmosphere, row);
+  row.table_bytes = bytes;
+  row.precompute_seconds = precompute_seconds;
+  row.seconds_per_direction =
+      least_seconds([&] { model.radiance(atmosphere, rule.nodes, observations.points, {}); }) /
+      observations.count();
   return errors_of(reference, model, rule, atmosphere, observations);
 }
 
@@ -241,6 +238,7 @@ ModelComparison compare_model(const refs::Reference& reference, const SpectralDa
         choose_starts(base, choose_free_parameters(with_lobes, model, base), 1, false).front();
     const refs::Reference possible =
         possible_part(reference, model, rule, start.atmosphere, refused);
+    if (observe(possible, exclude_sun).count() == 0) throw std::invalid_argument(refused);
     row.fit = fit_atmosphere(possible, spectra, model, with_lobes);
     row.fitted = evaluated(reference, model, rule, row.fit->preset.atmosphere, exclude_sun,
                            row.fit_problem, row);

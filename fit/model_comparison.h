@@ -47,7 +47,7 @@ ModelComparison compare_model(const refs::Reference& reference, const SpectralDa
                               const SkyModel& model, const Atmosphere<double>& atmosphere,
                               double exclude_sun, const FitOptions* options);
 
-// One row per model. The text has at most 120 columns.
+// One row per model. The text has at most 120 columns, but for remarks.
 std::string comparison_text(const refs::Reference& reference,
                             const std::vector<ModelComparison>& rows);
 std::string comparison_csv(const refs::Reference& reference,

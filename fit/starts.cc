@@ -56,10 +56,13 @@ bool is_phase(const FreeParameter& parameter) {
          parameter.id == Parameter::kMiePhaseG2 || parameter.id == Parameter::kMiePhaseWeight;
 }
 
-// What the starts set: nothing when no phase parameter is free.
+// What the starts set: the phase parameters, and with them the amount of aerosol; or that alone,
+// where nothing else is free.
 std::vector<FreeParameter> varied_parameters(const std::vector<FreeParameter>& parameters) {
   std::vector<FreeParameter> result;
-  if (std::none_of(parameters.begin(), parameters.end(), is_phase)) return result;
+  const bool nothing_else =
+      parameters.size() == 1 && parameters.front().id == Parameter::kMieScattering;
+  if (!nothing_else && std::none_of(parameters.begin(), parameters.end(), is_phase)) return result;
   for (const FreeParameter& parameter : parameters) {
     if (is_phase(parameter) || parameter.id == Parameter::kMieScattering) {
       result.push_back(parameter);
@@ -87,6 +90,9 @@ std::vector<Start> choose_starts(const Atmosphere<double>& atmosphere,
   const std::vector<FreeParameter> varied = varied_parameters(parameters);
   std::vector<Start> result;
   if (own_first || varied.empty()) result.push_back(named(atmosphere, varied));
+  if (varied.size() == 1 && varied.front().id == Parameter::kMieScattering) {
+    count = 1;  // the starts differ in the phase parameters
+  }
   for (int n = 0; !varied.empty() && static_cast<int>(result.size()) < count; ++n) {
     Atmosphere<double> start = atmosphere;
     for (const FreeParameter& parameter : varied) {

@@ -61,25 +61,8 @@ RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s) {
 }
 
 PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point) {
-  if (point.s <= 0) return {};
-  const bool entry_descends = ray.tangent_s > 0, point_descends = point.s < ray.tangent_s;
-  if (!entry_descends) {  // both look up
-    PathColumns c = shells.columns_to_top(ray.entry_height, ray.entry_mu);
-    return c += -shells.columns_to_top(point.height, std::max(point.mu, 0.0));
-  }
-  if (point_descends) {  // both look down: seen from the other end
-    PathColumns c = shells.columns_to_top(point.height, std::max(-point.mu, 0.0));
-    return c += -shells.columns_to_top(ray.entry_height, -ray.entry_mu);
-  }
-  // Down to the lowest point, then up.
-  const double lowest_mu =
-      ray.hits_ground ? -ray_point(ray, shells.bottom_radius, ray.length).mu : 0;
-  PathColumns c = shells.columns_to_top(ray.tangent_height, lowest_mu);
-  PathColumns up = c;
-  c += -shells.columns_to_top(ray.entry_height, -ray.entry_mu);
-  if (point.s > ray.tangent_s)
-    c += (up += -shells.columns_to_top(point.height, std::max(point.mu, 0.0)));
-  return c;
+  return columns_along([&](double height, double mu) { return shells.columns_to_top(height, mu); },
+                       shells.bottom_radius, ray, point);
 }
 
 std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,

@@ -3,6 +3,7 @@
 // columns along it. Lengths in metres.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "model/optics.h"
@@ -43,6 +44,29 @@ RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s);
 
 // Columns from the ray's entry to the point.
 PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point);
+
+// The same with columns of any kind: to_top(height, mu), mu >= 0, from a point upward.
+template <class ToTop>
+PathColumns columns_along(const ToTop& to_top, double bottom_radius, const ViewRay& ray,
+                          const RayPoint& point) {
+  if (point.s <= 0) return {};
+  const bool entry_descends = ray.tangent_s > 0, point_descends = point.s < ray.tangent_s;
+  if (!entry_descends) {  // both look up
+    PathColumns c = to_top(ray.entry_height, ray.entry_mu);
+    return c += -to_top(point.height, std::max(point.mu, 0.0));
+  }
+  if (point_descends) {  // both look down: seen from the other end
+    PathColumns c = to_top(point.height, std::max(-point.mu, 0.0));
+    return c += -to_top(ray.entry_height, -ray.entry_mu);
+  }
+  // Down to the lowest point, then up.
+  const double lowest_mu = ray.hits_ground ? -ray_point(ray, bottom_radius, ray.length).mu : 0;
+  PathColumns c = to_top(ray.tangent_height, lowest_mu);
+  PathColumns up = c;
+  c += -to_top(ray.entry_height, -ray.entry_mu);
+  if (point.s > ray.tangent_s) c += (up += -to_top(point.height, std::max(point.mu, 0.0)));
+  return c;
+}
 
 // Where the ray crosses the shells of the given ascending heights, with its ends and its lowest
 // point, ascending in s.

@@ -80,7 +80,7 @@ std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralDa
   if (name == "bruneton") return std::make_unique<BrunetonModel>(threads);
   if (name == "bodare") return std::make_unique<BodareModel>(threads);
   if (name == "schafhitzel") return std::make_unique<SchafhitzelModel>(threads);
-  if (name == "oneil") return std::make_unique<ONeilModel>();
+  if (name == "oneil") return std::make_unique<ONeilModel>(threads);
   if (name == "nielsen") return std::make_unique<NielsenModel>();
   if (name == "hoffman-preetham") return std::make_unique<HoffmanPreethamModel>();
   if (name == "preetham") return std::make_unique<PreethamModel>(spectra);

@@ -73,11 +73,15 @@ class SkyModel {
                        double sun_zenith, std::span<const Parameter> derivatives) const;
 
   // The light of whole view rays without that which comes straight from the ground: what a renderer
-  // tabulates. Throws as radiance() does, and std::invalid_argument by a model that does not part
-  // the two or does not know every height and sun.
+  // tabulates; of models with tables after prepare() with the same. Throws as radiance() does, and
+  // std::invalid_argument by a model that does not part the two or does not know every height and
+  // sun.
   virtual ScatteredLight scattered_light(const Atmosphere<double>& atmosphere,
                                          std::span<const WavelengthNode> wavelengths,
                                          std::span<const SkyPoint> points) const;
+
+  // The atmosphere as the model sees it: without what it leaves out.
+  virtual Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const { return atmosphere; }
 
   // Whether a sky can tell the parameter by this model: radiance() depends on it, and not only
   // together with others. A fit leaves the rest as it is.

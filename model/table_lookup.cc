@@ -59,12 +59,11 @@ double sun_coordinate(double mu_s, int size) {
   return shared.texture_from_unit(shared.unit_from_sun(mu_s, kTableLowestSun), size);
 }
 
-// Below the lowest sun of the tables the twilight falls by e per degree.
-double deep_twilight(double mu_s) {
-  return std::exp(std::min((mu_s - kTableLowestSun) * 57.3, 0.0));
-}
-
 }  // namespace
+
+double deep_twilight(double mu_s, double lowest_mu_s) {
+  return std::exp(std::min((mu_s - lowest_mu_s) * 57.3, 0.0));
+}
 
 double horizon_cosine(double bottom, double height) {
   return -Shared<double>{}.horizon_distance(height, bottom) / (bottom + height);
@@ -126,7 +125,7 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
   NodeValues sum{};
   accumulate(table, Between(sun_coordinate(mu_s, table.width), table.width),
              Between(height_coordinate(tables, height, table.height), table.height),
-             Between(0.5, 1), deep_twilight(mu_s), sum);
+             Between(0.5, 1), deep_twilight(mu_s, kTableLowestSun), sum);
   return sum;
 }
 
@@ -161,7 +160,7 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   const double length_km =
       1e-3 * (hits_ground ? shared.distance_to_inner_sphere(p.bottom, height, mu, 0.0)
                           : shared.distance_to_outer_sphere(p.bottom, height, mu, p.thickness));
-  const double light = length_km * deep_twilight(at.mu_s);
+  const double light = length_km * deep_twilight(at.mu_s, kTableLowestSun);
   NodeValues sum;
   for (std::size_t k = 0; k < 4; ++k)
     sum[k] = light * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);

@@ -159,7 +159,8 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   tables.sizes = sizes;
   tables.phase = phase_table(atmosphere.mie.phase);
   const Shells shells = shells_of(atmosphere);
-  const NodeOptics optics = optics_of(atmosphere, color);
+  const NodeOptics optics =
+      optics_of(model != nullptr ? model->seen(atmosphere) : atmosphere, color);
   const int width = sizes.scattering_mu_s * sizes.scattering_azimuth;
   const int height = sizes.scattering_ground + sizes.scattering_sky;
   tables.rayleigh_like = make_table(width, height, sizes.scattering_r);

@@ -3,8 +3,9 @@
 // bodare_tables.h, which says its equations; five orders of scattering; ozone. bodare_update.h
 // spreads an update of the tables over frames.
 // Left out: the azimuth between view and sun within the tables, light that the ground reflects into
-// the air, the direction of what is scattered more than once, refraction. Valid where the sun is
-// above or little below the horizon (to 101 deg); best near the sun's vertical plane.
+// the air, the direction of what is scattered more than once, refraction, and the frustum volumes
+// of its renderer: a view down reads the tables too, so that both halves are kept. Suns below 101
+// deg fade by e per degree; best near the sun's vertical plane.
 #pragma once
 
 #include "model/literature/bodare_tables.h"
@@ -18,8 +19,8 @@ struct BodareMethod {
   using Geometry = literature::BodareGeometry;
   template <int N>
   using Tables = literature::BodareTables<N>;
-  template <int N>
-  static const Atmosphere<Dual<N>>& see(const Atmosphere<Dual<N>>& atmosphere) {
+  template <class T>
+  static Atmosphere<T> see(const Atmosphere<T>& atmosphere) {
     return atmosphere;
   }
   static bool can_fit(Parameter) { return true; }

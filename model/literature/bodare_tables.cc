@@ -103,7 +103,7 @@ BodareTables<N>::BodareTables(const BodareGeometry& geometry, const Optics<N>& a
     all_slices([&](int first, int last) { scatter_gathered(first, last); });
     add_order();
   }
-  light_ground();
+  finish();
 }
 
 // Over the azimuth, scaled so that the aerosol's phase function integrates to 1 over the sphere:
@@ -227,13 +227,21 @@ void BodareTables<N>::light_ground() {
   }
 }
 
+// The tables of single orders have done their work.
+template <int N>
+void BodareTables<N>::finish() {
+  light_ground();
+  air_order_ = aerosol_order_ = Table({0, 0, 0});
+}
+
 template <int N>
 typename BodareTables<N>::InScatter BodareTables<N>::in_scatter(double height, double mu,
                                                                 double mu_s, bool ground) const {
   const std::array<Between, 3> at = {geometry_.height_texel(height),
                                      geometry_.view_texel(height, mu, ground),
                                      BodareGeometry::sun_texel(mu_s)};
-  return {air_sum_.linear(at), aerosol_sum_.linear(at)};
+  const double dusk = deep_twilight(mu_s, BodareGeometry::sun(0));
+  return {dusk * air_sum_.linear(at), dusk * aerosol_sum_.linear(at)};
 }
 
 template <int N>
@@ -261,7 +269,7 @@ RayLight<N> BodareTables<N>::light(const View& view) const {
 
 template <int N>
 std::size_t BodareTables<N>::bytes() const {
-  return air_sum_.bytes() / 2 + aerosol_sum_.bytes() / 2 + ground_.size() * sizeof(Dual<N>);
+  return air_sum_.bytes() + aerosol_sum_.bytes() + ground_.size() * sizeof(Dual<N>);
 }
 
 template class BodareTables<0>;

@@ -65,12 +65,13 @@ class BodareTables {
   BodareTables(const BodareGeometry& geometry, const Optics<N>& air, std::span<const View> views);
 
   // The steps, in their order: slices of heights [first, last) of the single scattering; for every
-  // further order one gathering and its slices; at the end the light on the ground.
+  // further order one gathering and its slices; at the end the light on the
+  // ground.
   void scatter_once(int first, int last);
   void gather();
   void scatter_gathered(int first, int last);
   void add_order();  // after the slices of an order, the first included
-  void light_ground();
+  void finish();
 
   // Of the whole ray.
   RayLight<N> light(const View& view) const;
@@ -81,12 +82,14 @@ class BodareTables {
   InScatter in_scatter(double height, double mu, double mu_s, bool ground) const;
   Dual<N> ground_irradiance(double mu_s) const;  // by the sky
 
-  // What rendering keeps: the rays to the sky, and the light on the ground.
+  // Of finished tables: all rays, and the light on the ground. (The paper's renderer keeps the rays
+  // to the sky, the second half.)
   std::size_t bytes() const;
 
  private:
   using Table = Grid<N, 3>;  // [height][view][sun]
   void make_mean_phases();
+  void light_ground();
   template <class Row, class Light>
   void scatter(int first, int last, const Row& row_of, const Light& light_at);
   Dual<N> azimuth_sum(int sun, int theta, const Dual<N>& air, const Dual<N>& aerosol) const;

@@ -27,9 +27,9 @@ void validate(const BodareUpdateOptions& options) {
 
 BodareSet::BodareSet(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths)
-    : atmosphere_(atmosphere),
-      geometry_(std::make_unique<const literature::BodareGeometry>(atmosphere)) {
+    : atmosphere_(atmosphere) {
   skyfit::validate(atmosphere);
+  geometry_ = std::make_unique<const literature::BodareGeometry>(atmosphere);
   const auto air = seeded<0>(atmosphere, {});
   for (const WavelengthNode& node : wavelengths) {
     tables_.push_back(std::make_unique<BodareTables<0>>(*geometry_, uncut_optics_at(air, node)));
@@ -77,7 +77,7 @@ void BodareUpdate::step(BodareSet& set, int frame) const {
         if (part == options_.slices - 1) tables.add_order();
       }
     }
-    if (frame == frames_of_update() - 1) tables.light_ground();
+    if (frame == frames_of_update() - 1) tables.finish();
   });
 }
 

@@ -42,8 +42,9 @@ class BodareUpdate {
   // every further order one frame that gathers and X frames of one slice.
   int frames_of_update() const;
 
-  // One frame's share of the next set, which is of the atmosphere given to the first of its frames.
-  // After the last one the set becomes newer(), the one before it older().
+  // One frame's share of the next set (the first frame also lays out its rays, which costs as much
+  // as an order), which is of the atmosphere given to the first of its frames. After the last one
+  // the set becomes newer(), the one before it older().
   void advance(const Atmosphere<double>& atmosphere);
 
   // The two finished sets and the weight of the newer, which grows from 0 to 1 while the next is

@@ -6,8 +6,9 @@
 // Five orders of scattering and of reflection by a Lambertian ground; ozone as in Bruneton 2017.
 // Deviations: quadrature (table_rays.h); azimuths of incoming light by sixteen cosines, 16 x 32
 // directions as published; sums over directions are scaled to keep the energy of a forward peak.
-// What is left out: orders beyond the fifth, refraction. What the tables cost is about a second per
-// wavelength on one core, seven derivatives three seconds.
+// What is left out: orders beyond the fifth, refraction; suns below 102 deg (at the ray's
+// beginning) fade by e per degree. What the tables cost is about a second per wavelength on one
+// core, seven derivatives three seconds.
 #pragma once
 
 #include "model/literature/bruneton_tables.h"
@@ -21,8 +22,8 @@ struct BrunetonMethod {
   using Geometry = literature::BrunetonGeometry;
   template <int N>
   using Tables = literature::BrunetonTables<N>;
-  template <int N>
-  static const Atmosphere<Dual<N>>& see(const Atmosphere<Dual<N>>& atmosphere) {
+  template <class T>
+  static Atmosphere<T> see(const Atmosphere<T>& atmosphere) {
     return atmosphere;
   }
   static bool can_fit(Parameter) { return true; }

@@ -386,7 +386,8 @@ typename BrunetonTables<N>::InScatter BrunetonTables<N>::in_scatter(double heigh
   const std::array<Between, 4> at = {
       geometry_.r_texel(height, Sizes::r), geometry_.mu_texel(height, mu, ground),
       geometry_.sun_texel(mu_s), between(Shared<double>{}.bruneton_unit_from_nu(nu), Sizes::nu)};
-  return {rayleigh_like_.linear(at), single_mie_.linear(at)};
+  const double dusk = deep_twilight(mu_s, kTableLowestSun);
+  return {dusk * rayleigh_like_.linear(at), dusk * single_mie_.linear(at)};
 }
 
 template <int N>

@@ -84,10 +84,10 @@ struct RayLight {
 };
 
 // The atmosphere as models without absorption see it.
-template <int N>
-Atmosphere<Dual<N>> without_absorption(Atmosphere<Dual<N>> atmosphere) {
-  atmosphere.mie.single_scattering_albedo = Dual<N>(1.0);
-  atmosphere.ozone.column_du = Dual<N>(0.0);
+template <class T>
+Atmosphere<T> without_absorption(Atmosphere<T> atmosphere) {
+  atmosphere.mie.single_scattering_albedo = T(1.0);
+  atmosphere.ozone.column_du = T(0.0);
   return atmosphere;
 }
 

@@ -53,7 +53,7 @@ Aerosol<N> aerosol_of(const Atmosphere<Dual<N>>& air) {
 
 template <int N>
 Dual<N> radiance_of(const Optics<N>& air, const Aerosol<N>& aerosol, const SkyPoint& point,
-                    const literature::View& view) {
+                    const literature::View& view, NielsenMean mean) {
   Shared<Dual<N>> shared;
   Shared<double> numbers;
   const double height = point.altitude_m, mu_s = std::cos(point.sun_zenith);
@@ -62,10 +62,14 @@ Dual<N> radiance_of(const Optics<N>& air, const Aerosol<N>& aerosol, const SkyPo
                  air.aerosol_scattering *
                      numbers.nielsen_sky_depth(mu, numbers.nielsen_aerosol_zenith_depth(height))));
   };
+  const auto terrain_depth = [&](double length, double scale_height) {
+    return mean == NielsenMean::kOfDensities
+               ? numbers.nielsen_terrain_depth(height, 0, length, scale_height)
+               : numbers.nielsen_mean_height_depth(height, 0, length, scale_height);
+  };
   const auto through_terrain = [&](double length) {
-    return exp(-(air.air * numbers.nielsen_terrain_depth(height, 0, length, kAirTerrain) +
-                 air.aerosol_scattering *
-                     numbers.nielsen_terrain_depth(height, 0, length, kAerosolTerrain)));
+    return exp(-(air.air * terrain_depth(length, kAirTerrain) +
+                 air.aerosol_scattering * terrain_depth(length, kAerosolTerrain)));
   };
   const Dual<N> g = shared.nielsen_asymmetry(Dual<N>(height), Dual<N>(point.sun_zenith),
                                              aerosol.multiplier, aerosol.hazy_g);
@@ -97,7 +101,8 @@ SkyValues NielsenModel::radiance(const Atmosphere<double>& atmosphere,
         const Optics<N> air = uncut_optics_at(literature::without_absorption(seeded_air), node);
         const Aerosol<N> aerosol = aerosol_of(seeded_air);
         for (std::size_t i = 0; i < points.size(); ++i) {
-          out[i] = radiance_of(air, aerosol, points[i], literature::view_of(atmosphere, points[i]));
+          out[i] = radiance_of(air, aerosol, points[i], literature::view_of(atmosphere, points[i]),
+                               mean_);
         }
       });
 }

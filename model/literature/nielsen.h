@@ -16,14 +16,22 @@
 
 namespace skyfit {
 
+// Of a path to the ground: the mean of the densities at its ends, which the source chooses, or the
+// density at the mean of their heights.
+enum class NielsenMean { kOfDensities, kOfHeights };
+
 class NielsenModel final : public SkyModel {
  public:
+  explicit NielsenModel(NielsenMean mean = NielsenMean::kOfDensities) : mean_(mean) {}
   std::string_view name() const override { return "nielsen"; }
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
   bool can_fit(Parameter parameter) const override;
   int lobes() const override { return 1; }
+
+ private:
+  NielsenMean mean_;
 };
 
 }  // namespace skyfit

@@ -2,6 +2,7 @@
 #include "model/literature/oneil.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <numbers>
 
@@ -46,11 +47,8 @@ class Depths {
   }
   // From the ray's beginning.
   PathColumns along(const ViewRay& ray, const RayPoint& point) const {
-    if (!polynomial_) return columns_along(shells_, ray, point);
-    const bool down = ray.hits_ground;  // both ends as seen from the other
-    PathColumns begin = to_top(ray.entry_height, down ? -ray.entry_mu : ray.entry_mu),
-                end = to_top(point.height, down ? -point.mu : point.mu);
-    return down ? end += -begin : begin += -end;
+    return columns_along([&](double height, double mu) { return to_top(height, mu); }, bottom(),
+                         ray, point);
   }
 
  private:
@@ -115,22 +113,33 @@ literature::RayLight<N> light_of(const Optics<N>& air, const Path& path) {
   return light;
 }
 
-std::vector<Path> paths_of(const Atmosphere<double>& atmosphere, std::span<const SkyPoint> points) {
+std::vector<Path> paths_of(const Atmosphere<double>& atmosphere, std::span<const SkyPoint> points,
+                           int threads) {
   const Depths depths(atmosphere);
   std::vector<Path> paths(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(),
-                    [&](std::size_t i) { paths[i] = path_of(atmosphere, depths, points[i]); });
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_for(std::size_t{0}, points.size(),
+                      [&](std::size_t i) { paths[i] = path_of(atmosphere, depths, points[i]); });
+  });
   return paths;
 }
 
 }  // namespace
+
+ONeilModel::ONeilModel(int threads) : threads_(threads) {
+  check_model_value(kName, threads >= 1, "threads", threads, ">= 1");
+}
+
+Atmosphere<double> ONeilModel::seen(const Atmosphere<double>& atmosphere) const {
+  return literature::without_absorption(atmosphere);
+}
 
 SkyValues ONeilModel::radiance(const Atmosphere<double>& atmosphere,
                                std::span<const WavelengthNode> wavelengths,
                                std::span<const SkyPoint> points,
                                std::span<const Parameter> derivatives) const {
   literature::check_request(kName, atmosphere, points, derivatives);
-  const std::vector<Path> paths = paths_of(atmosphere, points);
+  const std::vector<Path> paths = paths_of(atmosphere, points, threads_);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
       [&]<int N>(const Atmosphere<Dual<N>>& air, const WavelengthNode& node,
@@ -144,7 +153,7 @@ ScatteredLight ONeilModel::scattered_light(const Atmosphere<double>& atmosphere,
                                            std::span<const WavelengthNode> wavelengths,
                                            std::span<const SkyPoint> points) const {
   literature::check_request(kName, atmosphere, points, {});
-  const std::vector<Path> paths = paths_of(atmosphere, points);
+  const std::vector<Path> paths = paths_of(atmosphere, points, threads_);
   const auto air = literature::without_absorption(seeded<0>(atmosphere, {}));
   ScatteredLight light;
   light.air.resize(points.size() * wavelengths.size());

@@ -16,6 +16,7 @@ namespace skyfit {
 
 class ONeilModel final : public SkyModel {
  public:
+  explicit ONeilModel(int threads);  // throws std::invalid_argument
   std::string_view name() const override { return "oneil"; }
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
@@ -23,7 +24,11 @@ class ONeilModel final : public SkyModel {
   ScatteredLight scattered_light(const Atmosphere<double>& atmosphere,
                                  std::span<const WavelengthNode> wavelengths,
                                  std::span<const SkyPoint> points) const override;
+  Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const override;
   bool can_fit(Parameter parameter) const override;
+
+ private:
+  int threads_;
 };
 
 }  // namespace skyfit

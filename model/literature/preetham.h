@@ -5,11 +5,11 @@
 //   F(Z, gamma) = (1 + A exp(B / cos Z)) (1 + C exp(D gamma) + E cos^2 gamma).
 // T is the preset's: (tau_R + tau_M) / tau_R, vertical optical depths at 550 nm, of extinction. The
 // spectrum is not that of the paper: it is the solar irradiance times the polynomial of degree 2 in
-// wavelength that has the model's X, Y, Z, so that a rule of few wavelengths gives them back.
-// Known: far too bright against measurements, by a factor of about 2.4.
-// Left out: everything of the atmosphere but T. Valid on the ground, toward the sky, sun above the
-// horizon, T 1.7 .. 10 (below, F is negative at the zenith); throws std::domain_error for a
-// turbidity outside.
+// wavelength that has the model's X, Y, Z, so that a rule of few wavelengths gives them back; at
+// the ends of the spectrum it is negative for some reddish skies near the horizon. Known: far too
+// bright against measurements, by a factor of about 2.4. Left out: everything of the atmosphere but
+// T. Valid on the ground, toward the sky, sun above the horizon, T 1.7 .. 10 (below, F is negative
+// at the zenith); throws std::domain_error for a turbidity outside.
 #pragma once
 
 #include <array>

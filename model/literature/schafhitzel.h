@@ -16,8 +16,8 @@ struct SchafhitzelMethod {
   using Geometry = literature::SchafhitzelGeometry;
   template <int N>
   using Tables = literature::SchafhitzelTables<N>;
-  template <int N>
-  static Atmosphere<Dual<N>> see(const Atmosphere<Dual<N>>& atmosphere) {
+  template <class T>
+  static Atmosphere<T> see(const Atmosphere<T>& atmosphere) {
     return literature::without_absorption(atmosphere);
   }
   static bool can_fit(Parameter parameter) {

@@ -4,7 +4,7 @@
 //   Geometry(Atmosphere<double>): all that does not depend on the wavelength,
 //   Tables<N>(geometry, optics, views): the tables, of which those that the views need may do,
 //   with light(view) and bytes(); no views: all of them,
-//   see(Atmosphere<Dual<N>>): the atmosphere as the method sees it,
+//   see(Atmosphere<T>): the atmosphere as the method sees it,
 //   can_fit(Parameter).
 #pragma once
 
@@ -26,6 +26,9 @@ class TabulatedModel final : public SkyModel {
     check_model_value(Method::kName, threads >= 1, "threads", threads, ">= 1");
   }
   std::string_view name() const override { return Method::kName; }
+  Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const override {
+    return Method::see(atmosphere);
+  }
   bool can_fit(Parameter parameter) const override { return Method::can_fit(parameter); }
 
   SkyValues radiance(const Atmosphere<double>& atmosphere,
@@ -70,7 +73,7 @@ class TabulatedModel final : public SkyModel {
         for (std::size_t w = 0; w < wavelengths.size(); ++w) {
           const Tables<0>* tables = kept ? kept->at(wavelengths[w]) : nullptr;
           if (tables == nullptr)
-            throw std::invalid_argument("scattered_light: expected tables that prepare() made");
+            throw std::logic_error("scattered_light: expected tables that prepare() made");
           const RayLight<0> of_ray = tables->light(view);
           light.air[i * wavelengths.size() + w] = of_ray.air.v;
           light.aerosol[i * wavelengths.size() + w] = of_ray.aerosol.v;

@@ -7,8 +7,8 @@
 // 2002, eq. 10.
 Number mixed_path_inscatter(Number air_beta, Number air_phase, Number aerosol_beta, Number aerosol_phase,
                             Number transmittance) {
-  return (air_beta * air_phase + aerosol_beta * aerosol_phase) / (air_beta + aerosol_beta) *
-         (Number(1.0) - transmittance);
+  return (air_beta * air_phase + aerosol_beta * aerosol_phase) /
+         max(air_beta + aerosol_beta, Number(1e-30)) * (Number(1.0) - transmittance);
 }
 
 // Relative optical air mass for the cosine of a zenith angle, 0 to 1. Kasten 1965, as Preetham, Shirley & Smits 1999 use
@@ -31,6 +31,11 @@ Number nielsen_aerosol_zenith_depth(Number height_m) { return 8000.0 * exp(-heig
 // Nielsen 2003: mean of the densities at the two ends of a path near the terrain, times its length.
 Number nielsen_terrain_depth(Number from_height_m, Number to_height_m, Number length_m, Number scale_height_m) {
   return 0.5 * (exp(-from_height_m / scale_height_m) + exp(-to_height_m / scale_height_m)) * length_m;
+}
+
+// The other mean of Nielsen 2003: the density at the mean height, times the length.
+Number nielsen_mean_height_depth(Number from_height_m, Number to_height_m, Number length_m, Number scale_height_m) {
+  return exp(-0.5 * (from_height_m + to_height_m) / scale_height_m) * length_m;
 }
 
 // Nielsen 2003: asymmetry of the aerosol from the eye's height, the sun's zenith angle (radians) and the amount of haze,

@@ -44,9 +44,11 @@ double exposure_of(const FisheyeRow& row) {
   std::vector<double> values;
   for (const auto& sky : row.skies) {
     if (!sky) continue;
-    for (const Rgb& rgb : sky->rgb) values.push_back(luminance(rgb));
+    for (const Rgb& rgb : sky->rgb) {
+      if (luminance(rgb) > 0) values.push_back(luminance(rgb));
+    }
   }
-  if (values.empty()) throw std::invalid_argument("figure: the first row of skies is empty");
+  if (values.empty()) throw std::invalid_argument("figure: the first row of skies is dark");
   std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
   return 0.5 / values[values.size() / 2];
 }

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "data_refs/truth.h"
 #include "tests/fit/synthetic.h"
@@ -57,6 +58,33 @@ TEST_F(ModelComparisonTest, LeavesOutWhatTheModelRefuses) {
   ASSERT_TRUE(row.unfitted);
   EXPECT_LT(row.unfitted->samples, static_cast<int>(truth.samples.size()));
   EXPECT_THAT(row.problem, HasSubstr("the model has no twilight"));
+}
+
+// A fit starts where the unfitted model stands, on the planet of its preset.
+TEST_F(ModelComparisonTest, AFitOfTheTruthStaysThere) {
+  FitOptions options;
+  options.start = Preset{};
+  options.start->atmosphere = atmosphere_;
+  options.start->atmosphere.bottom_radius_m = 3e6;
+  options.start->atmosphere.top_radius_m = 3.1e6;
+  options.starts = 1;
+  options.threads = 1;
+  const ModelComparison row = compare_model(reference_, refs::standard_spectral_data(), toy_,
+                                            options.start->atmosphere, 0.05, &options);
+  ASSERT_TRUE(row.fitted) << row.fit_problem;
+  EXPECT_EQ(row.fit->preset.atmosphere.bottom_radius_m, 3e6);
+  EXPECT_LT(row.fitted->rms_log_percent, 0.5);
+}
+
+TEST_F(ModelComparisonTest, PreethamFits) {
+  const auto preetham = make_sky_model("preetham", refs::standard_spectral_data(), 1);
+  FitOptions options;
+  options.starts = 2;
+  const refs::Reference sky = refs::load_reference("cie:12", {0.5, 1.0}, refs::Sampling::kTregenza);
+  const ModelComparison row = compare_model(sky, refs::standard_spectral_data(), *preetham,
+                                            Atmosphere<double>{}, 0.05, &options);
+  ASSERT_TRUE(row.fitted) << row.fit_problem;
+  EXPECT_LT(row.fitted->rms_log_percent, 30);
 }
 
 TEST_F(ModelComparisonTest, TablesHoldOneLinePerState) {

@@ -122,6 +122,19 @@ TEST(Bruneton, FollowsTheReferenceFromEveryHeight) {
   EXPECT_LT(std::sqrt(sum / count), 0.04);
 }
 
+// At midnight the planet is dark from space and from the ground.
+TEST(Bruneton, NightIsDark) {
+  const WavelengthNode node{550, 0};
+  const std::vector<SkyPoint> points = {{400e3, 180 * kDegree, 108 * kDegree, 0},
+                                        {0, 150 * kDegree, 0, 0}};
+  for (const char* name : {"bruneton", "bodare"}) {
+    const SkyValues night = make_sky_model(name, refs::standard_spectral_data(), 2)
+                                ->radiance(earth_clear(), {&node, 1}, points, {});
+    EXPECT_LT(night.value[0], 1e-12) << name;
+    EXPECT_LT(night.value[1], 1e-12) << name;
+  }
+}
+
 TEST(Bruneton, MappingsInvert) {
   Shared<double> shared;
   const double bottom = 6360e3, thickness = 100e3, lowest = -0.2;

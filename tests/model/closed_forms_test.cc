@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "data_refs/spectra.h"
+#include "model/literature/nielsen.h"
 #include "model/literature/preetham.h"
 #include "model/photometry.h"
 #include "model/shared/shared.h"
@@ -60,6 +61,17 @@ TEST(Nielsen, SkyByHand) {
 TEST(Nielsen, BothEndsOfATerrainPathAreHalved) {
   EXPECT_DOUBLE_EQ(Shared<double>{}.nielsen_terrain_depth(0, 0, 1000, 15e3), 1000);
   EXPECT_DOUBLE_EQ(Shared<double>{}.nielsen_terrain_depth(15e3, 0, 2, 15e3), 1 + std::exp(-1.0));
+}
+
+TEST(Nielsen, TheOtherMeanIsTheDensityAtTheMeanHeight) {
+  EXPECT_DOUBLE_EQ(Shared<double>{}.nielsen_mean_height_depth(30e3, 0, 2, 15e3),
+                   2 * std::exp(-1.0));
+  const SkyPoint down{4e3, 30 * kDegree, 150 * kDegree, 1};
+  const auto light = [&](NielsenMean mean) {
+    return NielsenModel(mean).radiance({}, {&kGreen, 1}, {&down, 1}, {}).at(0, 0);
+  };
+  // exp is convex: more air by the mean of the ends.
+  EXPECT_GT(light(NielsenMean::kOfDensities), light(NielsenMean::kOfHeights));
 }
 
 TEST(Nielsen, RefusesTwilightAndSpace) {
@@ -161,6 +173,28 @@ TEST(ONeil, SpaceSeesWhatTheTopSees) {
                outside = radiance("oneil", a, {5e6, 30 * kDegree, std::numbers::pi, 0});
   EXPECT_NEAR(outside / inside, 1, 1e-9);
   EXPECT_EQ(radiance("oneil", a, {5e6, 30 * kDegree, 0, 0}), 0);  // away from the planet
+}
+
+// A ray along the limb goes down and up again: the polynomial's columns stay positive, so that the
+// light is that of the closed form in a geometry that differs by a hair.
+TEST(ONeil, LimbsFollowTheClosedForm) {
+  const Atmosphere<double> polynomial = oneil_earth();
+  Atmosphere<double> closed = polynomial;
+  closed.rayleigh.scale_height_m *= 1.002;  // beyond what counts as his geometry
+  constexpr double kFit = 0.15;
+  for (const double view : {95.0, 97.0, 100.0}) {
+    const SkyPoint limb{60e3, 40 * kDegree, view * kDegree, 1};
+    EXPECT_NEAR(radiance("oneil", polynomial, limb) / radiance("oneil", closed, limb), 1, kFit)
+        << "view " << view;
+  }
+}
+
+// No air and no aerosol scatter nothing.
+TEST(ClosedForms, OfNoAirAreDark) {
+  Atmosphere<double> none;
+  none.rayleigh.scattering_per_m.value = none.mie.scattering_per_m.value = 0;
+  EXPECT_EQ(radiance("hoffman-preetham", none, kSide), 0);
+  EXPECT_EQ(radiance("nielsen", none, kSide), 0);
 }
 
 TEST(Models, HaveNamesThatMakeThem) {
