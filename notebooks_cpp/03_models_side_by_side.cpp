@@ -134,11 +134,18 @@ void run_notebook(notebook::Page& page) {
 
   // %%
   page.cell();
-  const fit::FitResult single =
-      fit::fit_atmosphere(cie, refs::standard_spectral_data(), *model_named("oneil"), options);
-  std::cout << fmt::format("oneil, single scattering, fitted to cie:12: {:.2f} %\n\n",
-                           single.rms_log_percent);
-  check(single.rms_log_percent < 15, "single scattering is near the CIE's sky as well");
+  const auto all_free = [&](const std::string& name) {
+    fit::FitOptions everything;
+    everything.threads = kThreads;
+    return fit::fit_atmosphere(cie, refs::standard_spectral_data(), *model_named(name), everything)
+        .rms_log_percent;
+  };
+  const double multiple = all_free("reference"), single = all_free("oneil");
+  std::cout << fmt::format(
+      "all parameters free, two lobes: reference {:.2f} %, oneil (five samples, single scattering) "
+      "{:.2f} %\n\n",
+      multiple, single);
+  check(single < multiple + 2, "single scattering comes as near to the CIE's sky");
   const std::string truth_name = "truth:earth-550nm-haze-ground";
   const refs::Reference truth = refs::truth_reference(truth_name);
   std::vector<fit::ModelComparison> rows;
