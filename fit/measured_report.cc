@@ -71,7 +71,7 @@ std::string remark(const UnknownRow& row) {
 }
 
 std::string unknowns_text(const MeasuredResult& result) {
-  constexpr std::string_view kRow = "{:<29}{:<4}{:>10}{:>11}{:>9} {:<20}{}";
+  constexpr std::string_view kRow = "{:<29}{:<4}{:>10}{:>11}{:>11} {:<20}{}";
   std::string text = trimmed(fmt::format(kRow, "unknown ([scan])", "unit", "start", "fitted",
                                          "one sigma", "prior", "remark"));
   for (const UnknownRow& row : result.unknowns) {

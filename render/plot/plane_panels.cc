@@ -153,7 +153,7 @@ class Panels {
           std::isnan(rms) ? "–" : fmt::format("{:.{}f}", rms, many && rms >= 99.95 ? 0 : 1),
           fmt::format("right font ',{}' textcolor rgb '{}'", many ? 10 : 12,
                       several ? kCurveColors[i] : "#000000"));
-      right -= many ? 34 : 38;
+      right -= many ? 34 : 42;
     }
     script_.text_label(right + 4, y, "RMS", "right font ',12'");
   }
