@@ -4,7 +4,8 @@
 // spreads an update of the tables over frames.
 // Left out: the azimuth between view and sun within the tables, light that the ground reflects into
 // the air, the direction of what is scattered more than once, refraction, and the frustum volumes
-// of its renderer: a view down reads the tables too, so that both halves are kept. Suns below 101
+// of its renderer: a view down reads the tables too, so that both halves are
+// kept here (BodareTables::sky_half() is what the paper keeps). Suns below 101
 // deg fade by e per degree; best near the sun's vertical plane.
 #pragma once
 

@@ -268,6 +268,20 @@ RayLight<N> BodareTables<N>::light(const View& view) const {
 }
 
 template <int N>
+BodareSkyHalf BodareTables<N>::sky_half() const {
+  BodareSkyHalf half;
+  for (int i = 0; i < Sizes::height; ++i) {
+    for (int v = kHalf; v < Sizes::view; ++v) {
+      for (int s = 0; s < Sizes::sun; ++s) {
+        half.air.push_back(static_cast<float>(air_sum_.at({i, v, s}).v));
+        half.aerosol.push_back(static_cast<float>(aerosol_sum_.at({i, v, s}).v));
+      }
+    }
+  }
+  return half;
+}
+
+template <int N>
 std::size_t BodareTables<N>::bytes() const {
   return air_sum_.bytes() + aerosol_sum_.bytes() + ground_.size() * sizeof(Dual<N>);
 }

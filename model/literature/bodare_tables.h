@@ -53,6 +53,13 @@ class BodareGeometry {
   std::vector<Ray> rays_;
 };
 
+// What rendering keeps of finished tables, in single precision: the in-scatter of rays to the sky
+// without phase functions, 32 x 64 x 32, [height][view][sun], views from the horizon to the zenith.
+struct BodareSkyHalf {
+  static constexpr int views = BodareSizes::view / 2;
+  std::vector<float> air, aerosol;
+};
+
 template <int N>
 class BodareTables {
  public:
@@ -82,8 +89,9 @@ class BodareTables {
   InScatter in_scatter(double height, double mu, double mu_s, bool ground) const;
   Dual<N> ground_irradiance(double mu_s) const;  // by the sky
 
-  // Of finished tables: all rays, and the light on the ground. (The paper's renderer keeps the rays
-  // to the sky, the second half.)
+  BodareSkyHalf sky_half() const;  // of the values
+
+  // Of finished tables: all rays, and the light on the ground.
   std::size_t bytes() const;
 
  private:
