@@ -47,8 +47,13 @@ std::vector<std::string> model_names(const std::string& text) {
   }
   std::istringstream parts(text);
   for (std::string name; std::getline(parts, name, ',');) names.push_back(name);
-  for (const std::string& name : names)
-    make_sky_model(name, refs::standard_spectral_data(), 1);  // throws for a name that is none
+  for (const std::string& name : names) {
+    try {
+      make_sky_model(name, refs::standard_spectral_data(), 1);
+    } catch (const std::invalid_argument& unknown) {
+      throw UsageError("--models", text, unknown.what());
+    }
+  }
   return names;
 }
 
@@ -240,12 +245,7 @@ void add_compare_command(CLI::App& app) {
       ->add_option("--exclude-sun-deg", options->exclude_sun, "Leave out samples closer to the sun")
       ->type_name("ANGLE")
       ->capture_default_str();
-  command->add_option("--out", options->out, "Directory of the result")
-      ->required()
-      ->type_name("DIR");
-  command->add_flag("--force", options->force,
-                    "Write into a directory that holds other files; they stay");
-  command->add_flag("--json", options->json, "Print comparison.json to stdout");
+  add_result_options(*command, options->out, options->force, options->json, "comparison.json");
   add_threads_option(*command, options->threads);
   command->footer(
       "Leaves comparison.txt, comparison.csv, comparison.json, comparison.svg, comparison.png and\n"

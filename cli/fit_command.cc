@@ -174,12 +174,7 @@ void add_fit_command(CLI::App& app) {
   command->add_option("--model", options->model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();
-  command->add_option("--out", options->out, "Directory of the result")
-      ->required()
-      ->type_name("DIR");
-  command->add_flag("--force", options->force,
-                    "Write into a directory that holds other files; they stay");
-  command->add_flag("--json", options->json, "Print report.json to stdout");
+  add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_threads_option(*command, options->threads);
   command->footer(
       "Leaves preset.json, report.txt, report.json, samples.csv, comparison.svg and "

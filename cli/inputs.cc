@@ -162,6 +162,13 @@ bool is_shipped_reference(const std::string& name) {
          std::ranges::count(refs::shipped_references(), name, &refs::ReferenceEntry::name) > 0;
 }
 
+void add_result_options(CLI::App& command, std::string& out, bool& force, bool& json,
+                        const std::string& file) {
+  command.add_option("--out", out, "Directory of the result")->required()->type_name("DIR");
+  command.add_flag("--force", force, "Write into a directory that holds other files; they stay");
+  command.add_flag("--json", json, fmt::format("Print {} to stdout", file));
+}
+
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void add_threads_option(CLI::App& command, int& threads) {

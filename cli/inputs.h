@@ -58,6 +58,10 @@ refs::Reference load_references(const std::string& names, const std::string& sun
 // Analytic: read where the user says.
 bool is_shipped_reference(const std::string& name);
 
+// --out, --force and --json of a command that leaves a directory; --json prints `file` of it.
+void add_result_options(CLI::App& command, std::string& out, bool& force, bool& json,
+                        const std::string& file);
+
 // Threads to use when the user names no number: those of the machine.
 int default_threads();
 void add_threads_option(CLI::App& command, int& threads);

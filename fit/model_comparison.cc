@@ -170,6 +170,14 @@ nlohmann::json fields(const refs::Reference& reference, const ModelComparison& r
   return line;
 }
 
+// RFC 4180.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
 template <class Use>
 void for_each_line(const refs::Reference& reference, const std::vector<ModelComparison>& rows,
                    const Use& use) {
@@ -200,14 +208,16 @@ refs::Reference comparison_reference(const refs::Reference& reference,
         samples.size() == wavelengths.size() &&
         std::ranges::all_of(samples, [](const refs::Sample* s) { return s->weight > 0; });
     if (!whole) continue;
-    refs::Sample sum = *samples.front();
+    std::vector<const refs::Sample*> ascending = samples;
+    std::ranges::sort(ascending, {}, [](const refs::Sample* s) { return s->wavelength_nm; });
+    refs::Sample sum = *ascending.front();
     sum.wavelength_nm = sum.value = 0;
     sum.sigma.reset();
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      const double low = samples[k > 0 ? k - 1 : k]->wavelength_nm,
-                   high = samples[std::min(k + 1, samples.size() - 1)]->wavelength_nm;
+    for (std::size_t k = 0; k < ascending.size(); ++k) {
+      const double low = ascending[k > 0 ? k - 1 : k]->wavelength_nm,
+                   high = ascending[std::min(k + 1, ascending.size() - 1)]->wavelength_nm;
       sum.value += kLumenPerWatt * 0.5 * (high - low) *
-                   spectra.y_bar.at(samples[k]->wavelength_nm) * samples[k]->value;
+                   spectra.y_bar.at(ascending[k]->wavelength_nm) * ascending[k]->value;
     }
     luminances.samples.push_back(sum);
   }
@@ -295,9 +305,7 @@ std::string comparison_csv(const refs::Reference& reference,
       if (value->is_number()) {
         text += fmt::format("{:.9g}", value->get<double>());
       } else {
-        text += value->get<std::string>().find_first_of(",\"") == std::string::npos
-                    ? value->get<std::string>()
-                    : value->dump();
+        text += csv_field(value->get<std::string>());
       }
     }
     text += '\n';

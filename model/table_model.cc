@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "model/ray.h"
+#include "model/literature/evaluate.h"
 #include "model/shared/shared.h"
 #include "model/table_lookup.h"
 
@@ -25,34 +25,16 @@ void refuse_derivatives(std::span<const Parameter> derivatives) {
     throw std::invalid_argument("tables model: has no derivatives; the reference model has");
 }
 
-// Where a point's view ray enters the air, as the tables see it.
-struct Entry {
-  ViewRay ray;
-  TablePlace place;
-  double nu;
-};
-Entry entry_of(const Atmosphere<double>& a, const SkyPoint& point) {
-  const double bottom = a.bottom_radius_m;
-  const double mu = std::cos(point.view_zenith), mu_s = std::cos(point.sun_zenith);
-  const double nu =
-      std::clamp(mu * mu_s + std::sin(point.view_zenith) * std::sin(point.sun_zenith) *
-                                 std::cos(point.relative_azimuth),
-                 -1.0, 1.0);
-  const ViewRay ray = view_ray(bottom, a.top_radius_m - bottom, point.altitude_m, mu);
-  const double r = bottom + ray.entry_height;
-  const double entry_mu_s = ((bottom + point.altitude_m) * mu_s + ray.entry_distance * nu) / r;
-  return {ray, {ray.entry_height, ray.entry_mu, std::clamp(entry_mu_s, -1.0, 1.0)}, nu};
-}
-
-NodeValues radiance_of(const AtmosphereTables& tables, const Entry& e) {
+NodeValues radiance_of(const AtmosphereTables& tables, const literature::View& view) {
+  const TablePlace place{view.ray.entry_height, view.ray.entry_mu, view.mu_s};
   NodeValues sum{};
-  if (e.ray.length > 0) {
+  if (view.ray.length > 0) {
     sum =
-        lookup_radiance(tables, e.place.height, e.place.mu, e.place.mu_s, e.nu, e.ray.hits_ground);
+        lookup_radiance(tables, place.height, place.mu, place.mu_s, view.nu, view.ray.hits_ground);
   }
-  if (!e.ray.hits_ground) return sum;
-  const TablePlace ground = place_along(tables, e.place, e.nu, e.ray.length);
-  const NodeValues through = lookup_transmittance(tables, e.place, ground, true),
+  if (!view.ray.hits_ground) return sum;
+  const TablePlace ground = place_along(tables, place, view.nu, view.ray.length);
+  const NodeValues through = lookup_transmittance(tables, place, ground, true),
                    beam = lookup_sun_transmittance(tables, 0, ground.mu_s),
                    sky = lookup_irradiance(tables, 0, ground.mu_s);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -82,9 +64,9 @@ SkyValues TableModel::radiance(const Atmosphere<double>& atmosphere,
   const std::shared_ptr<const Kept> kept = tables_for(atmosphere, wavelengths);
   tbb::task_arena(threads_).execute([&] {
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-      const Entry entry = entry_of(atmosphere, points[i]);
+      const literature::View view = literature::view_of(atmosphere, points[i]);
       for (std::size_t four = 0; four < kept->tables.size(); ++four) {
-        const NodeValues l = radiance_of(kept->tables[four], entry);
+        const NodeValues l = radiance_of(kept->tables[four], view);
         std::copy_n(l.begin(), std::min<std::size_t>(4, wavelengths.size() - 4 * four),
                     &values.value[i * wavelengths.size() + 4 * four]);
       }

@@ -45,7 +45,6 @@ class Grid {
     for (const int n : size) count *= static_cast<std::size_t>(n);
     texels_.resize(count);
   }
-  int size(int axis) const { return size_[static_cast<std::size_t>(axis)]; }
   std::array<Between, kRank> between_texels(const std::array<double, kRank>& unit) const {
     std::array<Between, kRank> place;
     for (std::size_t axis = 0; axis < kRank; ++axis) place[axis] = between(unit[axis], size_[axis]);

@@ -43,8 +43,8 @@ inline std::vector<SkyPoint> points_of(const RuleCase& rule_case) {
 // XYZ of every point by a rule of three rows of weights.
 inline std::vector<Xyz> xyz_of(const Atmosphere<double>& atmosphere, const XyzRule& rule,
                                const std::vector<SkyPoint>& points) {
-  const SkyValues sky =
-      make_sky_model("reference", refs::standard_spectral_data(), 2)->radiance(atmosphere, rule.nodes, points, {});
+  const SkyValues sky = make_sky_model("reference", refs::standard_spectral_data(), 2)
+                            ->radiance(atmosphere, rule.nodes, points, {});
   std::vector<Xyz> result(points.size(), Xyz{});
   for (int i = 0; i < sky.points; ++i) {
     for (int c = 0; c < 3; ++c) {

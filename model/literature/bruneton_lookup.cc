@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the finished tables say; bruneton_tables.cc fills them.
+#include <numbers>
+
+#include "model/literature/bruneton_tables.h"
+#include "model/phase_moments.h"
+#include "model/shared/shared.h"
+#include "model/table_lookup.h"
+
+namespace skyfit::literature {
+namespace {
+using Sizes = BrunetonSizes;
+}
+
+template <int N>
+Dual<N> BrunetonTables<N>::optical_depth(double height, double mu) const {
+  return optical_depth_.linear({geometry_.r_texel(height, Sizes::transmittance_r),
+                                between(Shared<double>{}.unit_from_upward_ray(
+                                            height, mu, geometry_.bottom(), geometry_.thickness()),
+                                        Sizes::transmittance_mu)});
+}
+
+template <int N>
+typename BrunetonTables<N>::InScatter BrunetonTables<N>::in_scatter(double height, double mu,
+                                                                    double mu_s, double nu,
+                                                                    bool ground) const {
+  const std::array<Between, 4> at = {
+      geometry_.r_texel(height, Sizes::r), geometry_.mu_texel(height, mu, ground),
+      geometry_.sun_texel(mu_s), between(Shared<double>{}.bruneton_unit_from_nu(nu), Sizes::nu)};
+  const double dusk = deep_twilight(mu_s, kTableLowestSun);
+  return {dusk * rayleigh_like_.linear(at), dusk * single_mie_.linear(at)};
+}
+
+template <int N>
+Dual<N> BrunetonTables<N>::sky_irradiance(double height, double mu_s) const {
+  return irradiance_.linear({between(height / geometry_.thickness(), Sizes::irradiance_r),
+                             between(0.5 * (mu_s + 1), Sizes::irradiance_mu_s)});
+}
+
+template <int N>
+RayLight<N> BrunetonTables<N>::light(const View& view) const {
+  const ViewRay& ray = view.ray;
+  RayLight<N> light;
+  if (ray.length > 0) {
+    const InScatter in =
+        in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, view.nu, ray.hits_ground);
+    light.air = Shared<double>{}.rayleigh_phase(air_.depolarisation, view.nu) * in.rayleigh_like;
+    light.aerosol = aerosol_phase(air_.phase, view.nu) * in.single_mie;
+  }
+  if (ray.hits_ground) {
+    light.ground = ground_light(geometry_.shells(), air_, view,
+                                [&](double mu_s) { return sky_irradiance(0, mu_s); });
+  }
+  return light;
+}
+
+template <int N>
+std::size_t BrunetonTables<N>::bytes() const {
+  return optical_depth_.bytes() + irradiance_.bytes() + rayleigh_like_.bytes() +
+         single_mie_.bytes();
+}
+
+template class BrunetonTables<0>;
+template class BrunetonTables<kTablesAtOnce>;
+
+}  // namespace skyfit::literature
