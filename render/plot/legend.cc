@@ -7,7 +7,7 @@ namespace skyfit::plot {
 namespace {
 
 constexpr double kMarkWidth = 30, kMarkGap = 6, kEntryGap = 24;
-constexpr double kCharacterWidth = 7.3;  // mean of DejaVu Sans at this size
+constexpr double kCharacterWidth = 8.2;  // mean of DejaVu Sans at this size, with some air
 
 double width_of(const LegendEntry& entry) {
   const auto characters =
