@@ -62,7 +62,8 @@ FrameOptions frame_options(const RenderOptions& options, const CLI::App& command
 }
 
 ToneOptions tone_options(const std::string& stops) {
-  ToneOptions tone{parse_number("--exposure-stops", stops)};
+  ToneOptions tone;
+  tone.exposure_stops = parse_number("--exposure-stops", stops);
   if (std::abs(tone.exposure_stops) <= kMaxStops) return tone;
   throw UsageError("--exposure-stops", stops,
                    fmt::format("expected stops from {} to {}", -kMaxStops, kMaxStops));

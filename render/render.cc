@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "model/module_file.h"
 #include "render/module/module.h"
@@ -19,28 +19,57 @@ const RenderModule& module() {
   return opened;
 }
 
-void add_metadata(const Preset& preset, const FrameOptions& options, Frame& frame) {
+void add_metadata(const std::string& preset, const FrameOptions& options, Frame& frame) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   const Camera& camera = options.camera;
   const auto add = [&](const char* name, double value) {
     frame.metadata.emplace_back(name, fmt::format("{:.9g}", value));
   };
-  frame.metadata.emplace_back("skyfit:preset", preset_to_json(preset));
+  frame.metadata.emplace_back("skyfit:preset", preset);
   add("skyfit:sun_zenith_deg", options.sun_zenith * kDegrees);
   add("skyfit:camera_altitude_m", camera.altitude_m);
   add("skyfit:camera_view_zenith_deg", camera.view_zenith * kDegrees);
   add("skyfit:camera_azimuth_deg", camera.azimuth * kDegrees);
   add("skyfit:camera_vertical_fov_deg", camera.vertical_fov * kDegrees);
+  if (options.site) {
+    add("skyfit:latitude_deg", options.site->latitude * kDegrees);
+    add("skyfit:longitude_deg", options.site->longitude * kDegrees);
+    add("skyfit:sun_azimuth_deg", options.site->sun_azimuth * kDegrees);
+  }
 }
 
 }  // namespace
 
+Renderer::Renderer(const Scene& scene, GraphicsDevice device) {
+  validate(scene);
+  drawer_ = module().make_drawer(scene, device);
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tables) {
+  drawer_->set_atmosphere(tables);
+  preset_ = preset_to_json(preset);
+}
+
+double Renderer::ground_height_m(const std::optional<Site>& site) const {
+  return drawer_->ground_height_m(site);
+}
+
+Frame Renderer::draw(const FrameOptions& options, const std::function<void(double)>& progress) {
+  validate(options);
+  if (preset_.empty()) throw std::logic_error("render: a frame needs an atmosphere");
+  Frame frame = drawer_->draw(options, progress);
+  add_metadata(preset_, options, frame);
+  return frame;
+}
+
 Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
                    const FrameOptions& options, const std::function<void(double)>& progress) {
   validate(options);
-  Frame frame = module().render_frame(tables, options, progress);
-  add_metadata(preset, options, frame);
-  return frame;
+  Renderer renderer;
+  renderer.set_atmosphere(preset, tables);
+  return renderer.draw(options, progress);
 }
 
 void write_exr(const Frame& frame, const fs::path& file) { module().write_exr(frame, file); }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -32,30 +33,124 @@ struct Camera {
   double vertical_fov = 1.0;
 };
 
+// A place on the planet: the sun's azimuth is counted from north over east.
+struct Site {
+  double latitude = 0, longitude = 0;
+  double sun_azimuth = 0;
+};
+
 struct NamedView {
   std::string_view name;
-  Camera camera;
-  double sun_zenith;  // a sun that suits the view
+  Camera camera;             // its altitude counts from the ground below when there is a site
+  double sun_zenith;         // a sun that suits the view
+  std::optional<Site> site;  // without one: a coast that every planet has
   std::string_view meaning;
 };
 
-// The names that find_view accepts: ground, sunset, away, 10km, limb, space.
+// The names that find_view accepts: ground, sunset, away, valley, 10km, orbit, limb, space.
 std::span<const NamedView> named_views();
 
 // Throws std::invalid_argument that lists the known names.
 const NamedView& find_view(std::string_view name);
 
+// A triangle mesh on the planet: its origin at the place, its y axis up, its -z axis toward the
+// heading (from north over east), its unit a metre.
+struct PlacedMesh {
+  std::filesystem::path file;  // Wavefront OBJ
+  double latitude = 0, longitude = 0;
+  double altitude_m = 0;  // of the origin, above the bottom radius
+  double heading = 0;
+  double scale = 1;
+  double reflectance = 0.3;  // where the file names no material: Lambert, of every colour
+};
+
+// What stands on the planet and stays there.
+struct Scene {
+  // Heights of an equirectangular picture (twice as wide as high, north up, its left edge at -180
+  // degrees) or of a cube's six faces side by side (+x, -x, +y, -y, +z, -z; +z is the north pole).
+  // Its darkest value is lowest_m above the bottom radius, its brightest highest_m; what lies below
+  // the water is flat. Without one: a planet of noise.
+  std::filesystem::path height_map;
+  double lowest_m = 0, highest_m = 9000;
+  // sRGB colours of the ground, laid out as the height map; without one: materials by height and
+  // slope.
+  std::filesystem::path color_map;
+  double water_level_m = 0;  // above the bottom radius
+  std::vector<PlacedMesh> meshes;
+  // A directory of the materials' textures; those that are missing are made and saved there. Empty:
+  // made and not saved.
+  std::filesystem::path textures;
+};
+
+// Another sun of the same colour and angular size in the same sky; its irradiance as a share of the
+// first's.
+struct SecondSun {
+  double zenith = 1, azimuth = 1;  // azimuth relative to the first
+  double irradiance = 0.2;
+};
+
+// A grey sphere; its centre as seen from the camera. The default is the Earth's moon.
+struct Moon {
+  double zenith = 1, azimuth = 1;  // azimuth relative to the sun
+  double distance_m = 384.4e6, radius_m = 1737.4e3;
+  double reflectance = 0.12;
+};
+
+// A thin sheet of white clouds that dims and scatters like a Lambertian surface seen from both
+// sides: no scattering inside, no thickness.
+struct CloudLayer {
+  double altitude_m = 3000;  // above the bottom radius
+  double cover = 0.5;        // share of the sky
+  double opacity = 0.9;      // of the densest clouds
+};
+
+// How the air between the eye and what it sees is evaluated.
+enum class AerialPerspective {
+  kPerPixel,  // two look-ups of every pixel
+  kVolume,    // a volume of 32 x 32 x 16 over the view frustum, Bodare & Sandberg 2014, 6.4.2
+};
+
 struct FrameOptions {
   int width = 1280, height = 720;
   Camera camera;
+  std::optional<Site> site;  // without one: the coast
   double sun_zenith = 0.5;
-  int samples_per_side = 2;   // each pixel is the mean of samples_per_side^2 samples: 1 to 4
-  bool keep_gbuffer = false;  // fill Frame::normal and Frame::reflectance
+  int samples_per_side = 2;  // each pixel is the mean of samples_per_side^2 samples: 1 to 4
+  AerialPerspective aerial = AerialPerspective::kPerPixel;
+  bool shadows = false;  // of the terrain, on the ground and in the air
+  std::optional<SecondSun> second_sun;
+  std::optional<Moon> moon;
+  std::optional<CloudLayer> clouds;
+  bool layers = false;        // fill Frame::layers
+  double samples_per_quad = 8;  // side of a terrain quad in the picture, in samples: 1 to 64
 };
 
 // Throws std::invalid_argument `render.name = value: must be ...` for the first option out of
 // range.
 void validate(const FrameOptions& options);
+void validate(const Scene& scene);
+
+// What the picture is made of, each [pixel][3]; colours are linear sRGB.
+struct FrameLayers {
+  std::vector<float> in_scatter;     // cd/m^2: of the air between the eye and what it sees, or of the sky
+  std::vector<float> reflected;      // cd/m^2: of ground, objects and clouds, as it arrives at the eye
+  std::vector<float> transmittance;  // of sunlight, from what is seen to the eye; of sky: to space
+  std::vector<float> normal;         // camera frame; 0 for sky
+  std::vector<float> albedo;         // of sunlight; 0 for sky
+};
+
+struct PassTime {
+  std::string pass;
+  double milliseconds;
+};
+
+struct FrameStatistics {
+  std::int64_t triangles = 0;  // drawn into the G-buffer
+  int blocks_drawn = 0, blocks_outside = 0, blocks_behind = 0;  // outside: of the frustum; behind: the horizon
+  int blocks_made = 0;           // that were not in the store of an earlier frame
+  std::vector<PassTime> passes;  // by the device's timers
+  double milliseconds = 0;       // of the whole frame, reading back not counted
+};
 
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
 struct Frame {
@@ -66,30 +161,66 @@ struct Frame {
   std::vector<float> view_azimuth_deg;  // [pixel] relative to the sun, -180 .. 180
   std::vector<float>
       depth_m;  // [pixel] nearest distance from the camera along the ray, infinite for sky
-  std::vector<float> normal;       // [pixel][3] or empty
-  std::vector<float> reflectance;  // [pixel][4] at the nodes of the colour rule, or empty
-  std::int64_t triangles = 0;      // drawn into the G-buffer
+  std::optional<FrameLayers> layers;
+  FrameStatistics statistics;
   std::vector<std::pair<std::string, std::string>>
       metadata;  // preset, sun, camera, version; written with the image
 };
 
-// `tables` must come from the preset's atmosphere. Progress in 0..1; may be empty. Throws
-// std::invalid_argument for options that validate() refuses and std::runtime_error when there is no
-// OpenGL to draw with.
+// What draws: OSMesa's software or, by EGL, a GPU (or Mesa's software where there is none).
+enum class GraphicsDevice { kSoftware, kGpu };
+
+class FrameDrawer;  // of the module, render/module/module.h
+
+// Draws frames of one planet. Belongs to the thread that made it. Not copied: it holds the device's
+// memory.
+class Renderer {
+ public:
+  // Throws std::invalid_argument for a scene that validate() refuses, std::runtime_error that names
+  // a file that cannot be read or says that there is no OpenGL to draw with.
+  explicit Renderer(const Scene& scene = {}, GraphicsDevice device = GraphicsDevice::kSoftware);
+  ~Renderer();
+
+  // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere. Throws
+  // std::invalid_argument when the planet has another radius than before.
+  void set_atmosphere(const Preset& preset, const AtmosphereTables& tables);
+
+  // Height of the ground above the bottom radius, in metres, at a place or at the coast. Needs an
+  // atmosphere, which knows the radius.
+  double ground_height_m(const std::optional<Site>& site) const;
+
+  // Progress in 0..1; may be empty. Throws std::invalid_argument for options that validate() refuses
+  // and for a camera below the ground.
+  Frame draw(const FrameOptions& options, const std::function<void(double)>& progress = {});
+
+ private:
+  std::unique_ptr<FrameDrawer> drawer_;
+  std::string preset_;  // as JSON
+};
+
+// One frame of a planet of noise.
 Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
                    const FrameOptions& options, const std::function<void(double)>& progress = {});
 
 // OpenEXR, 32-bit float: R, G, B, luminance.Y, view.zenith_deg, view.azimuth_deg, Z (metres,
-// infinite for sky), with Frame::metadata as attributes `skyfit:...` and the chromaticities of
-// sRGB. The file appears whole or not at all; throws std::runtime_error that names it.
+// infinite for sky) and, where the frame has layers, inscatter.R, .G, .B, reflected.R, .G, .B,
+// transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with Frame::metadata as attributes
+// `skyfit:...` and the chromaticities of sRGB. The file appears whole or not at all; throws std::runtime_error that names it.
 void write_exr(const Frame& frame, const std::filesystem::path& file);
 
-struct ToneOptions {
-  double exposure_stops = 0;  // added to the automatic exposure
+enum class ToneCurve {
+  kFilmic,       // a fit of the ACES film curve, Narkowicz 2015
+  kExponential,  // 1 - exp(-k L), Sperlhofer 2011
 };
 
-// PNG, 8 bit sRGB, tone-mapped: exposure from the mean logarithm of the luminance, filmic curve,
-// dithered.
+struct ToneOptions {
+  double exposure_stops = 0;       // added to the automatic exposure, or to `exposure`
+  std::optional<double> exposure;  // k, m^2/cd; without one: from the mean logarithm of the
+                                   // luminance, within limits
+  ToneCurve curve = ToneCurve::kFilmic;
+};
+
+// PNG, 8 bit sRGB, dithered.
 void write_png(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone = {});
 
 }  // namespace skyfit

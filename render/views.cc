@@ -12,35 +12,52 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-constexpr std::array<NamedView, 6> kViews = {{
+constexpr std::array<NamedView, 8> kViews = {{
     {"ground",
      {2, 76 * kDegree, 0, 65 * kDegree},
-     60 * kDegree,
-     "2 m above a plain, toward the sun"},
+     40 * kDegree,
+     {},
+     "2 m above a plain, toward the sun, about noon"},
     {"sunset",
      {2, 84 * kDegree, 0, 45 * kDegree},
      88 * kDegree,
+     {},
      "2 m above a plain, toward a low sun"},
     {"away",
      {2, 80 * kDegree, 180 * kDegree, 60 * kDegree},
      75 * kDegree,
+     {},
      "2 m above a plain, away from the sun"},
+    {"valley",
+     {200, 88 * kDegree, -70 * kDegree, 60 * kDegree},
+     60 * kDegree,
+     Site{0.3, 0.2, 0},
+     "in the mountains, along a valley"},
     {"10km",
      {10e3, 95 * kDegree, -80 * kDegree, 60 * kDegree},
      60 * kDegree,
+     {},
      "from 10 km, over the mountains"},
+    {"orbit",
+     {400e3, 125 * kDegree, 150 * kDegree, 50 * kDegree},
+     50 * kDegree,
+     {},
+     "from 400 km, down to the ground"},
     {"limb",
      {400e3, 106 * kDegree, -100 * kDegree, 40 * kDegree},
      70 * kDegree,
+     {},
      "from 400 km, the planet's limb"},
     {"space",
      {11e6, 180 * kDegree, 90 * kDegree, 50 * kDegree},
      45 * kDegree,
+     {},
      "from 11 000 km, the full disc"},
 }};
 
 constexpr int kMaxSide = 16384;
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
+constexpr double kMaxLength = 1e12;  // m
 
 void require(bool good, std::string_view name, double value, std::string_view expected) {
   if (!good)
@@ -49,6 +66,19 @@ void require(bool good, std::string_view name, double value, std::string_view ex
 }
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
+
+// A zenith angle, and the azimuth that belongs to it.
+void require_direction(std::string_view name, double zenith, double azimuth) {
+  require(within(zenith, 0, std::numbers::pi), fmt::format("{}.zenith", name), zenith, "0 to pi");
+  require(std::isfinite(azimuth), fmt::format("{}.azimuth", name), azimuth, "finite");
+}
+
+void require_place(std::string_view name, double latitude, double longitude) {
+  require(std::abs(latitude) <= std::numbers::pi / 2, fmt::format("{}.latitude", name), latitude,
+          "-90 to 90 degrees in radians");
+  require(std::abs(longitude) <= 2 * std::numbers::pi, fmt::format("{}.longitude", name), longitude,
+          "-360 to 360 degrees in radians");
+}
 
 }  // namespace
 
@@ -72,6 +102,8 @@ void validate(const FrameOptions& options) {
           "at most 67108864 pixels");
   require(within(options.samples_per_side, 1, 4), "samples_per_side", options.samples_per_side,
           "1 to 4");
+  require(within(options.samples_per_quad, 1, 64), "samples_per_quad", options.samples_per_quad,
+          "1 to 64");
   require(within(camera.altitude_m, 1, 1e9), "camera.altitude_m", camera.altitude_m, "1 to 1e9 m");
   require(within(camera.view_zenith, 0, std::numbers::pi), "camera.view_zenith", camera.view_zenith,
           "0 to pi");
@@ -80,6 +112,46 @@ void validate(const FrameOptions& options) {
           camera.vertical_fov, "1 to 150 degrees in radians");
   require(within(options.sun_zenith, 0, std::numbers::pi), "sun_zenith", options.sun_zenith,
           "0 to pi");
+  if (options.site) {
+    require_place("site", options.site->latitude, options.site->longitude);
+    require(std::isfinite(options.site->sun_azimuth), "site.sun_azimuth", options.site->sun_azimuth,
+            "finite");
+  }
+  if (const auto& sun = options.second_sun) {
+    require_direction("second_sun", sun->zenith, sun->azimuth);
+    require(within(sun->irradiance, 0, 1e3), "second_sun.irradiance", sun->irradiance,
+            "0 to 1000 of the first sun's");
+  }
+  if (const auto& moon = options.moon) {
+    require_direction("moon", moon->zenith, moon->azimuth);
+    require(within(moon->radius_m, 1, kMaxLength), "moon.radius_m", moon->radius_m, "1 to 1e12 m");
+    require(moon->distance_m > moon->radius_m && moon->distance_m <= kMaxLength, "moon.distance_m",
+            moon->distance_m, "more than its radius and at most 1e12 m");
+    require(within(moon->reflectance, 0, 1), "moon.reflectance", moon->reflectance, "0 to 1");
+  }
+  if (const auto& clouds = options.clouds) {
+    require(within(clouds->altitude_m, 1, 1e5), "clouds.altitude_m", clouds->altitude_m,
+            "1 to 1e5 m");
+    require(within(clouds->cover, 0, 1), "clouds.cover", clouds->cover, "0 to 1");
+    require(within(clouds->opacity, 0, 1), "clouds.opacity", clouds->opacity, "0 to 1");
+  }
+}
+
+void validate(const Scene& scene) {
+  constexpr double kHighest = 1e5;  // m
+  require(within(scene.lowest_m, -kHighest, kHighest), "lowest_m", scene.lowest_m,
+          "-1e5 to 1e5 m");
+  require(scene.highest_m > scene.lowest_m && scene.highest_m <= kHighest, "highest_m",
+          scene.highest_m, "more than lowest_m and at most 1e5 m");
+  require(within(scene.water_level_m, 0, kHighest), "water_level_m", scene.water_level_m,
+          "0 to 1e5 m");
+  for (const PlacedMesh& mesh : scene.meshes) {
+    require_place("mesh", mesh.latitude, mesh.longitude);
+    require(within(mesh.altitude_m, 0, 1e9), "mesh.altitude_m", mesh.altitude_m, "0 to 1e9 m");
+    require(std::isfinite(mesh.heading), "mesh.heading", mesh.heading, "finite");
+    require(within(mesh.scale, 1e-6, 1e9), "mesh.scale", mesh.scale, "1e-6 to 1e9");
+    require(within(mesh.reflectance, 0, 1), "mesh.reflectance", mesh.reflectance, "0 to 1");
+  }
 }
 
 }  // namespace skyfit

@@ -75,21 +75,6 @@ void resolve_light(const FrameGraph& graph, int samples, Frame& frame) {
   });
 }
 
-void resolve_gbuffer(const FrameGraph& graph, int samples, Frame& frame) {
-  const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
-  const std::vector<float> shape = graph.read_back("normal_reflectance", GL_RGBA, 4);
-  const std::vector<float> color = graph.read_back("color", GL_RGBA, 4);
-  frame.normal.assign(3 * pixels, 0);
-  frame.reflectance.assign(4 * pixels, 0);
-  // The last sample of each pixel: normals have no mean across an edge.
-  for_samples(frame, samples, [&](std::size_t pixel, std::size_t sample) {
-    for (std::size_t k = 0; k < 3; ++k) frame.normal[3 * pixel + k] = shape[4 * sample + k];
-    const float scale = shape[4 * sample + 3] * std::numbers::pi_v<float>;
-    for (std::size_t k = 0; k < 4; ++k)
-      frame.reflectance[4 * pixel + k] = scale * color[4 * sample + k];
-  });
-}
-
 void add_directions(const Camera& camera, Frame& frame) {
   const ViewBasis basis = view_basis(camera);
   const double tall = std::tan(0.5 * camera.vertical_fov);
@@ -106,48 +91,67 @@ void add_directions(const Camera& camera, Frame& frame) {
   }
 }
 
+class GlRenderer final : public FrameDrawer {
+ public:
+  GlRenderer(const Scene&, GraphicsDevice) : context_(make_osmesa_context()) {}
+
+  void set_atmosphere(const AtmosphereTables& tables) override {
+    const double bottom = tables.atmosphere.bottom_radius_m;
+    relief_.emplace(bottom, tables.atmosphere.ground_albedo);
+    bottom_m_ = bottom;
+    add_tables(tables, graph_);
+    atmosphere_.emplace(tables);
+  }
+
+  double ground_height_m(const std::optional<Site>&) const override {
+    return relief_->height_m(relief_->site_z(), 0.1);
+  }
+
+  Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) override {
+    const auto report = [&](double done) {
+      if (progress) progress(done);
+    };
+    const double aspect = static_cast<double>(options.width) / options.height;
+    FrameOptions sampled = options;
+    sampled.samples_per_side = affordable_samples(options);
+    const int samples = sampled.samples_per_side;
+    TerrainSettings settings;
+    settings.pixel_angle = options.camera.vertical_fov / (options.height * samples);
+    const TerrainMesh mesh = make_terrain(*relief_, bottom_m_, options.camera, aspect, settings);
+    report(0.5);
+    add_targets(options.width * samples, options.height * samples, graph_);
+    const TerrainPass terrain(mesh);
+    const Projection projection = make_projection(options.camera, aspect);
+    const std::vector<Pass> passes = {
+        {"terrain", {}, {"color", "normal_reflectance", "depth"}, [&] { terrain.draw(projection); }},
+        {"atmosphere", kAtmosphereReads, {"light", "distance"}, [&] {
+           atmosphere_->draw(projection, sampled);
+         }}};
+    graph_.run(passes);
+    report(0.8);
+
+    Frame frame;
+    frame.width = options.width;
+    frame.height = options.height;
+    frame.statistics.triangles = terrain.triangles();
+    resolve_light(graph_, samples, frame);
+    add_directions(options.camera, frame);
+    report(1);
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<GlContext> context_;
+  FrameGraph graph_;
+  double bottom_m_ = 0;
+  std::optional<Relief> relief_;
+  std::optional<AtmospherePass> atmosphere_;
+};
+
 }  // namespace
 
-Frame draw_frame(const AtmosphereTables& tables, const FrameOptions& options,
-                 const std::function<void(double)>& progress) {
-  const auto report = [&](double done) {
-    if (progress) progress(done);
-  };
-  const double bottom = tables.atmosphere.bottom_radius_m;
-  const double aspect = static_cast<double>(options.width) / options.height;
-  const std::unique_ptr<GlContext> context = make_osmesa_context();
-  FrameOptions sampled = options;
-  sampled.samples_per_side = affordable_samples(options);
-  const int samples = sampled.samples_per_side;
-
-  const Relief relief(bottom, tables.atmosphere.ground_albedo);
-  TerrainSettings settings;
-  settings.pixel_angle = options.camera.vertical_fov / (options.height * samples);
-  const TerrainMesh mesh = make_terrain(relief, bottom, options.camera, aspect, settings);
-  report(0.5);
-  FrameGraph graph;
-  add_targets(options.width * samples, options.height * samples, graph);
-  add_tables(tables, graph);
-  const TerrainPass terrain(mesh);
-  const AtmospherePass atmosphere(tables);
-  const Projection projection = make_projection(options.camera, aspect);
-  const std::vector<Pass> passes = {
-      {"terrain", {}, {"color", "normal_reflectance", "depth"}, [&] { terrain.draw(projection); }},
-      {"atmosphere", kAtmosphereReads, {"light", "distance"}, [&] {
-         atmosphere.draw(projection, sampled);
-       }}};
-  graph.run(passes);
-  report(0.8);
-
-  Frame frame;
-  frame.width = options.width;
-  frame.height = options.height;
-  frame.triangles = terrain.triangles();
-  resolve_light(graph, samples, frame);
-  if (options.keep_gbuffer) resolve_gbuffer(graph, samples, frame);
-  add_directions(options.camera, frame);
-  report(1);
-  return frame;
+std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device) {
+  return std::make_unique<GlRenderer>(scene, device);
 }
 
 }  // namespace skyfit

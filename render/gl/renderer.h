@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a frame: the terrain into the G-buffer, the atmosphere over it, and the samples of a pixel
-// into one.
+// Draws frames: the planet and what stands on it into the G-buffer, the atmosphere over it, and the
+// samples of a pixel into one.
 #pragma once
 
-#include <functional>
+#include <memory>
 
-#include "render/render.h"
+#include "render/module/module.h"
 
 namespace skyfit {
 
-// As render_frame() of render.h, without the preset's metadata.
-Frame draw_frame(const AtmosphereTables& tables, const FrameOptions& options,
-                 const std::function<void(double)>& progress);
+// What the Renderer of render.h draws with.
+std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device);
 
 }  // namespace skyfit

@@ -70,7 +70,11 @@ double automatic_exposure(const Frame& frame) {
 }
 
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone) {
-  const double exposure = automatic_exposure(frame) * std::exp2(tone.exposure_stops);
+  const double exposure =
+      tone.exposure.value_or(automatic_exposure(frame)) * std::exp2(tone.exposure_stops);
+  const auto curve = [&](double x) {
+    return tone.curve == ToneCurve::kFilmic ? film(x) : 1 - std::exp(-std::max(x, 0.0));
+  };
   std::vector<std::uint8_t> bytes(frame.rgb.size());
   for (std::size_t pixel = 0; pixel < frame.luminance.size(); ++pixel) {
     std::array<double, 3> rgb{};
@@ -79,7 +83,7 @@ std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& ton
     for (std::size_t k = 0; k < 3; ++k) {
       const auto index = static_cast<std::uint32_t>(3 * pixel + k);
       const double noise = white_noise(2 * index) - white_noise(2 * index + 1);
-      const double level = 255 * srgb_transfer(film(rgb[k])) + 0.5 + noise;
+      const double level = 255 * srgb_transfer(curve(rgb[k])) + 0.5 + noise;
       bytes[3 * pixel + k] = static_cast<std::uint8_t>(std::clamp(std::floor(level), 0.0, 255.0));
     }
   }

@@ -6,7 +6,7 @@
 
 extern "C" __attribute__((visibility("default"))) const void* skyfit_render_module() {
   static constexpr skyfit::RenderModule kModule = {skyfit::RenderModule::kRevision,
-                                                   skyfit::draw_frame, skyfit::write_exr_file,
+                                                   skyfit::make_drawer, skyfit::write_exr_file,
                                                    skyfit::write_png_file};
   return &kModule;
 }

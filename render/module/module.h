@@ -4,16 +4,25 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 #include "render/render.h"
 
 namespace skyfit {
 
+// Renderer of render.h, without the preset's metadata.
+class FrameDrawer {
+ public:
+  virtual ~FrameDrawer() = default;
+  virtual void set_atmosphere(const AtmosphereTables& tables) = 0;
+  virtual double ground_height_m(const std::optional<Site>& site) const = 0;
+  virtual Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) = 0;
+};
+
 struct RenderModule {
-  static constexpr int kRevision = 1;
+  static constexpr int kRevision = 2;
   int revision;
-  Frame (*render_frame)(const AtmosphereTables&, const FrameOptions&,
-                        const std::function<void(double)>&);
+  std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice);
   void (*write_exr)(const Frame&, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);
 };
