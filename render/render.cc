@@ -46,6 +46,7 @@ Renderer::Renderer(const Scene& scene, GraphicsDevice device) {
 }
 
 Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
 
 void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tables) {
   drawer_->set_atmosphere(tables);

@@ -180,6 +180,7 @@ class Renderer {
   // a file that cannot be read or says that there is no OpenGL to draw with.
   explicit Renderer(const Scene& scene = {}, GraphicsDevice device = GraphicsDevice::kSoftware);
   ~Renderer();
+  Renderer(Renderer&&) noexcept;
 
   // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere. Throws
   // std::invalid_argument when the planet has another radius than before.

@@ -82,6 +82,7 @@ void AtmospherePass::draw(const Projection& projection, const FrameOptions& opti
   uniforms.set("sun", glm::vec3(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith)));
   uniforms.set("pixel_angle",
                options.camera.vertical_fov / (options.height * options.samples_per_side));
+  glDisable(GL_DEPTH_TEST);
   glUseProgram(program_.id());
   glBindVertexArray(empty_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -9,7 +9,7 @@
 
 #include "render/gl/objects.h"
 #include "render/gl/passes.h"
-#include "render/gl/terrain_pass.h"
+#include "render/gl/projection.h"
 
 namespace skyfit {
 

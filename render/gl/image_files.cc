@@ -49,24 +49,47 @@ void write_whole(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDe
 }  // namespace
 
 void write_exr_file(const Frame& frame, const fs::path& file) {
-  constexpr int kChannels = 7;
-  OIIO::ImageSpec spec(frame.width, frame.height, kChannels, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {"R", "G", "B", "luminance.Y", "view.zenith_deg", "view.azimuth_deg", "Z"};
-  spec.z_channel = kChannels - 1;
+  struct Channel {
+    std::string name;
+    const std::vector<float>& values;
+    std::size_t first, stride;
+  };
+  std::vector<Channel> channels;
+  const auto add = [&](const std::string& layer, const std::vector<float>& values,
+                       std::string_view suffixes) {
+    for (std::size_t k = 0; k < suffixes.size(); ++k) {
+      channels.push_back({layer + suffixes[k], values, k, suffixes.size()});
+    }
+  };
+  add("", frame.rgb, "RGB");
+  add("luminance.", frame.luminance, "Y");
+  channels.push_back({"view.zenith_deg", frame.view_zenith_deg, 0, 1});
+  channels.push_back({"view.azimuth_deg", frame.view_azimuth_deg, 0, 1});
+  const auto depth = static_cast<int>(channels.size());
+  add("", frame.depth_m, "Z");
+  if (const auto& layers = frame.layers) {
+    add("inscatter.", layers->in_scatter, "RGB");
+    add("reflected.", layers->reflected, "RGB");
+    add("transmittance.", layers->transmittance, "RGB");
+    add("normal.", layers->normal, "XYZ");
+    add("albedo.", layers->albedo, "RGB");
+  }
+  OIIO::ImageSpec spec(frame.width, frame.height, static_cast<int>(channels.size()),
+                       OIIO::TypeDesc::FLOAT);
+  spec.channelnames.clear();
+  for (const Channel& channel : channels) spec.channelnames.push_back(channel.name);
+  spec.z_channel = depth;
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
                  kSrgbChromaticities.data());
   for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
   const std::size_t pixels = frame.luminance.size();
-  std::vector<float> packed(pixels * kChannels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::array<float, kChannels> values = {
-        frame.rgb[3 * i],   frame.rgb[3 * i + 1],     frame.rgb[3 * i + 2],
-        frame.luminance[i], frame.view_zenith_deg[i], frame.view_azimuth_deg[i],
-        frame.depth_m[i]};
-    std::copy(values.begin(), values.end(),
-              packed.begin() + static_cast<std::ptrdiff_t>(i) * kChannels);
+  std::vector<float> packed(pixels * channels.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto& [name, values, first, stride] = channels[c];
+    for (std::size_t i = 0; i < pixels; ++i)
+      packed[i * channels.size() + c] = values[i * stride + first];
   }
   write_whole(file, spec, OIIO::TypeDesc::FLOAT, packed.data());
 }
@@ -77,6 +100,13 @@ void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions&
   for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
   const std::vector<std::uint8_t> bytes = tone_mapped(frame, tone);
   write_whole(file, spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+void write_png_texels(std::span<const std::uint8_t> rgba, int width, int height,
+                      const fs::path& file) {
+  OIIO::ImageSpec spec(width, height, 4, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  write_whole(file, spec, OIIO::TypeDesc::UINT8, rgba.data());
 }
 
 }  // namespace skyfit

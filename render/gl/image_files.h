@@ -2,7 +2,9 @@
 // Frames as OpenEXR and PNG files; see render.h.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 
 #include "render/render.h"
 
@@ -10,5 +12,9 @@ namespace skyfit {
 
 void write_exr_file(const Frame& frame, const std::filesystem::path& file);
 void write_png_file(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone);
+
+// RGBA, 8 bit, as they are.
+void write_png_texels(std::span<const std::uint8_t> rgba, int width, int height,
+                      const std::filesystem::path& file);
 
 }  // namespace skyfit

@@ -43,6 +43,26 @@ double corner(std::int64_t x, std::int64_t y, std::int64_t z, const glm::dvec3& 
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
+// `wrapped` turns a lattice coordinate into the one that is hashed.
+template <class Wrapped>
+double lattice_noise(const glm::dvec3& x, Wrapped&& wrapped) {
+  const glm::dvec3 base = glm::floor(x);
+  const glm::dvec3 d = x - base;
+  const auto i = static_cast<std::int64_t>(base.x);
+  const auto j = static_cast<std::int64_t>(base.y);
+  const auto k = static_cast<std::int64_t>(base.z);
+  const double u = fade(d.x), v = fade(d.y), w = fade(d.z);
+  const auto edge = [&](int b, int c) {
+    const std::int64_t row = wrapped(j + b), slice = wrapped(k + c);
+    const double low = corner(wrapped(i), row, slice, d - glm::dvec3(0, b, c));
+    const double high = corner(wrapped(i + 1), row, slice, d - glm::dvec3(1, b, c));
+    return low + u * (high - low);
+  };
+  const double near = edge(0, 0) + v * (edge(1, 0) - edge(0, 0));
+  const double far = edge(0, 1) + v * (edge(1, 1) - edge(0, 1));
+  return near + w * (far - near);
+}
+
 // Calls octave(wavelength, amplitude) from longest to shortest.
 template <class F>
 void for_octaves(double longest, double shortest, F&& octave) {
@@ -61,20 +81,11 @@ glm::dvec3 octave_point(const glm::dvec3& x, double wavelength) {
 }  // namespace
 
 double gradient_noise(const glm::dvec3& x) {
-  const glm::dvec3 base = glm::floor(x);
-  const glm::dvec3 d = x - base;
-  const auto i = static_cast<std::int64_t>(base.x);
-  const auto j = static_cast<std::int64_t>(base.y);
-  const auto k = static_cast<std::int64_t>(base.z);
-  const double u = fade(d.x), v = fade(d.y), w = fade(d.z);
-  const auto edge = [&](int b, int c) {
-    const double low = corner(i, j + b, k + c, d - glm::dvec3(0, b, c));
-    const double high = corner(i + 1, j + b, k + c, d - glm::dvec3(1, b, c));
-    return low + u * (high - low);
-  };
-  const double near = edge(0, 0) + v * (edge(1, 0) - edge(0, 0));
-  const double far = edge(0, 1) + v * (edge(1, 1) - edge(0, 1));
-  return near + w * (far - near);
+  return lattice_noise(x, [](std::int64_t i) { return i; });
+}
+
+double periodic_gradient_noise(const glm::dvec3& x, int period) {
+  return lattice_noise(x, [period](std::int64_t i) { return ((i % period) + period) % period; });
 }
 
 double fractal_noise(const glm::dvec3& x, double longest, double shortest) {

@@ -10,6 +10,9 @@ namespace skyfit {
 // In about -1..1, 0 at lattice points, mean 0, two continuous derivatives. |x| < 2^52.
 double gradient_noise(const glm::dvec3& x);
 
+// The same with a period of `period` lattice steps in each direction.
+double periodic_gradient_noise(const glm::dvec3& x, int period);
+
 // Sum of octaves, each of half the wavelength and half the amplitude of the one before: wavelength
 // `longest` down to `shortest`, the last one faded in so that a changing `shortest` makes no step.
 // The first octave has amplitude 1.

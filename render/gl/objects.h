@@ -48,12 +48,16 @@ struct FramebufferTraits {
 struct VertexArrayTraits {
   static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
 };
+struct QueryTraits {
+  static void destroy(GLuint id) { glDeleteQueries(1, &id); }
+};
 
 using GlProgram = GlObject<ProgramTraits>;
 using GlShader = GlObject<ShaderTraits>;
 using GlTexture = GlObject<TextureTraits>;
 using GlBuffer = GlObject<BufferTraits>;
 using GlFramebuffer = GlObject<FramebufferTraits>;
+using GlQuery = GlObject<QueryTraits>;
 using GlVertexArray = GlObject<VertexArrayTraits>;
 
 }  // namespace skyfit

@@ -24,6 +24,11 @@ GlTexture make_texture(GLenum target) {
 }  // namespace
 
 void FrameGraph::add_target(const std::string& name, GLenum format, int width, int height) {
+  const auto found = textures_.find(name);
+  if (found != textures_.end() && found->second.format == format && found->second.width == width &&
+      found->second.height == height) {
+    return;
+  }
   Texture texture{make_texture(GL_TEXTURE_2D), format, width, height};
   glTextureStorage2D(texture.object.id(), 1, format, width, height);
   check_gl("texture " + name);
@@ -75,17 +80,30 @@ GlFramebuffer FrameGraph::framebuffer(const Pass& pass) const {
   return made;
 }
 
-void FrameGraph::run(std::span<const Pass> passes) const {
+std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
+  std::vector<GlQuery> queries;
   for (const Pass& pass : passes) {
     const GlFramebuffer target = framebuffer(pass);
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
     for (std::size_t unit = 0; unit < pass.reads.size(); ++unit) {
       bind(pass.reads[unit], static_cast<GLuint>(unit));
     }
+    GLuint query = 0;
+    glCreateQueries(GL_TIME_ELAPSED, 1, &query);
+    queries.emplace_back(query);
+    glBeginQuery(GL_TIME_ELAPSED, query);
     pass.draw();
+    glEndQuery(GL_TIME_ELAPSED);
     check_gl("pass " + pass.name);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
+  std::vector<PassTime> times;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(queries[i].id(), GL_QUERY_RESULT, &nanoseconds);
+    times.push_back({passes[i].name, 1e-6 * static_cast<double>(nanoseconds)});
+  }
+  return times;
 }
 
 void FrameGraph::bind(const std::string& name, GLuint unit) const {

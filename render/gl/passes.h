@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame is a list of passes over named textures. The list is the renderer's documentation: what a
 // pass reads is bound to texture units 0, 1, ... in the order of `reads`; what it writes are the
-// colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target.
+// colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target. A texture
+// that a pass both reads and writes must be a depth texture that it does not change.
 #pragma once
 
 #include <functional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "render/gl/objects.h"
+#include "render/render.h"
 
 namespace skyfit {
 
@@ -22,14 +24,15 @@ struct Pass {
 
 class FrameGraph {
  public:
-  // Textures by name; float formats filter linearly and clamp to their edges.
+  // Textures by name; float formats filter linearly and clamp to their edges. A target of the same
+  // format and size stays as it is.
   void add_target(const std::string& name, GLenum format, int width, int height);
   void add_table(const std::string& name, int width, int height, int depth,
                  std::span<const float> rgba);
 
-  // Runs the passes in order. Throws std::runtime_error that names the pass: an unknown texture, an
+  // Runs the passes in order and returns the time that each took by the device's timers. Throws std::runtime_error that names the pass: an unknown texture, an
   // incomplete framebuffer, an OpenGL error.
-  void run(std::span<const Pass> passes) const;
+  std::vector<PassTime> run(std::span<const Pass> passes) const;
 
   void bind(const std::string& name, GLuint unit) const;
 

@@ -12,13 +12,15 @@ namespace skyfit {
 namespace {
 
 constexpr double kEarthRadius = 6360e3;
-constexpr double kMountainHeight = 4200;
-constexpr double kCragHeight = 420;
+// Two scales of mountains: 400 and 2500 cycles per radius.
+constexpr double kMountainHeight = 3250, kMountainLength = kEarthRadius / 400;
+constexpr double kCragHeight = 750, kCragLength = kEarthRadius / 2500;
 constexpr double kHillHeight = 260;
 constexpr double kPlainHeight = 25;
 constexpr double kRoughness = 0.12;  // of the plain at the site
 constexpr double kShore = 0.0015;    // of land_value(): a coast some 8 km wide
 constexpr double kBoulder = 3.2, kBoulderHeight = 0.35;
+constexpr double kSpots = 1500;
 constexpr double kFinest = 0.1;  // no detail below, m
 
 double smoothstep(double low, double high, double x) {
@@ -92,29 +94,29 @@ void Relief::settle_on_a_coast() {
     const double score = value(ahead(here, downhill, -200e3), kCoarse) - sea;
     if (score <= best) continue;
     best = score;
-    z_ = here;
-    x_ = downhill;
+    coast_.z = here;
+    coast_.x = downhill;
   }
   // Along that line to the shore itself.
   double inland = -250e3, offshore = 250e3;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (inland + offshore);
-    (value(ahead(z_, x_, middle), kFine) > 0.5 * kShore ? inland : offshore) = middle;
+    (value(ahead(coast_.z, coast_.x, middle), kFine) > 0.5 * kShore ? inland : offshore) = middle;
   }
-  z_ = ahead(z_, x_, inland);
-  x_ = glm::normalize(x_ - glm::dot(x_, z_) * z_);
-  y_ = glm::cross(z_, x_);
+  coast_.z = ahead(coast_.z, coast_.x, inland);
+  coast_.x = glm::normalize(coast_.x - glm::dot(coast_.x, coast_.z) * coast_.z);
+  coast_.y = glm::cross(coast_.z, coast_.x);
   // Not straight over the water: the coast runs into the picture.
   constexpr double kTurn = 0.8;
-  const glm::dvec3 seaward = x_;
-  x_ = std::cos(kTurn) * seaward + std::sin(kTurn) * y_;
-  y_ = glm::cross(z_, x_);
+  const glm::dvec3 seaward = coast_.x;
+  coast_.x = std::cos(kTurn) * seaward + std::sin(kTurn) * coast_.y;
+  coast_.y = glm::cross(coast_.z, coast_.x);
 }
 
 double Relief::height_m(const glm::dvec3& direction, double resolution_m) const {
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const glm::dvec3 p = direction * kEarthRadius;
-  const double distance = glm::length(direction - z_) * kEarthRadius;
+  const double distance = glm::length(direction - coast_.z) * kEarthRadius;
   const double near_site = 1 - smoothstep(80e3, 400e3, distance);
   const double beach = 1 - smoothstep(300, 600, distance);
   const double continent = land_value(p, resolution);
@@ -136,9 +138,9 @@ double Relief::height_m(const glm::dvec3& direction, double resolution_m) const 
   double height = kPlainHeight * (1 + fractal_noise(p, 30e3, resolution));
   height += kHillHeight * (0.6 + fractal_noise(bent + glm::dvec3(4e5), 7e3, resolution));
   height += kMountainHeight * mountains * massif *
-            ridged_noise(bent, 26e3, std::max(resolution, 4 * resolution - 12e3));
+            ridged_noise(bent, kMountainLength, std::max(resolution, 4 * resolution - 12e3));
   height +=
-      kCragHeight * (0.3 + mountains) * ridged_noise(bent + glm::dvec3(9e5), 3.7e3, resolution);
+      kCragHeight * (0.3 + mountains) * ridged_noise(bent + glm::dvec3(9e5), kCragLength, resolution);
   return std::max(fading * land * height, 0.0) +
          roughness * std::max(smoothstep(0, 0.1 * kShore, continent), beach);
 }
@@ -149,7 +151,7 @@ NodeValues Relief::material(const glm::dvec3& direction, double height_m, double
   const glm::dvec3 p = direction * kEarthRadius;
   const double patches =
       fractal_noise(p + glm::dvec3(2e5, 0, 7e5), 2.4e6, std::max(resolution, 8e3));
-  const double spots = fractal_noise(p, 1500, resolution);
+  const double spots = fractal_noise(p, kSpots, resolution);
   const double grain = fractal_noise(p + glm::dvec3(50), 3, resolution);
   // Where a vertex stands for a whole mountain, the lines between the materials are as wide as its
   // height.
@@ -171,6 +173,20 @@ NodeValues Relief::reflectance(const glm::dvec3& direction, double height_m, dou
     value[k] = std::clamp(albedo_ * (1 + contrast_ * (value[k] / mean_[k] - 1)), 0.0, 1.0);
   }
   return value;
+}
+
+double Relief::rock(const glm::dvec3& direction, double height_m, double steepness,
+                    double resolution_m) const {
+  if (height_m <= 0.01) return -1;
+  const double resolution = std::max(resolution_m / scale_, kFinest);
+  const double spots = fractal_noise(direction * kEarthRadius, kSpots, resolution);
+  const double high = smoothstep(900, 1900, height_m + 500 * spots);
+  return std::max(high, smoothstep(0.04, 0.14, steepness));
+}
+
+double Relief::highest_m() const {
+  // A ridge is at most 1.2 times its first octave; noise of amplitude 1 stays within 1.5.
+  return 1.2 * (kMountainHeight + 1.3 * kCragHeight) + 2.5 * kPlainHeight + 2.1 * kHillHeight;
 }
 
 void Relief::balance_materials() {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
@@ -13,8 +15,8 @@
 #include "render/gl/atmosphere_pass.h"
 #include "render/gl/context.h"
 #include "render/gl/passes.h"
+#include "render/gl/relief.h"
 #include "render/gl/terrain_pass.h"
-#include "render/gl/view_basis.h"
 
 namespace skyfit {
 namespace {
@@ -45,6 +47,17 @@ void add_targets(int width, int height, FrameGraph& graph) {
   graph.add_target("depth", GL_DEPTH_COMPONENT32F, width, height);
   graph.add_target("light", GL_RGBA32F, width, height);
   graph.add_target("distance", GL_R32F, width, height);
+}
+
+void clear_gbuffer() {
+  const std::array<float, 4> nothing{};
+  const float far_depth = 0;
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClearBufferfv(GL_COLOR, 1, nothing.data());
+  glClearBufferfv(GL_DEPTH, 0, &far_depth);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
 }
 
 // Calls f(pixel, sample) for every sample; OpenGL's rows run upward, a frame's downward.
@@ -91,49 +104,116 @@ void add_directions(const Camera& camera, Frame& frame) {
   }
 }
 
+// How finely the planet is drawn: a quad spans options.samples_per_quad samples of the picture, but
+// no block more than 1/50 of its distance (Sperlhofer 2011, C = 50); 9 levels and, near the camera,
+// as many more as show details of a third of a metre.
+constexpr double kLargestRatio = 50, kSmallestRatio = 2;
+constexpr int kFewestLevels = 9;
+constexpr double kFinestQuad = 0.3;  // m
+constexpr std::size_t kMostSelected = 4096;  // blocks of one view, 9 million triangles
+
+int levels_of(double radius) {
+  int levels = kFewestLevels;
+  while (block_arc_m(levels, radius) / kBlockQuads > kFinestQuad) ++levels;
+  return levels;
+}
+
+TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, const Ground& ground,
+                         double radius) {
+  const double aspect = static_cast<double>(options.width) / options.height;
+  TerrainView view;
+  view.axes = axes;
+  view.altitude_m = options.camera.altitude_m;
+  view.basis = view_basis(options.camera);
+  const double tall = std::tan(0.5 * options.camera.vertical_fov);
+  view.tangent = {tall * aspect, tall};
+  view.radius_m = radius;
+  view.highest_m = ground.highest_m();
+  const double sample = 2 * tall / (options.height * options.samples_per_side);
+  view.split_ratio = std::clamp(1 / (kBlockQuads * options.samples_per_quad * sample),
+                                kSmallestRatio, kLargestRatio);
+  view.levels = levels_of(radius);
+  return view;
+}
+
+// Coarser where a picture asks for more blocks than memory should hold.
+BlockSelection affordable_blocks(TerrainView& view) {
+  for (;;) {
+    BlockSelection selection = select_blocks(view);
+    if (selection.blocks.size() <= kMostSelected || view.split_ratio <= kSmallestRatio)
+      return selection;
+    view.split_ratio = std::max(0.8 * view.split_ratio, kSmallestRatio);
+  }
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
 class GlRenderer final : public FrameDrawer {
  public:
-  GlRenderer(const Scene&, GraphicsDevice) : context_(make_osmesa_context()) {}
+  GlRenderer(const Scene& scene, GraphicsDevice) : scene_(scene), context_(make_osmesa_context()) {}
 
   void set_atmosphere(const AtmosphereTables& tables) override {
+    context_->make_current();
     const double bottom = tables.atmosphere.bottom_radius_m;
-    relief_.emplace(bottom, tables.atmosphere.ground_albedo);
-    bottom_m_ = bottom;
+    if (!ground_) {
+      radius_m_ = bottom;
+      auto relief = std::make_unique<Relief>(bottom, tables.atmosphere.ground_albedo);
+      coast_ = relief->coast();
+      ground_ = std::move(relief);
+      terrain_.emplace(*ground_, radius_m_, scene_.textures);
+    } else if (bottom != radius_m_) {
+      throw std::invalid_argument(
+          fmt::format("render.bottom_radius = {:.9g} m: must stay {:.9g} m from frame to frame",
+                      bottom, radius_m_));
+    }
     add_tables(tables, graph_);
     atmosphere_.emplace(tables);
   }
 
-  double ground_height_m(const std::optional<Site>&) const override {
-    return relief_->height_m(relief_->site_z(), 0.1);
+  double ground_height_m(const std::optional<Site>& site) const override {
+    return ground_->height_m(axes_of(site).z, kFinestQuad);
   }
 
   Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) override {
     const auto report = [&](double done) {
       if (progress) progress(done);
     };
-    const double aspect = static_cast<double>(options.width) / options.height;
+    context_->make_current();
+    const SiteAxes axes = axes_of(options.site);
+    require_above_ground(options);
     FrameOptions sampled = options;
     sampled.samples_per_side = affordable_samples(options);
     const int samples = sampled.samples_per_side;
-    TerrainSettings settings;
-    settings.pixel_angle = options.camera.vertical_fov / (options.height * samples);
-    const TerrainMesh mesh = make_terrain(*relief_, bottom_m_, options.camera, aspect, settings);
-    report(0.5);
+    const auto start = std::chrono::steady_clock::now();
+    TerrainView view = terrain_view(sampled, axes, *ground_, radius_m_);
+    BlockSelection selection = affordable_blocks(view);
+    Frame frame;
+    frame.statistics.blocks_made =
+        terrain_->provide(selection.blocks, [&](double done) { report(0.8 * done); });
+    const TerrainDraw blocks = terrain_->prepare(selection, view);
     add_targets(options.width * samples, options.height * samples, graph_);
-    const TerrainPass terrain(mesh);
+    const double aspect = static_cast<double>(options.width) / options.height;
     const Projection projection = make_projection(options.camera, aspect);
     const std::vector<Pass> passes = {
-        {"terrain", {}, {"color", "normal_reflectance", "depth"}, [&] { terrain.draw(projection); }},
+        {"terrain", {}, {"color", "normal_reflectance", "depth"}, [&] {
+           clear_gbuffer();
+           terrain_->draw(blocks, projection, axes);
+         }},
         {"atmosphere", kAtmosphereReads, {"light", "distance"}, [&] {
            atmosphere_->draw(projection, sampled);
          }}};
-    graph_.run(passes);
-    report(0.8);
-
-    Frame frame;
+    frame.statistics.passes = graph_.run(passes);
+    frame.statistics.milliseconds = milliseconds_since(start);
+    frame.statistics.triangles = TerrainPass::triangles(blocks);
+    frame.statistics.blocks_drawn = blocks.blocks;
+    frame.statistics.blocks_outside = selection.outside;
+    frame.statistics.blocks_behind = selection.behind;
+    report(0.9);
     frame.width = options.width;
     frame.height = options.height;
-    frame.statistics.triangles = terrain.triangles();
     resolve_light(graph_, samples, frame);
     add_directions(options.camera, frame);
     report(1);
@@ -141,10 +221,27 @@ class GlRenderer final : public FrameDrawer {
   }
 
  private:
+  SiteAxes axes_of(const std::optional<Site>& site) const {
+    return site ? site_axes(*site) : coast_;
+  }
+
+  void require_above_ground(const FrameOptions& options) const {
+    constexpr double kRoom = 0.3;  // m
+    const double ground = ground_height_m(options.site);
+    if (options.camera.altitude_m < ground + kRoom) {
+      throw std::invalid_argument(
+          fmt::format("render.camera.altitude_m = {:.9g}: must be above the ground, {:.9g} m",
+                      options.camera.altitude_m, ground + kRoom));
+    }
+  }
+
+  Scene scene_;
   std::unique_ptr<GlContext> context_;
   FrameGraph graph_;
-  double bottom_m_ = 0;
-  std::optional<Relief> relief_;
+  double radius_m_ = 0;
+  std::unique_ptr<Ground> ground_;
+  SiteAxes coast_;  // where the camera stands without a site
+  std::optional<TerrainPass> terrain_;
   std::optional<AtmospherePass> atmosphere_;
 };
 

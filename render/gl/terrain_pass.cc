@@ -7,72 +7,151 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
+#include "render/gl/buffers.h"
 #include "render/gl/shader.h"
 #include "render/gl/uniforms.h"
-#include "render/gl/view_basis.h"
 
 namespace skyfit {
 namespace {
 
-template <class T>
-GlBuffer upload(const std::vector<T>& data) {
+// Sizes of the materials' textures: one unit of a texture is this long.
+constexpr double kNearPeriod = 7, kFarPeriod = 1300;  // m
+
+struct BlockInstance {
+  glm::vec3 offset_km;  // of the block's centre from the camera, planet axes
+  float morph_begin_km, morph_end_km;
+  glm::vec3 near_phase, far_phase;  // texture coordinates of the block's centre, 0..1
+};
+
+struct DrawCommand {
+  GLuint count, instances, first_index;
+  GLint base_vertex;
+  GLuint base_instance;
+};
+
+glm::vec3 phase(const glm::dvec3& position, double period) {
+  return glm::vec3(glm::fract(position / period));
+}
+
+const std::vector<std::uint16_t>& indices() {
+  static const std::vector<std::uint16_t> made = block_indices();
+  return made;
+}
+
+GLuint new_array() {
   GLuint id = 0;
-  glCreateBuffers(1, &id);
-  glNamedBufferStorage(id, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), 0);
-  return GlBuffer(id);
+  glCreateVertexArrays(1, &id);
+  return id;
+}
+
+// The distances between which a block becomes the coarser one: at the end the coarser one may be
+// drawn, before the beginning the finer ones may.
+std::pair<double, double> morph_range(const CubeBlock& block, const TerrainView& view) {
+  if (block.level == 0) return {1e30, 2e30};
+  const double end = view.split_ratio * block_arc_m(block.level - 1, view.radius_m);
+  const double diagonals = 0.5 * (1 + 1.6 / view.split_ratio);
+  return {std::max(0.75, diagonals) * end, end};
 }
 
 }  // namespace
 
-Projection make_projection(const Camera& camera, double aspect) {
-  const ViewBasis basis = view_basis(camera);
-  const double tall = std::tan(0.5 * camera.vertical_fov);
-  // Nothing is nearer than the ground below, of which the picture sees at least a quarter of the
-  // height away.
-  const double near_m = std::min(0.25 * camera.altitude_m, 1e3);
-  return {glm::mat3(glm::transpose(glm::dmat3(basis.right, basis.up, -basis.forward))),
-          glm::vec2(tall * aspect, tall), static_cast<float>(1e-3 * near_m)};
-}
-
-TerrainPass::TerrainPass(const TerrainMesh& mesh)
-    : program_(build_program(
+TerrainPass::TerrainPass(const Ground& ground, double radius_m,
+                         const std::filesystem::path& textures)
+    : radius_m_(radius_m),
+      store_(ground, radius_m),
+      program_(build_program(
           std::array{ShaderStage{GL_VERTEX_SHADER, "render/shaders/terrain.vert"},
                      ShaderStage{GL_FRAGMENT_SHADER, "render/shaders/terrain.frag"}})),
-      vertices_(upload(mesh.vertices)),
-      indices_(upload(mesh.indices)),
-      index_count_(static_cast<std::int64_t>(mesh.indices.size())) {
-  GLuint id = 0;
-  glCreateVertexArrays(1, &id);
-  layout_ = GlVertexArray(id);
-  glVertexArrayVertexBuffer(id, 0, vertices_.id(), 0, sizeof(TerrainVertex));
+      depth_program_(build_program(
+          std::array{ShaderStage{GL_VERTEX_SHADER, "render/shaders/terrain_depth.vert"},
+                     ShaderStage{GL_FRAGMENT_SHADER, "render/shaders/depth_only.frag"}})),
+      soil_(material_texture(load_material(Material::kSoil, textures))),
+      rock_(material_texture(load_material(Material::kRock, textures))),
+      indices_(upload(std::span(indices()))),
+      layout_(new_array()) {
+  const GLuint id = layout_.id();
   glVertexArrayElementBuffer(id, indices_.id());
-  const auto attribute = [id](GLuint slot, int size, std::size_t offset) {
+  const auto attribute = [id](GLuint slot, GLuint binding, int size, GLenum type, GLboolean normal,
+                              std::size_t offset) {
     glEnableVertexArrayAttrib(id, slot);
-    glVertexArrayAttribFormat(id, slot, size, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-    glVertexArrayAttribBinding(id, slot, 0);
+    glVertexArrayAttribFormat(id, slot, size, type, normal, static_cast<GLuint>(offset));
+    glVertexArrayAttribBinding(id, slot, binding);
   };
-  attribute(0, 3, offsetof(TerrainVertex, position_km));
-  attribute(1, 3, offsetof(TerrainVertex, normal));
-  attribute(2, 4, offsetof(TerrainVertex, reflectance));
+  attribute(0, 0, 3, GL_FLOAT, GL_FALSE, offsetof(BlockVertex, fine_km));
+  attribute(1, 0, 3, GL_FLOAT, GL_FALSE, offsetof(BlockVertex, coarse_km));
+  attribute(2, 0, 4, GL_SHORT, GL_TRUE, offsetof(BlockVertex, fine_normal));
+  attribute(3, 0, 4, GL_SHORT, GL_TRUE, offsetof(BlockVertex, coarse_normal));
+  attribute(4, 0, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(BlockVertex, fine_reflectance));
+  attribute(5, 0, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(BlockVertex, coarse_reflectance));
+  glVertexArrayBindingDivisor(id, 1, 1);
+  attribute(6, 1, 3, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, offset_km));
+  attribute(7, 1, 2, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, morph_begin_km));
+  attribute(8, 1, 3, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, near_phase));
+  attribute(9, 1, 3, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, far_phase));
+  const Uniforms uniforms(program_.id());
+  uniforms.set("near_per_km", 1e3 / kNearPeriod);
+  uniforms.set("far_per_km", 1e3 / kFarPeriod);
 }
 
-void TerrainPass::draw(const Projection& projection) const {
+TerrainDraw TerrainPass::prepare(BlockSelection& selection, const TerrainView& view) const {
+  if (view.cull) {
+    std::erase_if(selection.blocks, [&](const CubeBlock& block) {
+      const Visibility seen = visibility(block, store_.heights(block), view);
+      if (seen == Visibility::kBehind) ++selection.behind;
+      if (seen == Visibility::kOutside) ++selection.outside;
+      return seen != Visibility::kSeen;
+    });
+  }
+  std::vector<BlockInstance> instances;
+  std::vector<DrawCommand> commands;
+  for (const CubeBlock& block : selection.blocks) {
+    const glm::dvec3 centre = block_centre(block, radius_m_);
+    const auto [begin, end] = morph_range(block, view);
+    commands.push_back({static_cast<GLuint>(indices().size()), 1, 0, store_.first_vertex(block),
+                        static_cast<GLuint>(instances.size())});
+    instances.push_back({glm::vec3(1e-3 * (centre - view.camera())), static_cast<float>(1e-3 * begin),
+                         static_cast<float>(1e-3 * end), phase(centre, kNearPeriod),
+                         phase(centre, kFarPeriod)});
+  }
+  return {upload(std::span<const BlockInstance>(instances)),
+          upload(std::span<const DrawCommand>(commands)), static_cast<int>(commands.size())};
+}
+
+std::int64_t TerrainPass::triangles(const TerrainDraw& draw) {
+  return draw.blocks * static_cast<std::int64_t>(indices().size() / 3);
+}
+
+void TerrainPass::submit(const TerrainDraw& draw) const {
+  if (draw.blocks == 0) return;
+  glVertexArrayVertexBuffer(layout_.id(), 0, store_.vertices(), 0, sizeof(BlockVertex));
+  glVertexArrayVertexBuffer(layout_.id(), 1, draw.instances.id(), 0, sizeof(BlockInstance));
+  glBindVertexArray(layout_.id());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draw.commands.id());
+  glEnable(GL_CULL_FACE);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, nullptr, draw.blocks, 0);
+  glDisable(GL_CULL_FACE);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+}
+
+void TerrainPass::draw(const TerrainDraw& draw, const Projection& projection,
+                       const SiteAxes& axes) const {
+  const glm::dmat3 site_from_planet = axes.site_from_planet();
   const Uniforms uniforms(program_.id());
-  uniforms.set("view_from_site", projection.view_from_site);
+  uniforms.set("site_from_planet", glm::mat3(site_from_planet));
+  uniforms.set("view_from_planet",
+               glm::mat3(glm::dmat3(projection.view_from_site) * site_from_planet));
   uniforms.set("tangent", projection.tangent);
   uniforms.set("near_km", projection.near_km);
-  const std::array<float, 4> nothing{};
-  const float far_depth = 0;
-  glClearBufferfv(GL_COLOR, 0, nothing.data());
-  glClearBufferfv(GL_COLOR, 1, nothing.data());
-  glClearBufferfv(GL_DEPTH, 0, &far_depth);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
+  glBindTextureUnit(0, soil_.id());
+  glBindTextureUnit(1, rock_.id());
   glUseProgram(program_.id());
-  glBindVertexArray(layout_.id());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(index_count_), GL_UNSIGNED_INT, nullptr);
-  glDisable(GL_DEPTH_TEST);
+  submit(draw);
+}
+
+void TerrainPass::draw_depth(const TerrainDraw& draw, const glm::mat4& clip_from_planet) const {
+  Uniforms(depth_program_.id()).set("clip_from_planet", clip_from_planet);
+  glUseProgram(depth_program_.id());
+  submit(draw);
 }
 
 }  // namespace skyfit

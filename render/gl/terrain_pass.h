@@ -1,37 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terrain on the GPU and the pass that draws it into the G-buffer: writes colour, normal and
-// reflectance, depth.
+// The planet's ground in the G-buffer: writes colour, normal and reflectance, depth. Also its depth
+// alone, as a light sees it.
 #pragma once
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
+#include <functional>
+#include <vector>
 
+#include "render/gl/block_store.h"
+#include "render/gl/materials.h"
 #include "render/gl/objects.h"
-#include "render/gl/terrain.h"
+#include "render/gl/planet_tree.h"
+#include "render/gl/projection.h"
+#include "render/gl/site_axes.h"
 
 namespace skyfit {
 
-// What both passes know of the camera. Infinite reversed projection: depth = near / distance along
-// the view axis.
-struct Projection {
-  glm::mat3 view_from_site;
-  glm::vec2 tangent;  // of half the field of view
-  float near_km;
+// Blocks ready to be drawn, relative to a camera.
+struct TerrainDraw {
+  GlBuffer instances, commands;
+  int blocks = 0;
 };
-
-Projection make_projection(const Camera& camera, double aspect);
 
 class TerrainPass {
  public:
-  explicit TerrainPass(const TerrainMesh& mesh);
-  void draw(const Projection& projection) const;
-  std::int64_t triangles() const { return index_count_ / 3; }
+  // `ground` outlives the pass.
+  TerrainPass(const Ground& ground, double radius_m, const std::filesystem::path& textures);
+
+  // Makes the blocks that are missing; those of all selections of a frame in one call, as the store
+  // keeps only what the last call asked for.
+  int provide(std::span<const CubeBlock> blocks, const std::function<void(double)>& progress) {
+    return store_.provide(blocks, progress);
+  }
+
+  // Of a selection that has been provided, without the blocks that their heights hide: counted there.
+  TerrainDraw prepare(BlockSelection& selection, const TerrainView& view) const;
+
+  void draw(const TerrainDraw& draw, const Projection& projection, const SiteAxes& axes) const;
+
+  // `clip_from_planet`: of positions relative to the camera, planet axes, km.
+  void draw_depth(const TerrainDraw& draw, const glm::mat4& clip_from_planet) const;
+
+  static std::int64_t triangles(const TerrainDraw& draw);
 
  private:
-  GlProgram program_;
-  GlBuffer vertices_, indices_;
+  void submit(const TerrainDraw& draw) const;
+
+  double radius_m_;
+  BlockStore store_;
+  GlProgram program_, depth_program_;
+  GlTexture soil_, rock_;
+  GlBuffer indices_;
   GlVertexArray layout_;
-  std::int64_t index_count_ = 0;
 };
 
 }  // namespace skyfit

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -34,6 +35,9 @@ class Uniforms {
   }
   void set(const char* name, const glm::mat3& value) const {
     glProgramUniformMatrix3fv(program_, at(name), 1, GL_FALSE, glm::value_ptr(value));
+  }
+  void set(const char* name, const glm::mat4& value) const {
+    glProgramUniformMatrix4fv(program_, at(name), 1, GL_FALSE, glm::value_ptr(value));
   }
   void set(const char* name, const glm::mat4x3& value) const {
     glProgramUniformMatrix4x3fv(program_, at(name), 1, GL_FALSE, glm::value_ptr(value));

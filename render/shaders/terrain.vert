@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terrain into the G-buffer: positions relative to the camera in kilometres, infinite reversed depth near / distance.
-layout(location = 0) in vec3 position_km;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 reflectance;
+// The ground into the G-buffer: positions relative to the camera in kilometres, infinite reversed depth near / distance.
+#include "render/shaders/terrain_block.glsl"
+layout(location = 2) in vec4 fine_normal;
+layout(location = 3) in vec4 coarse_normal;
+layout(location = 4) in vec4 fine_reflectance;
+layout(location = 5) in vec4 coarse_reflectance;
+layout(location = 8) in vec3 near_phase;
+layout(location = 9) in vec3 far_phase;
 
-uniform mat3 view_from_site;
-uniform vec2 tangent;   // of half the field of view, horizontal and vertical
+uniform mat3 view_from_planet;
+uniform vec2 tangent;  // of half the field of view, horizontal and vertical
 uniform float near_km;
+uniform float near_per_km, far_per_km;  // repetitions of the materials' textures
 
-out vec3 ground_normal;
+out vec4 ground_normal;  // planet axes; share of rock, -1 in water
 out vec4 ground_reflectance;
+out vec3 near_place, far_place;  // texture coordinates
 
 void main() {
-  vec3 view = view_from_site * position_km;
+  float t = morph();
+  vec3 in_block = mix(fine_km, coarse_km, t);
+  vec3 view = view_from_planet * (in_block + offset_km);
   gl_Position = vec4(view.xy / tangent, near_km, -view.z);
-  ground_normal = normal;
-  ground_reflectance = reflectance;
+  ground_normal = mix(fine_normal, coarse_normal, t);
+  ground_reflectance = mix(fine_reflectance, coarse_reflectance, t);
+  near_place = near_phase + near_per_km * in_block;
+  far_place = far_phase + far_per_km * in_block;
 }

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/block_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace skyfit {
+namespace {
+
+constexpr int kSide = kBlockQuads + 1;
+constexpr int kSkirt = 4 * kBlockQuads;
+
+// Column and row of the border's vertices, counterclockwise.
+std::pair<int, int> border(int i) {
+  constexpr int n = kBlockQuads;
+  const int along = i % n;
+  switch (i / n) {
+    case 0:
+      return {along, 0};
+    case 1:
+      return {n, along};
+    case 2:
+      return {n - along, n};
+    default:
+      return {0, n - along};
+  }
+}
+
+// What a vertex shows, in double precision.
+struct Point {
+  glm::dvec3 position, normal;  // position relative to the block's centre, metres
+  double height, rock;
+  NodeValues reflectance;
+};
+
+Point middle(const Point& a, const Point& b) {
+  Point m{0.5 * (a.position + b.position), glm::normalize(a.normal + b.normal),
+          0.5 * (a.height + b.height), 0.5 * (a.rock + b.rock),
+          {}};
+  for (std::size_t k = 0; k < 4; ++k) m.reflectance[k] = 0.5 * (a.reflectance[k] + b.reflectance[k]);
+  return m;
+}
+
+// The square [u0, u1] x [v0, v1] of a block as quads x quads, with the details that such a grid can
+// show.
+class Grid {
+ public:
+  Grid(const CubeBlock& block, int quads, double spacing_m, const Ground& ground, double radius_m,
+       const glm::dvec3& centre)
+      : quads_(quads), stride_(quads + 3) {
+    const double resolution = 2 * spacing_m;
+    // One more around, for the normals.
+    const auto count = static_cast<std::size_t>(stride_) * stride_;
+    directions_.resize(count);
+    heights_.resize(count);
+    positions_.resize(count);
+    for (int row = -1; row <= quads + 1; ++row) {
+      for (int column = -1; column <= quads + 1; ++column) {
+        const std::size_t i = index(column, row);
+        directions_[i] = block_direction(block, static_cast<double>(column) / quads,
+                                         static_cast<double>(row) / quads);
+        heights_[i] = ground.height_m(directions_[i], resolution);
+        positions_[i] = (radius_m + heights_[i]) * directions_[i] - centre;
+      }
+    }
+    points_.reserve(static_cast<std::size_t>(quads + 1) * (quads + 1));
+    for (int row = 0; row <= quads; ++row) {
+      for (int column = 0; column <= quads; ++column) {
+        points_.push_back(point(column, row, ground, resolution));
+      }
+    }
+  }
+
+  const Point& at(int column, int row) const {
+    return points_[static_cast<std::size_t>(row) * (quads_ + 1) + column];
+  }
+
+ private:
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row + 1) * stride_ + (column + 1);
+  }
+
+  Point point(int column, int row, const Ground& ground, double resolution) const {
+    const std::size_t i = index(column, row);
+    const glm::dvec3 along = positions_[index(column + 1, row)] - positions_[index(column - 1, row)];
+    const glm::dvec3 across =
+        positions_[index(column, row + 1)] - positions_[index(column, row - 1)];
+    const glm::dvec3 normal = glm::normalize(glm::cross(along, across));
+    const double steepness = 1 - std::max(glm::dot(normal, directions_[i]), 0.0);
+    return {positions_[i], normal, heights_[i],
+            ground.rock(directions_[i], heights_[i], steepness, resolution),
+            ground.reflectance(directions_[i], heights_[i], steepness, resolution)};
+  }
+
+  int quads_, stride_;
+  std::vector<glm::dvec3> directions_, positions_;
+  std::vector<double> heights_;
+  std::vector<Point> points_;
+};
+
+// A point of the parent's triangles, whose diagonals run from (1, 0) to (0, 1) of a quad.
+Point on_coarse(const Grid& coarse, int column, int row) {
+  const int c = column / 2, r = row / 2;
+  const bool odd_column = column % 2 != 0, odd_row = row % 2 != 0;
+  if (odd_column && odd_row) return middle(coarse.at(c + 1, r), coarse.at(c, r + 1));
+  if (odd_column) return middle(coarse.at(c, r), coarse.at(c + 1, r));
+  if (odd_row) return middle(coarse.at(c, r), coarse.at(c, r + 1));
+  return coarse.at(c, r);
+}
+
+void pack(const Point& point, std::array<float, 3>& position, std::array<std::int16_t, 4>& normal,
+          std::array<std::uint16_t, 4>& reflectance) {
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    position[i] = static_cast<float>(1e-3 * point.position[k]);
+    normal[i] = static_cast<std::int16_t>(std::lround(32767 * point.normal[k]));
+  }
+  normal[3] = static_cast<std::int16_t>(std::lround(32767 * std::clamp(point.rock, -1.0, 1.0)));
+  for (std::size_t k = 0; k < 4; ++k) {
+    reflectance[k] = static_cast<std::uint16_t>(
+        std::lround(65535 * std::clamp(point.reflectance[k], 0.0, 1.0)));
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> block_indices() {
+  std::vector<std::uint16_t> indices;
+  const auto triangle = [&](int a, int b, int c) {
+    for (const int i : {a, b, c}) indices.push_back(static_cast<std::uint16_t>(i));
+  };
+  for (int row = 0; row < kBlockQuads; ++row) {
+    for (int column = 0; column < kBlockQuads; ++column) {
+      const int a = row * kSide + column, b = a + 1, c = a + kSide, d = c + 1;
+      triangle(a, b, c);
+      triangle(b, d, c);
+    }
+  }
+  for (int i = 0; i < kSkirt; ++i) {
+    const auto [column, row] = border(i);
+    const auto [next_column, next_row] = border((i + 1) % kSkirt);
+    const int a = row * kSide + column, b = next_row * kSide + next_column;
+    const int below_a = kSide * kSide + i, below_b = kSide * kSide + (i + 1) % kSkirt;
+    triangle(a, below_a, b);
+    triangle(b, below_a, below_b);
+  }
+  return indices;
+}
+
+glm::dvec3 block_centre(const CubeBlock& block, double radius_m) {
+  return radius_m * block_direction(block, 0.5, 0.5);
+}
+
+HeightRange make_block(const CubeBlock& block, const Ground& ground, double radius_m,
+                std::span<BlockVertex> out) {
+  const double spacing = block_arc_m(block.level, radius_m) / kBlockQuads;
+  const glm::dvec3 centre = block_centre(block, radius_m);
+  const Grid fine(block, kBlockQuads, spacing, ground, radius_m, centre);
+  // The part of the parent that the block covers, as the parent shows it.
+  const bool has_parent = block.level > 0;
+  const Grid coarse(block, has_parent ? kBlockQuads / 2 : 1, 2 * spacing, ground, radius_m, centre);
+  HeightRange heights{1e300, -1e300};
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      BlockVertex& vertex = out[static_cast<std::size_t>(row) * kSide + column];
+      const Point& own = fine.at(column, row);
+      pack(own, vertex.fine_km, vertex.fine_normal, vertex.fine_reflectance);
+      const Point parents = has_parent ? on_coarse(coarse, column, row) : own;
+      pack(parents, vertex.coarse_km, vertex.coarse_normal, vertex.coarse_reflectance);
+      heights.low = std::min({heights.low, own.height, parents.height});
+      heights.high = std::max({heights.high, own.height, parents.height});
+    }
+  }
+  // Deep enough for the cracks that rounding leaves along the border.
+  const double depth_km = 1e-3 * 0.25 * spacing;
+  for (int i = 0; i < kSkirt; ++i) {
+    const auto [column, row] = border(i);
+    BlockVertex vertex = out[static_cast<std::size_t>(row) * kSide + column];
+    const glm::dvec3 up = block_direction(block, static_cast<double>(column) / kBlockQuads,
+                                          static_cast<double>(row) / kBlockQuads);
+    for (int k = 0; k < 3; ++k) {
+      const auto drop = static_cast<float>(depth_km * up[k]);
+      vertex.fine_km[static_cast<std::size_t>(k)] -= drop;
+      vertex.coarse_km[static_cast<std::size_t>(k)] -= drop;
+    }
+    out[static_cast<std::size_t>(kSide * kSide + i)] = vertex;
+  }
+  heights.low -= 1e3 * depth_km;
+  return heights;
+}
+
+}  // namespace skyfit

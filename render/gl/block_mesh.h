@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vertices of one block of the planet: its own shape and, for geomorphing, that of the block
+// one level coarser. Positions are relative to the block's centre, so that they keep their digits
+// in single precision at every distance.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/gl/ground.h"
+#include "render/gl/planet_tree.h"
+
+namespace skyfit {
+
+// Planet axes.
+struct BlockVertex {
+  std::array<float, 3> fine_km, coarse_km;
+  std::array<std::int16_t, 4> fine_normal, coarse_normal;  // / 32767; fourth: Ground::rock()
+  std::array<std::uint16_t, 4> fine_reflectance, coarse_reflectance;  // / 65535
+};
+
+// 33 x 33, rows of growing u first, then the skirt: the border once more, let down, counterclockwise
+// from (0, 0).
+inline constexpr int kBlockVertices =
+    (kBlockQuads + 1) * (kBlockQuads + 1) + 4 * kBlockQuads;
+
+// Triangles of every block, counterclockwise from outside; the skirt comes last.
+std::vector<std::uint16_t> block_indices();
+
+// The middle of the block on the sphere of the bottom radius, planet coordinates, metres.
+glm::dvec3 block_centre(const CubeBlock& block, double radius_m);
+
+// `out` has kBlockVertices. A block of level 0 has no coarser shape: both are the same. Returns the
+// heights of both shapes and the skirt.
+HeightRange make_block(const CubeBlock& block, const Ground& ground, double radius_m,
+                std::span<BlockVertex> out);
+
+}  // namespace skyfit

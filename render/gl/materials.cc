@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/materials.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <stdexcept>
+
+#include "render/gl/image_files.h"
+#include "render/gl/noise.h"
+
+namespace skyfit {
+namespace {
+
+constexpr int kSide = kMaterialSide;
+constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
+
+std::size_t texel(int x, int y, int z) {
+  const auto wrap = [](int i) { return static_cast<std::size_t>((i + kSide) % kSide); };
+  return (wrap(z) * kSide + wrap(y)) * kSide + wrap(x);
+}
+
+// Soil is soft and grainy; rock has ridges and cracks.
+double relief_of(Material material, const glm::dvec3& p) {
+  double sum = 0, amplitude = 1;
+  for (int period = material == Material::kSoil ? 4 : 2; period <= kSide / 4; period *= 2) {
+    const double noise = periodic_gradient_noise(p * static_cast<double>(period), period);
+    sum += amplitude * (material == Material::kSoil ? noise : 0.5 - std::abs(1.6 * noise));
+    amplitude *= material == Material::kSoil ? 0.6 : 0.55;
+  }
+  return sum;
+}
+
+const char* name_of(Material material) { return material == Material::kSoil ? "soil" : "rock"; }
+
+}  // namespace
+
+MaterialTexels make_material(Material material) {
+  std::vector<double> relief(kTexels);
+  tbb::parallel_for(0, kSide, [&](int z) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        relief[texel(x, y, z)] = relief_of(material, glm::dvec3(x, y, z) / double{kSide});
+      }
+    }
+  });
+  double mean = 0, square = 0;
+  for (const double value : relief) mean += value / kTexels;
+  for (const double value : relief) square += (value - mean) * (value - mean) / kTexels;
+  const double deviation = std::sqrt(square);
+  // Brightness follows the relief: crests are lighter than hollows.
+  const double contrast = material == Material::kSoil ? 0.16 : 0.22;
+  double steepest = 0;
+  const auto gradient = [&](int x, int y, int z) {
+    return glm::dvec3(relief[texel(x + 1, y, z)] - relief[texel(x - 1, y, z)],
+                      relief[texel(x, y + 1, z)] - relief[texel(x, y - 1, z)],
+                      relief[texel(x, y, z + 1)] - relief[texel(x, y, z - 1)]);
+  };
+  MaterialTexels texels(4 * kTexels);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int z = 0; z < kSide; ++z) {
+      for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+          const glm::dvec3 g = gradient(x, y, z);
+          if (pass == 0) {
+            steepest = std::max({steepest, std::abs(g.x), std::abs(g.y), std::abs(g.z)});
+            continue;
+          }
+          const std::size_t i = texel(x, y, z);
+          for (int k = 0; k < 3; ++k) {
+            texels[4 * i + static_cast<std::size_t>(k)] =
+                static_cast<std::uint8_t>(std::lround(127 + 127 * g[k] / steepest));
+          }
+          const double light = 1 + contrast * std::clamp((relief[i] - mean) / deviation, -3.0, 3.0);
+          texels[4 * i + 3] = static_cast<std::uint8_t>(std::lround(127.5 * light));
+        }
+      }
+    }
+  }
+  return texels;
+}
+
+MaterialTexels load_material(Material material, const std::filesystem::path& directory) {
+  if (directory.empty()) return make_material(material);
+  const std::filesystem::path file = directory / fmt::format("{}.png", name_of(material));
+  if (!std::filesystem::exists(file)) {
+    MaterialTexels texels = make_material(material);
+    write_png_texels(texels, kSide, kSide * kSide, file);
+    return texels;
+  }
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(file.string(), &as_stored);
+  if (!input)
+    throw std::runtime_error(fmt::format("{}: cannot read: {}", file.string(), OIIO::geterror()));
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width != kSide || spec.height != kSide * kSide || spec.nchannels != 4) {
+    throw std::runtime_error(fmt::format(
+        "{}: {} x {} pixels of {} channels: a material has {} x {} of 4", file.string(), spec.width,
+        spec.height, spec.nchannels, kSide, kSide * kSide));
+  }
+  MaterialTexels texels(4 * kTexels);
+  if (!input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, texels.data())) {
+    throw std::runtime_error(fmt::format("{}: cannot read: {}", file.string(), input->geterror()));
+  }
+  return texels;
+}
+
+GlTexture material_texture(const MaterialTexels& texels) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_3D, 1, &id);
+  GlTexture texture(id);
+  const int levels = static_cast<int>(std::lround(std::log2(kSide))) + 1;
+  glTextureStorage3D(id, levels, GL_RGBA8, kSide, kSide, kSide);
+  glTextureSubImage3D(id, 0, 0, 0, 0, kSide, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE,
+                      texels.data());
+  glGenerateTextureMipmap(id);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
+}  // namespace skyfit

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/planet_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+namespace skyfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Outward, and the directions in which columns and rows run: right-handed seen from outside.
+struct FaceAxes {
+  glm::dvec3 out, along, across;
+};
+constexpr std::array<FaceAxes, 6> kFaces = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                             {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+                                             {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}},
+                                             {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}},
+                                             {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
+                                             {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}}};
+
+double distance_to(const Box& box, const glm::dvec3& p) {
+  return glm::length(glm::max(glm::max(box.low - p, p - box.high), glm::dvec3(0)));
+}
+
+// What a view can see, in the axes of its site about the planet's centre.
+class Frustum {
+ public:
+  explicit Frustum(const TerrainView& view)
+      : view_(view),
+        frame_from_planet_(view.axes.site_from_planet()),
+        camera_(0, 0, view.radius_m + view.altitude_m) {
+    const auto& [right, up, forward] = view.basis;
+    const double w = view.tangent.x, h = view.tangent.y;
+    planes_ = {forward * w + right, forward * w - right, forward * h + up, forward * h - up,
+               forward};
+    own_horizon_ = horizon(view.altitude_m);
+  }
+
+  const glm::dvec3& camera() const { return camera_; }
+
+  Box box(const CubeBlock& block, const HeightRange& heights) const {
+    return block_box(block, heights, frame_from_planet_, view_.radius_m);
+  }
+
+  Visibility visibility(const CubeBlock& block, const HeightRange& heights, const Box& box) const {
+    if (behind(block, heights.high)) return Visibility::kBehind;
+    return outside(box) ? Visibility::kOutside : Visibility::kSeen;
+  }
+
+ private:
+  // Angle at the centre from a point to where its view touches the bottom sphere.
+  double horizon(double height) const {
+    return std::acos(view_.radius_m / (view_.radius_m + std::max(height, 0.0)));
+  }
+
+  // Outside a plane is a box whose farthest corner along the plane's normal, its p-vertex, is.
+  bool outside(const Box& box) const {
+    return std::any_of(planes_.begin(), planes_.end(), [&](const glm::dvec3& normal) {
+      const glm::dvec3 p = glm::mix(box.low, box.high, glm::greaterThan(normal, glm::dvec3(0)));
+      return glm::dot(normal, p - camera_) < 0;
+    });
+  }
+
+  // A peak is seen as far as its own horizon reaches beyond the camera's.
+  bool behind(const CubeBlock& block, double highest) const {
+    const glm::dvec3 middle = block_direction(block, 0.5, 0.5);
+    double radius = 0;
+    for (const auto& [u, v] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
+      radius = std::max(radius, glm::distance(middle, block_direction(block, u, v)));
+    }
+    const double angle = 2 * std::asin(std::min(0.5 * glm::distance(middle, view_.axes.z), 1.0));
+    return angle - 2 * std::asin(0.5 * radius) > own_horizon_ + horizon(highest);
+  }
+
+  const TerrainView& view_;
+  glm::dmat3 frame_from_planet_;
+  glm::dvec3 camera_;
+  std::array<glm::dvec3, 5> planes_;  // inward normals of planes through the camera
+  double own_horizon_;
+};
+
+class Selector {
+ public:
+  explicit Selector(const TerrainView& view) : view_(view), frustum_(view) {}
+
+  BlockSelection select() {
+    for (int face = 0; face < 6; ++face) visit({face, 0, 0, 0});
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const Found& a, const Found& b) { return a.distance < b.distance; });
+    for (const Found& found : found_) selection_.blocks.push_back(found.block);
+    return std::move(selection_);
+  }
+
+ private:
+  struct Found {
+    double distance;
+    CubeBlock block;
+  };
+
+  void visit(const CubeBlock& block) {
+    const HeightRange heights{0, view_.highest_m};
+    const Box box = frustum_.box(block, heights);
+    if (view_.cull) {
+      const Visibility seen = frustum_.visibility(block, heights, box);
+      if (seen == Visibility::kBehind) ++selection_.behind;
+      if (seen == Visibility::kOutside) ++selection_.outside;
+      if (seen != Visibility::kSeen) return;
+    }
+    const double distance = distance_to(box, frustum_.camera());
+    const bool split = block.level + 1 < view_.levels &&
+                       distance < view_.split_ratio * block_arc_m(block.level, view_.radius_m);
+    if (!split) {
+      found_.push_back({distance, block});
+      return;
+    }
+    for (const auto& [column, row] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+      visit({block.face, block.level + 1, 2 * block.column + column, 2 * block.row + row});
+    }
+  }
+
+  const TerrainView& view_;
+  Frustum frustum_;
+  std::vector<Found> found_;
+  BlockSelection selection_;
+};
+
+}  // namespace
+
+glm::dvec3 cube_direction(int face, double s, double t) {
+  const FaceAxes& axes = kFaces[static_cast<std::size_t>(face)];
+  return glm::normalize(axes.out + std::tan(0.25 * kPi * s) * axes.along +
+                        std::tan(0.25 * kPi * t) * axes.across);
+}
+
+glm::dvec3 block_direction(const CubeBlock& block, double u, double v) {
+  const double size = std::ldexp(2.0, -block.level);
+  return cube_direction(block.face, (static_cast<double>(block.column) + u) * size - 1,
+                        (static_cast<double>(block.row) + v) * size - 1);
+}
+
+double block_arc_m(int level, double radius_m) {
+  return std::ldexp(0.5 * kPi * radius_m, -level);
+}
+
+Box block_box(const CubeBlock& block, const HeightRange& heights,
+              const glm::dmat3& frame_from_planet, double radius_m) {
+  constexpr int kSteps = 2;
+  Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; j <= kSteps; ++j) {
+      const glm::dvec3 direction =
+          frame_from_planet * block_direction(block, static_cast<double>(i) / kSteps,
+                                              static_cast<double>(j) / kSteps);
+      for (const double r : {radius_m + heights.low, radius_m + heights.high}) {
+        box.low = glm::min(box.low, r * direction);
+        box.high = glm::max(box.high, r * direction);
+      }
+    }
+  }
+  // The sphere bulges between these points by less than the arrow of the arc between two of them;
+  // sqrt(2) for the diagonal, and for the faces' corners.
+  const double half_step =
+      std::min(block_arc_m(block.level, 1) / kSteps * std::numbers::sqrt2 * 0.5, 1.0);
+  const double bulge = 1.1 * (radius_m + heights.high) * (1 - std::cos(half_step));
+  box.low -= bulge;
+  box.high += bulge;
+  return box;
+}
+
+BlockSelection select_blocks(const TerrainView& view) { return Selector(view).select(); }
+
+Visibility visibility(const CubeBlock& block, const HeightRange& heights, const TerrainView& view) {
+  const Frustum frustum(view);
+  return frustum.visibility(block, heights, frustum.box(block, heights));
+}
+
+}  // namespace skyfit
