@@ -60,4 +60,10 @@ using GlFramebuffer = GlObject<FramebufferTraits>;
 using GlQuery = GlObject<QueryTraits>;
 using GlVertexArray = GlObject<VertexArrayTraits>;
 
+inline GlVertexArray make_vertex_array() {
+  GLuint id = 0;
+  glCreateVertexArrays(1, &id);
+  return GlVertexArray(id);
+}
+
 }  // namespace skyfit

@@ -83,7 +83,7 @@ GlFramebuffer FrameGraph::framebuffer(const Pass& pass) const {
 std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
   std::vector<GlQuery> queries;
   for (const Pass& pass : passes) {
-    const GlFramebuffer target = framebuffer(pass);
+    const GlFramebuffer target = pass.writes.empty() ? GlFramebuffer() : framebuffer(pass);
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
     for (std::size_t unit = 0; unit < pass.reads.size(); ++unit) {
       bind(pass.reads[unit], static_cast<GLuint>(unit));
@@ -104,6 +104,12 @@ std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
     times.push_back({passes[i].name, 1e-6 * static_cast<double>(nanoseconds)});
   }
   return times;
+}
+
+void FrameGraph::copy(const std::string& from, const std::string& to) const {
+  const Texture& source = texture(from);
+  glCopyImageSubData(source.object.id(), GL_TEXTURE_2D, 0, 0, 0, 0, texture(to).object.id(),
+                     GL_TEXTURE_2D, 0, 0, 0, 0, source.width, source.height, 1);
 }
 
 void FrameGraph::bind(const std::string& name, GLuint unit) const {

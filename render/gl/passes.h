@@ -34,6 +34,9 @@ class FrameGraph {
   // incomplete framebuffer, an OpenGL error.
   std::vector<PassTime> run(std::span<const Pass> passes) const;
 
+  // Between targets of the same format and size.
+  void copy(const std::string& from, const std::string& to) const;
+
   void bind(const std::string& name, GLuint unit) const;
 
   // `channels` floats per pixel, rows from the bottom to the top.

@@ -41,12 +41,16 @@ int affordable_samples(const FrameOptions& options) {
   return samples;
 }
 
-void add_targets(int width, int height, FrameGraph& graph) {
+void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   graph.add_target("color", GL_RGBA8, width, height);
   graph.add_target("normal_reflectance", GL_RGBA16F, width, height);
   graph.add_target("depth", GL_DEPTH_COMPONENT32F, width, height);
   graph.add_target("light", GL_RGBA32F, width, height);
   graph.add_target("distance", GL_R32F, width, height);
+  graph.add_target("depth_copy", GL_DEPTH_COMPONENT32F, width, height);
+  if (!layers) return;
+  for (const std::string& layer : kLayerWrites)
+    graph.add_target(layer, GL_RGBA32F, width, height);
 }
 
 void clear_gbuffer() {
@@ -86,6 +90,33 @@ void resolve_light(const FrameGraph& graph, int samples, Frame& frame) {
   for_samples(frame, samples, [&](std::size_t pixel, std::size_t sample) {
     frame.depth_m[pixel] = std::min(frame.depth_m[pixel], 1e3f * distance[sample]);
   });
+}
+
+// [pixel][3], the mean of the samples.
+std::vector<float> resolve_color(const FrameGraph& graph, const std::string& name, int samples,
+                                 const Frame& frame) {
+  const std::vector<float> source = graph.read_back(name, GL_RGB, 3);
+  std::vector<float> values(3 * frame.luminance.size(), 0);
+  const float part = 1.0f / static_cast<float>(samples * samples);
+  for_samples(frame, samples, [&](std::size_t pixel, std::size_t sample) {
+    for (std::size_t k = 0; k < 3; ++k) values[3 * pixel + k] += part * source[3 * sample + k];
+  });
+  return values;
+}
+
+FrameLayers resolve_layers(const FrameGraph& graph, int samples, const Frame& frame) {
+  FrameLayers layers;
+  layers.in_scatter = resolve_color(graph, "in_scatter", samples, frame);
+  layers.reflected = resolve_color(graph, "reflected", samples, frame);
+  layers.transmittance = resolve_color(graph, "transmittance", samples, frame);
+  layers.normal = resolve_color(graph, "normal_reflectance", samples, frame);
+  layers.albedo = resolve_color(graph, "albedo", samples, frame);
+  for (std::size_t i = 0; i < layers.normal.size(); i += 3) {
+    float* const n = &layers.normal[i];
+    const float length = std::hypot(n[0], n[1], n[2]);
+    for (int k = 0; k < 3; ++k) n[k] = length > 0 ? n[k] / length : 0;
+  }
+  return layers;
 }
 
 void add_directions(const Camera& camera, Frame& frame) {
@@ -170,7 +201,7 @@ class GlRenderer final : public FrameDrawer {
                       bottom, radius_m_));
     }
     add_tables(tables, graph_);
-    atmosphere_.emplace(tables);
+    atmosphere_.set_tables(tables);
   }
 
   double ground_height_m(const std::optional<Site>& site) const override {
@@ -194,17 +225,23 @@ class GlRenderer final : public FrameDrawer {
     frame.statistics.blocks_made =
         terrain_->provide(selection.blocks, [&](double done) { report(0.8 * done); });
     const TerrainDraw blocks = terrain_->prepare(selection, view);
-    add_targets(options.width * samples, options.height * samples, graph_);
+    add_targets(options.width * samples, options.height * samples, options.layers, graph_);
+    atmosphere_.add_sky_view(options, graph_);
     const double aspect = static_cast<double>(options.width) / options.height;
     const Projection projection = make_projection(options.camera, aspect);
+    std::vector<std::string> lights = {"light", "distance", "depth"};
+    if (options.layers) lights.insert(lights.begin() + 2, kLayerWrites.begin(), kLayerWrites.end());
     const std::vector<Pass> passes = {
         {"terrain", {}, {"color", "normal_reflectance", "depth"}, [&] {
            clear_gbuffer();
            terrain_->draw(blocks, projection, axes);
          }},
-        {"atmosphere", kAtmosphereReads, {"light", "distance"}, [&] {
-           atmosphere_->draw(projection, sampled);
-         }}};
+        // A texture is not read by the pass that tests against it.
+        {"copy of the depth", {}, {}, [&] { graph_.copy("depth", "depth_copy"); }},
+        {"sky view", kTableReads, kSkyViewWrites, [&] {
+           atmosphere_.draw_sky_view(projection, axes, sampled);
+         }},
+        {"atmosphere", kAtmosphereReads, lights, [&] { atmosphere_.draw(sampled); }}};
     frame.statistics.passes = graph_.run(passes);
     frame.statistics.milliseconds = milliseconds_since(start);
     frame.statistics.triangles = TerrainPass::triangles(blocks);
@@ -215,6 +252,7 @@ class GlRenderer final : public FrameDrawer {
     frame.width = options.width;
     frame.height = options.height;
     resolve_light(graph_, samples, frame);
+    if (options.layers) frame.layers = resolve_layers(graph_, samples, frame);
     add_directions(options.camera, frame);
     report(1);
     return frame;
@@ -242,7 +280,7 @@ class GlRenderer final : public FrameDrawer {
   std::unique_ptr<Ground> ground_;
   SiteAxes coast_;  // where the camera stands without a site
   std::optional<TerrainPass> terrain_;
-  std::optional<AtmospherePass> atmosphere_;
+  AtmospherePass atmosphere_;
 };
 
 }  // namespace

@@ -23,8 +23,9 @@ class Expander {
  public:
   explicit Expander(std::span<const ShaderSource> extra) : extra_(extra) {}
 
-  std::string expand(const std::string& path) {
+  std::string expand(const std::string& path, std::span<const std::string> defined) {
     std::string text(kPrelude);
+    for (const std::string& name : defined) text += fmt::format("#define {}\n", name);
     origins_.assign(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')),
                     {path, 1});
     append(path, "", text);
@@ -88,9 +89,10 @@ class Expander {
   std::vector<Origin> origins_;  // [line of the result]
 };
 
-GlShader compile(const ShaderStage& stage, std::span<const ShaderSource> extra) {
+GlShader compile(const ShaderStage& stage, std::span<const ShaderSource> extra,
+                 std::span<const std::string> defined) {
   Expander expander(extra);
-  const std::string text = expander.expand(stage.path);
+  const std::string text = expander.expand(stage.path, defined);
   GlShader shader(glCreateShader(stage.type));
   const char* pointer = text.c_str();
   glShaderSource(shader.id(), 1, &pointer, nullptr);
@@ -107,10 +109,11 @@ GlShader compile(const ShaderStage& stage, std::span<const ShaderSource> extra) 
 
 }  // namespace
 
-GlProgram build_program(std::span<const ShaderStage> stages, std::span<const ShaderSource> extra) {
+GlProgram build_program(std::span<const ShaderStage> stages, std::span<const ShaderSource> extra,
+                        std::span<const std::string> defined) {
   GlProgram program(glCreateProgram());
   for (const ShaderStage& stage : stages) {
-    const GlShader shader = compile(stage, extra);
+    const GlShader shader = compile(stage, extra, defined);
     glAttachShader(program.id(), shader.id());
   }
   glLinkProgram(program.id());

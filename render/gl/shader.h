@@ -29,8 +29,10 @@ struct ShaderStage {
 };
 
 // Compiles and links. Throws std::runtime_error `path:line: the driver's message` for the first
-// error, or names the missing file. `extra` sources are looked up first.
+// error, or names the missing file. `extra` sources are looked up first; each of `defined`,
+// a name or a name and its value, is #defined in every stage.
 GlProgram build_program(std::span<const ShaderStage> stages,
-                        std::span<const ShaderSource> extra = {});
+                        std::span<const ShaderSource> extra = {},
+                        std::span<const std::string> defined = {});
 
 }  // namespace skyfit

@@ -38,12 +38,6 @@ const std::vector<std::uint16_t>& indices() {
   return made;
 }
 
-GLuint new_array() {
-  GLuint id = 0;
-  glCreateVertexArrays(1, &id);
-  return id;
-}
-
 // The distances between which a block becomes the coarser one: at the end the coarser one may be
 // drawn, before the beginning the finer ones may.
 std::pair<double, double> morph_range(const CubeBlock& block, const TerrainView& view) {
@@ -68,7 +62,7 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m,
       soil_(material_texture(load_material(Material::kSoil, textures))),
       rock_(material_texture(load_material(Material::kRock, textures))),
       indices_(upload(std::span(indices()))),
-      layout_(new_array()) {
+      layout_(make_vertex_array()) {
   const GLuint id = layout_.id();
   glVertexArrayElementBuffer(id, indices_.id());
   const auto attribute = [id](GLuint slot, GLuint binding, int size, GLenum type, GLboolean normal,

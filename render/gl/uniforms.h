@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -32,6 +33,14 @@ class Uniforms {
   }
   void set(const char* name, const glm::vec4& value) const {
     glProgramUniform4fv(program_, at(name), 1, glm::value_ptr(value));
+  }
+  void set(const char* name, std::span<const glm::vec4> values) const {
+    glProgramUniform4fv(program_, at(name), static_cast<GLsizei>(values.size()),
+                        glm::value_ptr(values.front()));
+  }
+  void set(const char* name, std::span<const glm::mat4> values) const {
+    glProgramUniformMatrix4fv(program_, at(name), static_cast<GLsizei>(values.size()), GL_FALSE,
+                              glm::value_ptr(values.front()));
   }
   void set(const char* name, const glm::mat3& value) const {
     glProgramUniformMatrix3fv(program_, at(name), 1, GL_FALSE, glm::value_ptr(value));

@@ -1,92 +1,178 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atmosphere as one pass over the G-buffer: light reflected by the ground, dimmed on the way, plus the light that the
-// air scatters into the path (Sperlhofer 2011, 4.6.2), or sky and sun where there is no ground.
-#include "render/shaders/atmosphere.glsl"
+// The atmosphere as one pass over the G-buffer (Sperlhofer 2011, 4.6.2): light reflected by what is seen, dimmed on the
+// way, plus the light that the air scatters into the path; drawn once where there is something (SURFACE) and once for the
+// sky and the suns. See atmosphere_pass.h for the other variants.
+#include "render/shaders/sky_view.glsl"
+#include "render/shaders/surface_light.glsl"
+#ifdef VOLUME
+#include "render/shaders/aerial_volume.glsl"
+#endif
+#ifdef CLOUDS
+#include "render/shaders/clouds.glsl"
+#endif
+#ifdef SHADOWS
+#include "render/shaders/shadows.glsl"
+#endif
 
 layout(binding = 5) uniform sampler2D color;
 layout(binding = 6) uniform sampler2D normal_reflectance;
 layout(binding = 7) uniform sampler2D depth;
 
-uniform mat3 site_from_view;
-uniform vec2 tangent;
-uniform float near_km;
-uniform float camera_km;       // height of the camera
-uniform vec3 sun;              // unit vector, z up at the camera
-uniform float pixel_angle;     // rad
-uniform vec4 ground_albedo;
-uniform mat4x3 xyz_from_nodes;
-uniform mat3 srgb_from_xyz;
+layout(std140, binding = 2) uniform Colors {
+  mat4x3 xyz_from_nodes;
+  mat3 srgb_from_xyz;
+};
 
 in vec2 screen;
-layout(location = 0) out vec4 light;      // linear sRGB and luminance, cd/m^2
+layout(location = 0) out vec4 light;  // linear sRGB and luminance, cd/m^2
 layout(location = 1) out float distance_km;
+#ifdef LAYERS
+layout(location = 2) out vec4 in_scatter_layer;
+layout(location = 3) out vec4 reflected_layer;
+layout(location = 4) out vec4 transmittance_layer;
+layout(location = 5) out vec4 albedo_layer;
+#endif
 
 const float kInfinity = uintBitsToFloat(0x7f800000u);
 
-// The sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel.
-vec4 sun_disc(vec3 ray, Place eye) {
+vec3 srgb(vec4 nodes) { return srgb_from_xyz * (xyz_from_nodes * nodes); }
+
+// A sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel; its mean is 1.
+float disc(vec3 ray, vec3 sun) {
   float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
   float cover = clamp((kSunRadius - away) / pixel_angle + 0.5, 0.0, 1.0);
-  if (cover <= 0.0) return vec4(0.0);
   float inside = min(away / kSunRadius, 1.0);
-  float darkening = (1.0 - 0.6 * (1.0 - sqrt(1.0 - inside * inside))) / 0.8;
-  return exp(-optical_depth_to_top(eye.h, eye.mu)) * (cover * darkening / kSunSolidAngle);
+  return cover * (1.0 - 0.6 * (1.0 - sqrt(1.0 - inside * inside))) / 0.8;
 }
 
-// Sun, sky above a tilted surface and the ground around it.
-vec4 ground_radiance(vec4 reflectance, vec3 normal, vec3 up, Place at) {
-  vec4 beam = sun_transmittance(at.h, at.mu_s);
-  vec4 sky = sky_irradiance(at.h, at.mu_s);
-  float facing = dot(normal, up);
-  vec4 around = ground_albedo * (beam * max(at.mu_s, 0.0) + sky);
-  vec4 irradiance = beam * max(dot(normal, sun), 0.0) + sky * (0.5 + 0.5 * facing) + around * (0.5 - 0.5 * facing);
-  return reflectance / kPi * irradiance;
+struct PathLight {
+  vec4 in_scatter, reflected, transmittance;
+};
+
+// What reaches the eye by the light of one sun.
+#ifdef SURFACE
+struct Surface {
+  float d;  // from the eye
+  vec3 normal, up;
+  vec4 reflectance;
+};
+
+PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
+  vec3 sun = suns[i].xyz;
+  float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
+  Place start = place_of(ray, sun, nu);
+  float in_air = max(surface.d - ray.entry, 0.0);
+  Place end = place_along(start, nu, in_air);
+  PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
+#ifdef VOLUME
+  VolumeLight light = volume_light(screen, in_air);
+  path.in_scatter = radiance(light.scattering, nu);
+  path.transmittance = light.transmittance;
+#else
+  if (ray.air && surface.d > ray.entry) {
+    vec2 place = place_in_view(ray, sun, i);
+    float toward = ray.hits_ground ? -1.0 : 1.0;
+    vec4 depth_between = toward * (texture(view_depth, place) - optical_depth_to_top(end.h, toward * end.mu));
+    path.transmittance = exp(-max(depth_between, 0.0));
+    Scattering all = view_scattering(place), rest = scattering(end, nu, ray.hits_ground);
+    path.in_scatter = radiance(scattering_before(all, path.transmittance, rest), nu);
+  }
+#endif
+  float lit = 1.0;
+#ifdef SHADOWS
+  if (i == 0) lit *= sunlit(surface.d * ray.direction, surface.normal);
+#endif
+#ifdef CLOUDS
+  lit *= 1.0 - cloud_shadow(surface.d * ray.direction, end, sun);
+#endif
+  Place at = Place(height_after(bottom_km, camera_km, ray.direction.z, surface.d), end.mu, dot(surface.up, sun));
+  path.reflected = clear * path.transmittance * (surface.reflectance / kPi) *
+                   surface_irradiance(at, surface.normal, surface.up, sun, lit);
+#else
+PathLight light_of(int i, ViewRay ray, float clear) {
+  vec3 sun = suns[i].xyz;
+  float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
+  PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
+  if (ray.air) {
+    vec2 place = place_in_view(ray, sun, i);
+    path.in_scatter = radiance(view_scattering(place), nu);
+    path.transmittance = exp(-texture(view_depth, place));
+  }
+  path.reflected = clear * path.transmittance * (disc(ray.direction, sun) / kSunSolidAngle);
+#endif
+#if defined(SHADOWS) || defined(CLOUDS)
+#ifndef SURFACE
+  Place start = place_of(ray, sun, nu);
+  const float in_air = kInfinity;
+#endif
+#endif
+#ifdef SHADOWS
+  if (i == 0 && ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air), 0.0);
+#endif
+#ifdef CLOUDS
+  // Of the light behind a cloud the cloud lets the rest pass.
+  if (clear < 1.0) {
+    Place at = place_along(start, nu, cloud_distance(ray) - ray.entry);
+    vec4 dimming = transmittance_between(start, at, ray.hits_ground);
+    Scattering before = scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground));
+    path.in_scatter = mix(min(radiance(before, nu), path.in_scatter), path.in_scatter, clear);
+    path.reflected += (1.0 - clear) * dimming * cloud_radiance(at, ray.h);
+  }
+#endif
+  path.in_scatter *= suns[i].w;
+  path.reflected *= suns[i].w;
+  return path;
 }
 
 void main() {
-  vec3 view = vec3(screen * tangent, -1.0);
-  float stretch = length(view);
-  vec3 ray = site_from_view * (view / stretch);
-  float z = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).x;
-  float d = z > 0.0 ? near_km / z * stretch : kInfinity;
-  float r0 = bottom_km + camera_km;
-  float nu = clamp(dot(ray, sun), -1.0, 1.0);
-
-  // Outside the atmosphere the path starts at its top; the impact parameter keeps the digits that mu would lose.
-  float impact = r0 * length(ray.xy);
-  float entry = 0.0;
-  Place start = Place(camera_km, ray.z, sun.z);
-  bool air = true;
-  if (camera_km > thickness_km) {
-    float top = bottom_km + thickness_km;
-    air = ray.z < 0.0 && impact < top;
-    float half_chord = sqrt(max((top - impact) * (top + impact), 0.0));
-    entry = -r0 * ray.z - half_chord;
-    start = Place(thickness_km, -half_chord / top, clamp((r0 * sun.z + entry * nu) / top, -1.0, 1.0));
-  }
-  bool hits_ground = ray.z < 0.0 && impact < bottom_km;
-  vec4 nodes = vec4(0.0);
-  if (air) {
-    if (hits_ground) d = min(d, entry + distance_to_inner_sphere(bottom_km, start.h, start.mu, 0.0));
-    nodes = radiance(scattering(start, nu, hits_ground), nu);
-  }
-  if (d < kInfinity) {
-    Place end = air ? place_along(start, nu, max(d - entry, 0.0)) : start;
-    vec4 through = transmittance_between(start, end, hits_ground);
-    vec4 beyond = radiance(scattering(end, nu, hits_ground), nu);
-    vec3 up = normalize(vec3(0.0, 0.0, r0) + d * ray);
-    vec4 reflectance = ground_albedo;
-    vec3 normal = up;
-    if (z > 0.0) {
-      vec4 shape = texelFetch(normal_reflectance, ivec2(gl_FragCoord.xy), 0);
-      reflectance = texelFetch(color, ivec2(gl_FragCoord.xy), 0) * (shape.w * kPi);
-      normal = normalize(shape.xyz);
-    }
-    nodes = max(nodes - through * beyond, 0.0) + through * ground_radiance(reflectance, normal, up, end);
-  } else {
-    nodes += air ? sun_disc(ray, start) : vec4(0.0);
-  }
-  vec3 xyz = xyz_from_nodes * nodes;
+  float stretch;
+  ViewRay ray = view_ray(direction_at(screen, stretch));
+#ifdef SURFACE
+  Surface surface;
+  surface.d = near_km / texelFetch(depth, ivec2(gl_FragCoord.xy), 0).x * stretch;
+  vec4 shape = texelFetch(normal_reflectance, ivec2(gl_FragCoord.xy), 0);
+  surface.reflectance = texelFetch(color, ivec2(gl_FragCoord.xy), 0) * (shape.w * kPi);
+  surface.normal = normalize(shape.xyz);
+  surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
+  if (ray.hits_ground) surface.d = min(surface.d, ray.entry + distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0));
+  float d = surface.d;
+#else
+  // A ray that misses the triangles but not the sphere grazes it.
+  ray.hits_ground = false;
+  const float d = kInfinity;
+#endif
+#ifdef CLOUDS
+  float clear = 1.0 - cloud_opacity_on(ray, d);
+#else
+  const float clear = 1.0;
+#endif
+#ifdef SURFACE
+  PathLight path = light_of(0, ray, surface, clear);
+#else
+  PathLight path = light_of(0, ray, clear);
+#endif
+#ifdef SECOND_SUN
+  // Not a loop, which the software renderer does not unroll.
+#ifdef SURFACE
+  PathLight other = light_of(1, ray, surface, clear);
+#else
+  PathLight other = light_of(1, ray, clear);
+#endif
+  path.in_scatter += other.in_scatter;
+  path.reflected += other.reflected;
+#endif
+  vec3 xyz = xyz_from_nodes * (path.in_scatter + path.reflected);
   light = vec4(srgb_from_xyz * xyz, xyz.y);
   distance_km = d;
+#ifdef LAYERS
+  vec3 white = srgb(vec4(1.0));
+  in_scatter_layer = vec4(srgb(path.in_scatter), 1.0);
+  reflected_layer = vec4(srgb(path.reflected), 1.0);
+  transmittance_layer = vec4(srgb(clear * path.transmittance) / white, 1.0);
+#ifdef SURFACE
+  albedo_layer = vec4(srgb(surface.reflectance) / white, 1.0);
+#else
+  albedo_layer = vec4(0.0);
+#endif
+#endif
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere's tables as functions. Lengths in kilometres, values at the four wavelengths of the colour rule, per
 // unit solar irradiance. A point is its height above the bottom radius; see model/tables.h for what each table holds.
+// PHASE_TYPE and LOBE_TYPE (of two lobes) are defined as the atmosphere's PhaseType, model/atmosphere.h.
 #include "model/shared/geometry.glsl"
 #include "model/shared/phase.glsl"
 #include "model/shared/mapping.glsl"
@@ -11,27 +12,31 @@ layout(binding = 2) uniform sampler3D rayleigh_like_table;
 layout(binding = 3) uniform sampler3D single_mie_table;
 layout(binding = 4) uniform sampler2D phase_table;  // logarithm of a tabulated phase function
 
-uniform float bottom_km;
-uniform float thickness_km;
-uniform float mu_s_min;
-uniform vec4 scattering_size;   // mu_s, azimuth, rays to the ground, rays to the sky
-uniform float depolarisation;   // of the air
-uniform int phase_type;         // PhaseType of model/atmosphere.h
-uniform int lobe_type;          // of two lobes
-uniform vec4 phase_parameters;  // g, g1, g2, weight
+layout(std140, binding = 0) uniform Atmosphere {
+  float bottom_km;
+  float thickness_km;
+  float mu_s_min;
+  float depolarisation;     // of the air
+  vec4 scattering_size;     // mu_s, azimuth, rays to the ground, rays to the sky
+  vec4 phase_parameters;    // g, g1, g2, weight; not of a tabulated phase function
+  vec4 ground_albedo;
+  vec4 air_scattering;      // 1/km at h = 0
+  vec4 aerosol_scattering;
+};
 
 const float kPi = 3.14159265358979;
 const float kSunRadius = 0.004654793;       // rad, at 1 au
 const float kSunSolidAngle = 6.8069e-5;     // sr
 
 float aerosol_phase(float nu) {
-  if (phase_type == 2)
-    return two_lobe_phase(lobe_type, phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
-  if (phase_type == 3) {
-    float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) / kPi, float(textureSize(phase_table, 0).x));
-    return exp(texture(phase_table, vec2(u, 0.5)).x);
-  }
-  return lobe_phase(phase_type, phase_parameters.x, nu);
+#if PHASE_TYPE == 2
+  return two_lobe_phase(LOBE_TYPE, phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
+#elif PHASE_TYPE == 3
+  float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) / kPi, float(textureSize(phase_table, 0).x));
+  return exp(texture(phase_table, vec2(u, 0.5)).x);
+#else
+  return lobe_phase(PHASE_TYPE, phase_parameters.x, nu);
+#endif
 }
 
 float height_coordinate(float h, float size) {
@@ -107,8 +112,16 @@ vec4 radiance(Scattering s, float nu) {
 }
 
 // Both ends as upward rays, so that neither look-up meets the ground.
-vec4 transmittance_between(Place a, Place b, bool downward) {
+vec4 optical_depth_between(Place a, Place b, bool downward) {
   vec4 depth_between = downward ? optical_depth_to_top(b.h, -b.mu) - optical_depth_to_top(a.h, -a.mu)
                                 : optical_depth_to_top(a.h, a.mu) - optical_depth_to_top(b.h, b.mu);
-  return exp(-max(depth_between, 0.0));
+  return max(depth_between, 0.0);
+}
+
+vec4 transmittance_between(Place a, Place b, bool downward) { return exp(-optical_depth_between(a, b, downward)); }
+
+// Into a path: what its whole ray gathers less what arrives of the rest beyond its end.
+Scattering scattering_before(Scattering all, vec4 transmittance, Scattering rest) {
+  return Scattering(max(all.rayleigh_like - transmittance * rest.rayleigh_like, 0.0),
+                    max(all.single_mie - transmittance * rest.single_mie, 0.0));
 }

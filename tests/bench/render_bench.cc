@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a planet in software: the whole frame with all blocks made and all shaders compiled,
 // without reading it back; the counters are the passes (ms, by the device's timers) and what the
-// culling leaves.
+// culling leaves. EightFetches is a full-screen pass with eight fetches from the scattering tables:
+// what the atmosphere's pass is held against.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
+#include "render/gl/atmosphere_pass.h"
+#include "render/gl/context.h"
+#include "render/gl/passes.h"
+#include "render/gl/shader.h"
 #include "render/render.h"
 
 namespace skyfit {
 namespace {
+
+constexpr int kFrames = 10;
 
 const Preset& preset() {
   static const Preset loaded =
@@ -20,12 +28,17 @@ const Preset& preset() {
   return loaded;
 }
 
+const AtmosphereTables& tables() {
+  static const AtmosphereTables made =
+      compute_tables(preset().atmosphere, color_rule(refs::standard_spectral_data()), TableSizes{},
+                     2, {});
+  return made;
+}
+
 Renderer& renderer() {
   static Renderer made = [] {
     Renderer renderer;
-    renderer.set_atmosphere(preset(), compute_tables(preset().atmosphere,
-                                                     color_rule(refs::standard_spectral_data()),
-                                                     TableSizes{}, 2, {}));
+    renderer.set_atmosphere(preset(), tables());
     return renderer;
   }();
   return made;
@@ -62,10 +75,46 @@ void View(benchmark::State& state, const char* view, int width, int height) {
   run(state, options_of(view, width, height));
 }
 
-#define SKYFIT_VIEW(name, view, width, height)          \
-  BENCHMARK_CAPTURE(View, name, view, width, height)    \
-      ->UseManualTime()                                 \
-      ->Iterations(10)                                  \
+void EightFetches(benchmark::State& state) {
+  const auto context = make_osmesa_context();
+  FrameGraph graph;
+  add_tables(tables(), graph);
+  graph.add_target("light", GL_RGBA32F, 1280, 720);
+  const ShaderSource source{"eight.frag",
+                            "in vec2 screen;\n"
+                            "layout(binding = 0) uniform sampler3D first;\n"
+                            "layout(binding = 1) uniform sampler3D second;\n"
+                            "layout(location = 0) out vec4 light;\n"
+                            "void main() {\n"
+                            "  light = vec4(0.0);\n"
+                            "  vec3 at = vec3(0.5 + 0.4 * screen, 0.3);\n"
+                            "  for (int i = 0; i < 4; ++i) {\n"
+                            "    at.z += 0.05;\n"
+                            "    light += texture(first, at) + texture(second, at);\n"
+                            "  }\n"
+                            "}\n"};
+  const GlProgram program =
+      build_program(std::array{ShaderStage{GL_VERTEX_SHADER, "render/shaders/fullscreen.vert"},
+                               ShaderStage{GL_FRAGMENT_SHADER, "eight.frag"}},
+                    std::span(&source, 1));
+  const GlVertexArray empty = make_vertex_array();
+  const std::vector<Pass> passes = {{"eight fetches", {"rayleigh_like", "single_mie"}, {"light"}, [&] {
+                                       glUseProgram(program.id());
+                                       glBindVertexArray(empty.id());
+                                       glDrawArrays(GL_TRIANGLES, 0, 3);
+                                     }}};
+  graph.run(passes);
+  for (auto _ : state) {
+    state.SetIterationTime(1e-3 * graph.run(passes).front().milliseconds);
+  }
+}
+
+BENCHMARK(EightFetches)->UseManualTime()->Iterations(kFrames)->Unit(benchmark::kMillisecond);
+
+#define SKYFIT_VIEW(name, view, width, height)       \
+  BENCHMARK_CAPTURE(View, name, view, width, height) \
+      ->UseManualTime()                              \
+      ->Iterations(kFrames)                          \
       ->Unit(benchmark::kMillisecond)
 
 SKYFIT_VIEW(valley_1280x720, "valley", 1280, 720);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sheet of clouds: at one height, without thickness; it dims what lies behind it and scatters like a rough white surface
+// seen from both sides. No scattering inside, one crossing of a ray.
+#include "render/shaders/view_ray.glsl"
+#include "render/shaders/surface_light.glsl"
+
+layout(binding = 13) uniform sampler3D cloud_noise;  // mean 1/2, deviation 1/6
+
+layout(std140, binding = 4) uniform Clouds {
+  float cloud_km;         // height
+  float cloud_opacity;    // of the densest
+  float cloud_threshold;  // of the noise, for the cover
+};
+
+const vec4 kCloudLengths = vec4(1400.0, 170.0, 37.0, 9.0);  // km, periods of the noise
+const vec4 kCloudWeights = vec4(0.30, 0.40, 0.22, 0.08);
+
+// At a point above or below the sheet, relative to the planet's centre; seen along the vertical.
+float cloud_opacity_at(vec3 from_centre) {
+  vec3 place = planet_from_site * normalize(from_centre) * bottom_km;
+  float noise = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    noise += kCloudWeights[i] * texture(cloud_noise, place / kCloudLengths[i] + vec3(0.37 * float(i))).x;
+  }
+  return cloud_opacity * smoothstep(cloud_threshold - 0.02, cloud_threshold + 0.07, noise);
+}
+
+// Of a sheet that a ray crosses at a slant.
+float slanted(float opacity, float cosine) { return 1.0 - pow(1.0 - min(opacity, 0.999), 1.0 / max(abs(cosine), 0.1)); }
+
+// To where a ray meets the sheet first; infinite where it does not.
+float cloud_distance(ViewRay ray) {
+  float impact = (bottom_km + ray.h) * sqrt(max(1.0 - ray.mu * ray.mu, 0.0));
+  bool below = ray.h < cloud_km;
+  bool meets = ray.air && (below ? !ray.hits_ground : ray.mu < 0.0 && impact < bottom_km + cloud_km);
+  float d = below ? distance_to_outer_sphere(bottom_km, ray.h, ray.mu, cloud_km)
+                  : distance_to_inner_sphere(bottom_km, ray.h, ray.mu, cloud_km);
+  return meets ? ray.entry + d : uintBitsToFloat(0x7f800000u);
+}
+
+// Of the clouds that a ray meets before the distance `end`.
+float cloud_opacity_on(ViewRay ray, float end) {
+  float d = cloud_distance(ray);
+  if (isinf(d) || d >= end) return 0.0;
+  vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + d * ray.direction;
+  return slanted(cloud_opacity_at(from_centre), dot(normalize(from_centre), ray.direction));
+}
+
+// Share of a sun's beam that the sheet takes on its way to a place; `position` is relative to the camera.
+float cloud_shadow(vec3 position, Place at, vec3 sun) {
+  if (at.h >= cloud_km || at.mu_s <= 0.0) return 0.0;
+  float d = distance_to_outer_sphere(bottom_km, at.h, at.mu_s, cloud_km);
+  vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + position + d * sun;
+  return slanted(cloud_opacity_at(from_centre), dot(normalize(from_centre), sun));
+}
+
+// Two thirds of the light come back from the side that it falls on, the rest passes. The roughness keeps a low sun's beam
+// from vanishing.
+vec4 cloud_radiance(Place at, float eye_h) {
+  bool from_above = eye_h > cloud_km;
+  vec4 beam = sun_transmittance(at.h, at.mu_s);
+  vec4 sky = sky_irradiance(at.h, at.mu_s);
+  vec4 direct = beam * ((abs(at.mu_s) + 0.2) / 1.2);
+  vec4 ground = ground_albedo * (beam * max(at.mu_s, 0.0) + sky);
+  float sunny_side = (at.mu_s > 0.0) == from_above ? 0.62 : 0.31;
+  float sky_side = from_above ? 0.62 : 0.31;
+  return (sunny_side * direct + sky_side * sky + (0.93 - sky_side) * ground) / kPi;
+}

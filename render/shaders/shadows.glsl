@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadows that the terrain casts under the first sun, on surfaces and in the air: maps of the depth seen from the sun,
+// each of a larger part of the terrain about the camera.
+#include "render/shaders/view_ray.glsl"
+
+layout(binding = 11) uniform sampler2DArrayShadow shadow_maps;
+layout(binding = 12) uniform sampler2D densities;  // over height: of the air, of the aerosol, relative to h = 0
+
+const int kShadowMaps = 3;
+layout(std140, binding = 3) uniform Shadows {
+  mat4 map_from_site[kShadowMaps];  // of positions relative to the camera; x, y, depth in 0..1
+  vec4 shadow_texel_km;             // side of a texel of each map
+  float shadow_reach_km;            // half a side of the largest
+};
+
+// x, y, map, depth of the finest map that holds the position; a map of -1 where none does.
+vec4 place_in_maps(vec3 position) {
+  vec4 found = vec4(0.0, 0.0, -1.0, 0.0);
+  for (int i = kShadowMaps - 1; i >= 0; --i) {
+    vec3 p = (map_from_site[i] * vec4(position, 1.0)).xyz;
+    vec2 from_middle = abs(p.xy - 0.5);
+    if (max(from_middle.x, from_middle.y) < 0.49) found = vec4(p.xy, float(i), p.z);
+  }
+  return found;
+}
+
+// Share of the sun that reaches a surface.
+float sunlit(vec3 position, vec3 normal) {
+  float map = place_in_maps(position).z;
+  if (map < 0.0) return 1.0;
+  // Off the surface by more than a texel's slope.
+  vec4 place = place_in_maps(position + (1.5 * shadow_texel_km[int(map)]) * normal);
+  vec2 texel = 0.75 / vec2(textureSize(shadow_maps, 0).xy);
+  float sum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 corner = vec2((i & 1) == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
+    sum += texture(shadow_maps, vec4(place.xy + corner * texel, max(place.z, 0.0), place.w));
+  }
+  return 0.25 * sum;
+}
+
+// What the sun's beam would scatter into a view ray from the parts that are in shadow, which the tables hold as lit.
+// Steps along the ray, begun at another place in each pixel.
+vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
+  const int kSteps = 24;
+  float reach = min(length_km, shadow_reach_km - ray.entry);
+  if (reach <= 0.0) return vec4(0.0);
+  float step_km = reach / float(kSteps);
+  // Jimenez 2014: interleaved gradient noise.
+  float begin = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  vec4 air = air_scattering * rayleigh_phase(depolarisation, nu);
+  vec4 aerosol = aerosol_scattering * aerosol_phase(nu);
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < kSteps; ++i) {
+    float t = (float(i) + begin) * step_km;
+    vec4 place = place_in_maps((ray.entry + t) * ray.direction);
+    float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, vec4(place.xy, max(place.z, 0.0), place.w));
+    Place at = place_along(start, nu, t);
+    vec2 density = texture(densities, vec2(height_coordinate(at.h, float(textureSize(densities, 0).x)), 0.5)).xy;
+    vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);
+    sum += (1.0 - lit) * light * (air * density.x + aerosol * density.y);
+  }
+  return sum * step_km;
+}
