@@ -14,8 +14,8 @@ namespace {
 
 void require_same(bool same, std::string_view field) {
   if (!same)
-    throw std::invalid_argument(
-        fmt::format("{}: differs: expected the same in atmospheres with others between them", field));
+    throw std::invalid_argument(fmt::format(
+        "{}: differs: expected the same in atmospheres with others between them", field));
 }
 
 template <class Function>

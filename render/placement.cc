@@ -37,7 +37,8 @@ void require(bool good, std::string_view field, double value, std::string_view e
 
 void require_both(bool same, std::string_view field) {
   if (!same)
-    throw std::invalid_argument(fmt::format("camera: {}: expected in all keyframes or in none", field));
+    throw std::invalid_argument(
+        fmt::format("camera: {}: expected in all keyframes or in none", field));
 }
 
 void require_place(const Place& place, std::string_view prefix) {
@@ -105,9 +106,7 @@ double angle_between(double a, double b, double share) {
   return a + share * std::remainder(b - a, kTurn);
 }
 
-double altitude_between(double a, double b, double share) {
-  return a * std::pow(b / a, share);
-}
+double altitude_between(double a, double b, double share) { return a * std::pow(b / a, share); }
 
 Place place_between(const Place& a, const Place& b, double share) {
   if (share <= 0) return a;

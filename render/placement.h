@@ -36,12 +36,12 @@ struct SunDirection {
 };
 
 struct CameraPose {
-  std::optional<Place> place;  // without one: a coast that every planet has
-  double altitude_m = 2;       // above the bottom radius
-  bool above_ground = false;   // above the ground instead
-  double view_zenith = 1.4;    // of the picture's centre
-  double azimuth = 0;          // of the picture's centre, from the sun's azimuth
-  bool from_north = false;     // from north instead, at a place only
+  std::optional<Place> place;     // without one: a coast that every planet has
+  double altitude_m = 2;          // above the bottom radius
+  bool above_ground = false;      // above the ground instead
+  double view_zenith = 1.4;       // of the picture's centre
+  double azimuth = 0;             // of the picture's centre, from the sun's azimuth
+  bool from_north = false;        // from north instead, at a place only
   std::optional<Target> look_at;  // instead of view_zenith and azimuth, at a place only
   double vertical_fov = 1;
   bool operator==(const CameraPose&) const = default;

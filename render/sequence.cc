@@ -47,7 +47,8 @@ Shot shot_at(const Sequence& sequence, double time_s, const SunAt& sun_at) {
   const double share = length > 0 ? (time_s - a.time_s) / length : 0;
   const CameraPose camera = pose_between(a.camera, b.camera, share);
   if (a.sun.time && b.sun.time) {
-    const auto passed = std::chrono::duration<double, std::milli>(*b.sun.time - *a.sun.time) * share;
+    const auto passed =
+        std::chrono::duration<double, std::milli>(*b.sun.time - *a.sun.time) * share;
     const Instant time = *a.sun.time + std::chrono::round<std::chrono::milliseconds>(passed);
     return {camera, sun_at(time, camera.place.value())};
   }

@@ -4,8 +4,8 @@
 //
 //     {"skyfit_sequence": 1, "frames_per_second": 24, "frames": 241, "keyframes": [
 //       {"time_s": 0, "preset": "earth-clear",
-//        "camera": {"latitude_deg": 47, "longitude_deg": 8, "above_ground_m": 2, "heading_deg": 90},
-//        "sun": {"date": "2026-06-21", "time": "04:00", "utc_offset_h": 0}},
+//        "camera": {"latitude_deg": 47, "longitude_deg": 8, "above_ground_m": 2, "heading_deg":
+//        90}, "sun": {"date": "2026-06-21", "time": "04:00", "utc_offset_h": 0}},
 //       {"time_s": 10, "parameters": {"mie.scattering": 6e-5}, "sun": {"time": "08:00"}}]}
 //
 // A keyframe leaves out what stays as in the keyframe before; the first, what the command line

@@ -120,8 +120,9 @@ SunSetting read_sun(const PresetReader& object, const SequenceSources& sources, 
   }
   sun.time = sources.instant(calendar.date, object.text("time"), calendar.utc_offset_h);
   if (!sun.time)
-    object.fail_value("time", fmt::format("HH:MM or HH:MM:SS of a day YYYY-MM-DD, the day is \"{}\"",
-                                          calendar.date));
+    object.fail_value(
+        "time",
+        fmt::format("HH:MM or HH:MM:SS of a day YYYY-MM-DD, the day is \"{}\"", calendar.date));
   return sun;
 }
 
@@ -152,7 +153,8 @@ Keyframe read_keyframe(const PresetReader& object, const Keyframe& before,
   keyframe.time_s = object.number("time_s");
   keyframe.preset = read_preset(object, sources, before.preset);
   if (object.has("camera")) keyframe.camera = read_camera(object.object("camera"), before.camera);
-  if (object.has("sun")) keyframe.sun = read_sun(object.object("sun"), sources, before.sun, calendar);
+  if (object.has("sun"))
+    keyframe.sun = read_sun(object.object("sun"), sources, before.sun, calendar);
   object.complaining([&] {
     validate(keyframe.camera);
     return 0;
@@ -202,8 +204,8 @@ Sequence parse_sequence(std::string_view text, std::string_view source, const Ke
     before = read_keyframe(object, before, sources, calendar);
     const bool is_first = sequence.keyframes.empty();
     if (!(is_first ? before.time_s >= 0 : before.time_s > sequence.keyframes.back().time_s))
-      object.fail_value("time_s", is_first ? "seconds >= 0"
-                                           : "more seconds than in the keyframe before");
+      object.fail_value("time_s",
+                        is_first ? "seconds >= 0" : "more seconds than in the keyframe before");
     if (!is_first) {
       object.complaining([&] {
         require_one_kind(sequence.keyframes.front().camera, before.camera);

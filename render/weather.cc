@@ -42,12 +42,13 @@ Preset preset_between(const Preset& a, const Preset& b, double share) {
 void add_steps(const WeatherStep& a, const WeatherStep& b, std::vector<WeatherStep>& steps) {
   if (preset_to_json(a.preset) != preset_to_json(b.preset)) {
     const double ratio = largest_ratio(a.preset.atmosphere, b.preset.atmosphere);
-    const int count = static_cast<int>(std::clamp(
-        std::ceil(std::abs(std::log(ratio)) / std::log(kLargestStep) - 1e-9), 1.0, 1.0 * kMostSteps));
+    const int count = static_cast<int>(
+        std::clamp(std::ceil(std::abs(std::log(ratio)) / std::log(kLargestStep) - 1e-9), 1.0,
+                   1.0 * kMostSteps));
     for (int i = 1; i < count; ++i) {
       const double share = std::expm1(std::log(ratio) * i / count) / (ratio - 1);
-      steps.push_back({std::lerp(a.time_s, b.time_s, share),
-                       preset_between(a.preset, b.preset, share)});
+      steps.push_back(
+          {std::lerp(a.time_s, b.time_s, share), preset_between(a.preset, b.preset, share)});
     }
   }
   steps.push_back(b);
@@ -107,13 +108,10 @@ std::shared_future<Weather::Tables> Weather::tables_of(std::size_t step) {
   // One after the other: the model keeps what it prepared last.
   std::vector<std::shared_future<Tables>> earlier;
   for (const Made& made : made_) earlier.push_back(made.tables);
-  made_.push_back({step, std::async(std::launch::async,
-                                    [this, step, earlier]() -> Tables {
-                                      for (const auto& tables : earlier) tables.wait();
-                                      return std::make_shared<AtmosphereTables>(
-                                          compute_(steps_[step].preset));
-                                    })
-                             .share()});
+  made_.push_back({step, std::async(std::launch::async, [this, step, earlier]() -> Tables {
+                           for (const auto& tables : earlier) tables.wait();
+                           return std::make_shared<AtmosphereTables>(compute_(steps_[step].preset));
+                         }).share()});
   return made_.back().tables;
 }
 

@@ -65,8 +65,8 @@ TEST(TableBlend, HalfwayIsTheAtmosphereHalfway) {
     for (const double view : {0.0, 45.0, 80.0, 88.0}) {
       for (const double azimuth : {0.0, 90.0, 180.0}) {
         const double mu = std::cos(view * kDegree), mu_s = std::cos(sun * kDegree);
-        const double nu =
-            mu * mu_s + std::sin(view * kDegree) * std::sin(sun * kDegree) * std::cos(azimuth * kDegree);
+        const double nu = mu * mu_s + std::sin(view * kDegree) * std::sin(sun * kDegree) *
+                                          std::cos(azimuth * kDegree);
         const NodeValues expected = lookup_radiance(computed, 2, mu, mu_s, nu, false),
                          found = lookup_radiance(blended, 2, mu, mu_s, nu, false);
         for (std::size_t k = 0; k < 4; ++k)
@@ -81,10 +81,11 @@ TEST(TableBlend, ParametersAreLinearWhateverTheirWavelength) {
   const Atmosphere<double> a = shipped("earth-clear");
   Atmosphere<double> b = a;
   // The same aerosol, stated at 680 nm, and twice as much of it.
-  b.mie.scattering_per_m = {680, 2 * a.mie.scattering_per_m.value *
-                                     std::pow(680 / a.mie.scattering_per_m.wavelength_nm,
-                                              -a.mie.scattering_per_m.exponent),
-                            a.mie.scattering_per_m.exponent};
+  b.mie.scattering_per_m = {
+      680,
+      2 * a.mie.scattering_per_m.value *
+          std::pow(680 / a.mie.scattering_per_m.wavelength_nm, -a.mie.scattering_per_m.exponent),
+      a.mie.scattering_per_m.exponent};
   b.ozone.column_du = a.ozone.column_du + 40;
   const Atmosphere<double> between = interpolated_atmosphere(a, b, 0.25);
   EXPECT_NEAR(between.mie.scattering_per_m.value / a.mie.scattering_per_m.value, 1.25, 1e-12);
@@ -98,8 +99,8 @@ TEST(TableBlend, RefusesWhatHasNothingBetween) {
   EXPECT_THAT([&] { interpolated_atmosphere(a, b, 0.5); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("planet.top_radius_m: differs")));
   b = a;
-  b.mie.phase.type = a.mie.phase.type == PhaseType::kTwoLobe ? PhaseType::kHenyeyGreenstein
-                                                             : PhaseType::kTwoLobe;
+  b.mie.phase.type =
+      a.mie.phase.type == PhaseType::kTwoLobe ? PhaseType::kHenyeyGreenstein : PhaseType::kTwoLobe;
   EXPECT_THAT([&] { interpolated_atmosphere(a, b, 0.5); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("mie.phase.type: differs")));
 }
