@@ -146,9 +146,6 @@ constexpr Pair kNeeds[] = {
     {"--time", "--date"},
     {"--utc-offset-h", "--date"},
     {"--height-range-m", "--height-map"},
-    {"--step-min", "--time"},
-    {"--frames", "--time"},
-    {"--frames-per-second", "--time"},
     {"--format", "--out-dir"},
 };
 constexpr Pair kExcludes[] = {

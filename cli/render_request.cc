@@ -71,6 +71,18 @@ void check_cameras(const RenderRequest& request) {
   }
 }
 
+// Options that would be ignored.
+void require_mode(const CLI::App& command, bool is_day, bool is_sequence) {
+  const auto require = [&](const char* option, bool mode, std::string_view expected) {
+    if (command.count(option) > 0 && !mode)
+      throw UsageError(option, command.get_option(option)->results().front(), expected);
+  };
+  for (const char* option : {"--step-min", "--frames", "--frames-per-second"})
+    require(option, is_day, "expected with --time FROM..TO");
+  for (const char* option : {"--adaptation-s", "--format"})
+    require(option, is_sequence, "expected with a sequence (--sequence, or --time FROM..TO)");
+}
+
 std::vector<std::string> parse_formats(const std::string& text) {
   if (text == "png") return {".png"};
   if (text == "exr") return {".exr"};
@@ -105,6 +117,7 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
   const bool is_day = options.time.find("..") != std::string::npos;
   if (!is_file && command.count("--preset") == 0)
     throw UsageError("--preset", "", "expected a shipped preset or a preset file");
+  require_mode(command, is_day, is_file || is_day);
   RenderRequest request;
   request.is_sequence = is_file || is_day;
   request.extensions = parse_formats(options.format);
