@@ -140,7 +140,7 @@ std::string Fingerprints::of(const Shot& shot, double time_s) const {
 FrameStore::FrameStore(fs::path directory, std::vector<std::string> extensions)
     : directory_(std::move(directory)), extensions_(std::move(extensions)) {
   std::error_code error;
-  fs::create_directories(directory_, error);
+  made_ = fs::create_directory(directory_, error);
   if (error || !fs::is_directory(directory_))
     throw std::runtime_error(fmt::format("{}: cannot be made: {}", directory_.string(),
                                          error ? error.message() : "expected a directory"));
@@ -148,6 +148,11 @@ FrameStore::FrameStore(fs::path directory, std::vector<std::string> extensions)
   const ordered_json manifest = read_manifest(directory_ / kManifest);
   frames_ = manifest.at("frames");
   film_ = manifest.value("film", "");
+}
+
+FrameStore::~FrameStore() {
+  std::error_code ignored;  // that it is not empty, as it should be
+  if (made_) fs::remove(directory_, ignored);
 }
 
 std::vector<fs::path> FrameStore::files_of(int frame) const {

@@ -35,8 +35,12 @@ class FrameStore {
     double exposure = 0;  // that it was written with
   };
 
-  // Makes the directory. Throws std::runtime_error that names what cannot be written or read.
+  // Makes the directory, which goes again if nothing is written. Throws std::runtime_error that
+  // names what cannot be written or read.
   FrameStore(std::filesystem::path directory, std::vector<std::string> extensions);
+  ~FrameStore();
+  FrameStore(const FrameStore&) = delete;
+  FrameStore& operator=(const FrameStore&) = delete;
 
   // What is known of a frame that was drawn for this request and whose files are there.
   std::optional<Entry> find(int frame, const std::string& request) const;
@@ -57,6 +61,7 @@ class FrameStore {
   std::vector<std::string> extensions_;
   nlohmann::ordered_json frames_;
   std::string film_;
+  bool made_ = false;
 };
 
 }  // namespace skyfit::cli

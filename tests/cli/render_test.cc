@@ -20,10 +20,10 @@ class RenderTest : public ProgramTest {
  protected:
   void expect_render_refusal(const std::vector<std::string>& arguments,
                              const std::vector<std::string>& texts) const {
-    expect_refusal(std::vector<std::string>{"render", "--preset", "earth-clear", "--size", "32x18",
-                                            "--out", "frame.png"} +
-                       arguments,
-                   texts);
+    expect_refusal(
+        std::vector<std::string>{"render", "--preset", "earth-clear", "--out", "frame.png"} +
+            arguments,
+        texts);
   }
   // Of a drawn file, to see that it is not written again.
   fs::file_time_type time_of(const std::string& name) const {
@@ -33,8 +33,8 @@ class RenderTest : public ProgramTest {
 
 TEST_F(RenderTest, AStripStandsSideBySide) {
   const Outcome outcome =
-      run({"render", "--preset", "earth-clear", "--strip", "mie.scattering=1e-5..3e-5:3", "--size",
-           "32x18", "--samples-per-side", "1", "--stats", "--out", "strip.png"});
+      run({"render", "--preset", "earth-clear", "--strip", "mie.scattering=1e-5..3e-5:3", "--view",
+           "space", "--size", "32x18", "--samples-per-side", "1", "--stats", "--out", "strip.png"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("mie.scattering [1/m]"));
@@ -94,7 +94,7 @@ TEST_F(RenderTest, ASequenceIsKeptContinuedAndRedrawn) {
   EXPECT_EQ(read("film/frame_00002.png"), last);
   EXPECT_GE(time_of("film/sequence.mp4"), film);
 
-  // Another field of view is another frame.
+  // Another tone curve makes other pictures.
   const Outcome fourth =
       run(command + std::vector<std::string>{"--tone", "exponential"}, {nowhere});
   EXPECT_THAT(fourth.out, HasSubstr("3 drawn, 0 kept"));
@@ -197,6 +197,9 @@ TEST_F(RenderTest, SequencesAndStripsThatCannotBe) {
   write("x/frames.json", "{}");
   write("good.json", kSequence);
   expect_refusal(sequence + std::vector<std::string>{"good.json"}, {"x/frames.json", "remove it"});
+  expect_refusal(
+      {"render", "--preset", "earth-clear", "--sequence", "good.json", "--out-dir", "a/b"},
+      {"a/b", "No such file"});
   expect_refusal({"render", "--out", "x.png"}, {"--preset"});
   expect_refusal({"render", "--preset", "earth-clear"}, {"--out"});
 }
