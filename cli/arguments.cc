@@ -108,6 +108,40 @@ std::vector<double> parse_list_within(std::string_view option, std::string_view 
   return values;
 }
 
+double parse_number_within(std::string_view option, std::string_view text, double lower,
+                           double upper, std::string_view meaning) {
+  const auto values = parse_list_within(option, text, lower, upper, meaning);
+  if (values.size() != 1) throw UsageError(option, text, fmt::format("expected {}", meaning));
+  return values.front();
+}
+
+double parse_angle(std::string_view option, std::string_view text, double lower, double upper) {
+  const auto values = parse_list_within(option, text, lower, upper, "an angle in degrees");
+  if (values.size() != 1) throw UsageError(option, text, "expected one angle in degrees");
+  return radians(values.front());
+}
+
+std::vector<double> parse_tuple(std::string_view option, std::string_view text, std::size_t least,
+                                std::size_t most, std::string_view form) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text, ',')) {
+    const auto value = finite_number(part);
+    if (!value) throw UsageError(option, text, fmt::format("expected {}", form));
+    values.push_back(*value);
+  }
+  if (values.size() < least || values.size() > most)
+    throw UsageError(option, text, fmt::format("expected {}", form));
+  return values;
+}
+
+std::pair<std::string, std::string> parse_ends(std::string_view option, std::string_view text,
+                                               std::string_view form) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string_view::npos)
+    throw UsageError(option, text, fmt::format("expected {}", form));
+  return {std::string(text.substr(0, dots)), std::string(text.substr(dots + 2))};
+}
+
 ImageSize parse_image_size(std::string_view option, std::string_view text) {
   const std::string form =
       fmt::format("expected WIDTHxHEIGHT in pixels, each from 1 to {}, at most {} pixels together",

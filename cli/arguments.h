@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/parameters.h"
@@ -31,6 +32,21 @@ std::vector<double> parse_list(std::string_view option, std::string_view text);
 // A list whose values lie in lower..upper, both included.
 std::vector<double> parse_list_within(std::string_view option, std::string_view text, double lower,
                                       double upper, std::string_view meaning);
+
+// One number, within lower..upper.
+double parse_number_within(std::string_view option, std::string_view text, double lower,
+                           double upper, std::string_view meaning);
+
+// One angle in degrees within lower..upper; radians.
+double parse_angle(std::string_view option, std::string_view text, double lower, double upper);
+
+// `a,b,c`: from `least` to `most` numbers, whose meaning `form` shows.
+std::vector<double> parse_tuple(std::string_view option, std::string_view text, std::size_t least,
+                                std::size_t most, std::string_view form);
+
+// `low..high`; both as they stand.
+std::pair<std::string, std::string> parse_ends(std::string_view option, std::string_view text,
+                                               std::string_view form);
 
 struct ImageSize {
   int width = 0, height = 0;

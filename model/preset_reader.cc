@@ -59,8 +59,10 @@ class FieldTracker {
   bool operator()(json::parse_event_t event, const json& parsed) {
     switch (event) {
       case json::parse_event_t::object_start:
+        open(false);
+        break;
       case json::parse_event_t::array_start:
-        open();
+        open(true);
         break;
       case json::parse_event_t::object_end:
       case json::parse_event_t::array_end:
@@ -70,6 +72,7 @@ class FieldTracker {
         enter(printable(parsed.get<std::string>()));
         break;
       case json::parse_event_t::value:
+        count_element();
         break;
     }
     return true;
@@ -79,30 +82,48 @@ class FieldTracker {
 
  private:
   struct Level {
-    std::string key;  // the field being read; empty in an array
+    bool is_array;
+    int element = -1;  // of the array, being read
+    std::string key;   // the field being read; empty in an array
     std::set<std::string> seen;
   };
 
-  void open() {
+  void open(bool is_array) {
     constexpr std::size_t kDeepest = 64;  // guards the stack: the library writes values recursively
     if (open_.size() == kDeepest) {
       throw std::invalid_argument(
           fmt::format("{}:{}: expected at most {} nested values", source_, *line_, kDeepest));
     }
-    open_.push_back({});
+    count_element();
+    if (!open_.empty() && open_.back().is_array) line_of_path_.emplace(path(), *line_);
+    open_.push_back({is_array, -1, {}, {}});
+  }
+
+  void count_element() {
+    if (!open_.empty() && open_.back().is_array) ++open_.back().element;
+  }
+
+  // "keyframes[1].camera" while that is being read.
+  std::string path() const {
+    std::string result;
+    for (const Level& level : open_) {
+      if (level.is_array) {
+        result += fmt::format("[{}]", level.element);
+      } else if (!level.key.empty()) {
+        result += (result.empty() ? "" : ".") + level.key;
+      }
+    }
+    return result;
   }
 
   void enter(const std::string& key) {
     open_.back().key = key;
-    std::string path;
-    for (const Level& level : open_) {
-      if (!level.key.empty()) path += (path.empty() ? "" : ".") + level.key;
-    }
+    const std::string place = path();
     if (!open_.back().seen.insert(key).second) {
       throw std::invalid_argument(
-          fmt::format("{}:{}: {}: expected once, found twice", source_, *line_, path));
+          fmt::format("{}:{}: {}: expected once, found twice", source_, *line_, place));
     }
-    line_of_path_.emplace(path, *line_);
+    line_of_path_.emplace(place, *line_);
   }
 
   std::string source_;
@@ -177,6 +198,18 @@ PresetReader PresetReader::object(std::string_view field) const {
   const json& found = member(field, "an object");
   if (!found.is_object()) fail_value(field, "an object");
   return PresetReader(document_, found, path_of(field));
+}
+
+std::vector<PresetReader> PresetReader::objects(std::string_view field) const {
+  const json& found = member(field, "an array of objects");
+  if (!found.is_array()) fail_value(field, "an array of objects");
+  std::vector<PresetReader> readers;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::string element = fmt::format("{}[{}]", field, i);
+    if (!found[i].is_object()) fail_value(field, "an array of objects");
+    readers.emplace_back(document_, found[i], path_of(element));
+  }
+  return readers;
 }
 
 double PresetReader::number(std::string_view field) const {

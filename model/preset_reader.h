@@ -33,7 +33,7 @@ class PresetDocument {
   std::map<std::string, int, std::less<>> line_of_path_;
 };
 
-// One object of the document and the path that leads to it.
+// One object of the document and the path that leads to it, such as "keyframes[1].camera".
 class PresetReader {
  public:
   PresetReader(const PresetDocument& document, const nlohmann::json& value, std::string path);
@@ -48,6 +48,7 @@ class PresetReader {
   }
 
   PresetReader object(std::string_view field) const;
+  std::vector<PresetReader> objects(std::string_view field) const;  // of an array
   bool has_object(std::string_view field) const {
     return has(field) && value_.at(std::string(field)).is_object();
   }

@@ -76,7 +76,9 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 void write_exr(const Frame& frame, const fs::path& file) { module().write_exr(frame, file); }
 
 void write_png(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
-  module().write_png(frame, file, tone);
+  ToneOptions exposed = tone;
+  if (!exposed.exposure) exposed.exposure = metered_exposure(frame);
+  module().write_png(frame, file, exposed);
 }
 
 }  // namespace skyfit

@@ -221,6 +221,9 @@ struct ToneOptions {
   ToneCurve curve = ToneCurve::kFilmic;
 };
 
+// The automatic exposure of a frame by itself, m^2/cd.
+double metered_exposure(const Frame& frame);
+
 // PNG, 8 bit sRGB, dithered.
 void write_png(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone = {});
 

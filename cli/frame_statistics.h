@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `skyfit render --stats` prints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/render.h"
+
+namespace skyfit::cli {
+
+// A table with a row per frame, and the medians of its columns below more than one. Written as it
+// grows, so that a long sequence can be watched.
+class StatisticsTable {
+ public:
+  // The lines for one more frame, with the table's head before the first and where the passes
+  // change.
+  std::string row(int frame, const FrameStatistics& statistics);
+  // "" for fewer than two frames.
+  std::string medians() const;
+
+ private:
+  std::vector<std::string> passes_;
+  std::vector<std::vector<double>> columns_;  // since the last head
+};
+
+}  // namespace skyfit::cli

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/frame_store.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "cli/output.h"
+#include "cli/studio.h"
+#include "model/version.h"
+#include "render/plot/whole_files.h"
+
+namespace skyfit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kManifest = "frames.json";
+constexpr int kManifestVersion = 1;
+
+// FNV-1a, 64 bit: the same on every machine.
+class Hash {
+ public:
+  void add(const char* bytes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      state_ = (state_ ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
+  }
+  std::string text() const { return fmt::format("{:016x}", state_); }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+std::string hash_of(const std::string& text) {
+  Hash hash;
+  hash.add(text.data(), text.size());
+  return hash.text();
+}
+
+// Of a file's content; of no file: "".
+std::string hash_of_file(const fs::path& file) {
+  if (file.empty()) return {};
+  Hash hash;
+  std::ifstream in(file, std::ios::binary);
+  std::array<char, 1 << 16> block;
+  while (in.read(block.data(), block.size()) || in.gcount() > 0)
+    hash.add(block.data(), static_cast<std::size_t>(in.gcount()));
+  return hash.text();
+}
+
+ordered_json json_of(const Scene& scene) {
+  ordered_json meshes = ordered_json::array();
+  for (const PlacedMesh& mesh : scene.meshes) {
+    meshes.push_back({hash_of_file(mesh.file), mesh.latitude, mesh.longitude, mesh.altitude_m,
+                      mesh.heading, mesh.scale, mesh.reflectance});
+  }
+  return {{"height_map", hash_of_file(scene.height_map)},
+          {"range_m", {scene.lowest_m, scene.highest_m}},
+          {"color_map", hash_of_file(scene.color_map)},
+          {"water_level_m", scene.water_level_m},
+          {"meshes", meshes},
+          {"textures", scene.textures.string()}};
+}
+
+ordered_json json_of(const FrameOptions& frame) {
+  ordered_json json = {{"size", {frame.width, frame.height}},
+                       {"samples_per_side", frame.samples_per_side},
+                       {"samples_per_quad", frame.samples_per_quad},
+                       {"aerial", static_cast<int>(frame.aerial)},
+                       {"shadows", frame.shadows},
+                       {"layers", frame.layers}};
+  if (const auto& sun = frame.second_sun)
+    json["second_sun"] = {sun->zenith, sun->azimuth, sun->irradiance};
+  if (const auto& moon = frame.moon)
+    json["moon"] = {moon->zenith, moon->azimuth, moon->distance_m, moon->radius_m,
+                    moon->reflectance};
+  if (const auto& clouds = frame.clouds)
+    json["clouds"] = {clouds->altitude_m, clouds->cover, clouds->opacity};
+  return json;
+}
+
+ordered_json json_of(const CameraPose& pose) {
+  ordered_json json = {{"altitude_m", pose.altitude_m},   {"above_ground", pose.above_ground},
+                       {"view_zenith", pose.view_zenith}, {"azimuth", pose.azimuth},
+                       {"from_north", pose.from_north},   {"vertical_fov", pose.vertical_fov}};
+  if (pose.place) json["place"] = {pose.place->latitude, pose.place->longitude};
+  if (const auto& target = pose.look_at)
+    json["look_at"] = {target->place.latitude, target->place.longitude, target->altitude_m};
+  return json;
+}
+
+ordered_json read_manifest(const fs::path& file) {
+  if (!fs::exists(file)) return {{"frames", ordered_json::object()}};
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  const ordered_json json = ordered_json::parse(text.str(), nullptr, false);
+  if (!json.is_object() || json.value("skyfit_frames", 0) != kManifestVersion ||
+      !json.contains("frames") || !json.at("frames").is_object()) {
+    throw std::runtime_error(fmt::format(
+        "{}: expected what an earlier sequence of this version left; remove it to draw all frames "
+        "anew",
+        file.string()));
+  }
+  return json;
+}
+
+std::string name_of(int frame) { return fmt::format("frame_{:05}", frame); }
+
+}  // namespace
+
+Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<WeatherStep>& weather)
+    : weather_(weather) {
+  common_ = {{"version", kVersion},
+             {"model", request.model},
+             {"device", static_cast<int>(request.device)},
+             {"scene", json_of(request.scene)},
+             {"frame", json_of(request.frame)},
+             {"tone",
+              {static_cast<int>(request.tone.curve), request.tone.exposure_stops,
+               request.tone.exposure.value_or(0)}}};
+}
+
+std::string Fingerprints::of(const Shot& shot, double time_s) const {
+  const WeatherMoment moment = moment_at(weather_, time_s);
+  ordered_json json = common_;
+  json["camera"] = json_of(shot.camera);
+  json["sun"] = {shot.sun.zenith, shot.sun.azimuth};
+  json["weather"] = {preset_to_json(weather_[moment.before].preset),
+                     preset_to_json(weather_[moment.after].preset), moment.share};
+  // Where the weather stands still, time does not matter.
+  if (json["weather"][0] == json["weather"][1]) json["weather"][2] = 0;
+  return hash_of(json.dump());
+}
+
+FrameStore::FrameStore(fs::path directory, std::vector<std::string> extensions)
+    : directory_(std::move(directory)), extensions_(std::move(extensions)) {
+  std::error_code error;
+  made_ = fs::create_directory(directory_, error);
+  if (error || !fs::is_directory(directory_))
+    throw std::runtime_error(fmt::format("{}: cannot be made: {}", directory_.string(),
+                                         error ? error.message() : "expected a directory"));
+  require_writable_file(directory_ / kManifest);
+  const ordered_json manifest = read_manifest(directory_ / kManifest);
+  frames_ = manifest.at("frames");
+  film_ = manifest.value("film", "");
+}
+
+FrameStore::~FrameStore() {
+  std::error_code ignored;  // that it is not empty, as it should be
+  if (made_) fs::remove(directory_, ignored);
+}
+
+std::vector<fs::path> FrameStore::files_of(int frame) const {
+  std::vector<fs::path> files;
+  for (const std::string& extension : extensions_)
+    files.push_back(directory_ / (name_of(frame) + extension));
+  return files;
+}
+
+std::optional<FrameStore::Entry> FrameStore::find(int frame, const std::string& request) const {
+  const auto found = frames_.find(name_of(frame));
+  if (found == frames_.end() || found->value("request", "") != request) return {};
+  for (const fs::path& file : files_of(frame)) {
+    std::error_code error;
+    if (fs::file_size(file, error) != found->value(file.extension().string(), std::uintmax_t{0}) ||
+        error)
+      return {};
+  }
+  return Entry{request, found->value("metered_exposure_m2_per_cd", 0.0),
+               found->value("exposure_m2_per_cd", 0.0)};
+}
+
+void FrameStore::write(int frame, const Entry& entry, const Frame& picture, ToneOptions tone) {
+  tone.exposure = entry.exposure;
+  std::vector<fs::path> files = files_of(frame);
+  files.push_back(directory_ / kManifest);
+  plot::WholeFiles whole(files);
+  ordered_json noted = {{"request", entry.request},
+                        {"metered_exposure_m2_per_cd", entry.metered},
+                        {"exposure_m2_per_cd", entry.exposure}};
+  for (std::size_t i = 0; i + 1 < files.size(); ++i) {
+    write_frame(picture, whole.temporary(i), tone);
+    noted[files[i].extension().string()] = fs::file_size(whole.temporary(i));
+  }
+  frames_[name_of(frame)] = noted;
+  write_text(whole.temporary(files.size() - 1), manifest());
+  whole.commit();
+}
+
+bool FrameStore::has_film(int frames, double frames_per_second) const {
+  return film_ == film_of(frames, frames_per_second);
+}
+
+void FrameStore::note_film(int frames, double frames_per_second) {
+  film_ = film_of(frames, frames_per_second);
+  plot::WholeFiles whole({directory_ / kManifest});
+  write_text(whole.temporary(0), manifest());
+  whole.commit();
+}
+
+std::string FrameStore::film_of(int frames, double frames_per_second) const {
+  ordered_json film = {frames_per_second};
+  for (int i = 0; i < frames; ++i) film.push_back(frames_.value(name_of(i), ordered_json()));
+  return hash_of(film.dump());
+}
+
+std::string FrameStore::manifest() const {
+  const ordered_json json = {
+      {"skyfit_frames", kManifestVersion}, {"film", film_}, {"frames", frames_}};
+  return json.dump(1) + "\n";
+}
+
+}  // namespace skyfit::cli

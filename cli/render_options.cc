@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_options.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "cli/arguments.h"
+
+namespace skyfit::cli {
+namespace {
+
+// Options of one group of the help.
+class Group {
+ public:
+  Group(CLI::App& command, std::string name) : command_(command), name_(std::move(name)) {}
+
+  template <class T>
+  CLI::Option* option(const std::string& name, T& value, const std::string& type,
+                      const std::string& meaning) {
+    return command_.add_option(name, value, meaning)->type_name(type)->group(name_);
+  }
+  CLI::Option* flag(const std::string& name, bool& value, const std::string& meaning) {
+    return command_.add_flag(name, value, meaning)->group(name_);
+  }
+
+ private:
+  CLI::App& command_;
+  std::string name_;
+};
+
+void add_camera_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Camera");
+  group.option("--view", options.view, "NAME", "A named view; the options below change it")
+      ->capture_default_str();
+  group.option("--latitude-deg", options.latitude, "ANGLE", "Place of the camera, north > 0");
+  group.option("--longitude-deg", options.longitude, "ANGLE", "Place of the camera, east > 0");
+  group.option("--altitude-m", options.altitude, "LENGTH",
+               "Height above the bottom of the atmosphere, which is sea level");
+  group.option("--above-ground-m", options.above_ground, "LENGTH", "Height above the ground");
+  group.option("--heading-deg", options.heading, "ANGLE",
+               "Of the picture's centre, from north over east; at a place");
+  group.option("--azimuth-deg", options.azimuth, "ANGLE",
+               "Of the picture's centre, 0 = toward the sun");
+  group.option("--pitch-deg", options.pitch, "ANGLE", "Of the picture's centre, above the horizon");
+  group.option("--view-zenith-deg", options.view_zenith, "ANGLE",
+               "Of the picture's centre, 90 = the horizon");
+  group.option("--look-at", options.look_at, "LAT,LON,ALT",
+               "A point (degrees, metres above sea level) in the picture's centre; at a place");
+  group.option("--field-of-view-deg", options.field_of_view, "ANGLE", "From bottom to top");
+}
+
+void add_sun_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Sun");
+  group.option("--sun-zenith-deg", options.sun_zenith, "ANGLE",
+               "Zenith angle, 0 to 180; by default one that suits the view");
+  group.option("--sun-azimuth-deg", options.sun_azimuth, "ANGLE",
+               "From north over east; at a place");
+  group.option("--date", options.date, "YYYY-MM-DD", "The sun of a day over the place");
+  group.option("--time", options.time, "HH:MM[..HH:MM]",
+               "Time of that day, or a sequence from one to another");
+  group.option("--utc-offset-h", options.utc_offset, "HOURS", "How far the clock is ahead of UTC")
+      ->capture_default_str();
+}
+
+void add_scene_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Scene");
+  group.option("--height-map", options.height_map, "FILE",
+               "Picture of the planet's heights, 2:1 from pole to pole or six cube faces 6:1");
+  group
+      .option("--height-range-m", options.height_range, "LOW..HIGH",
+              "Heights of its darkest and its brightest value")
+      ->capture_default_str();
+  group.option("--color-map", options.color_map, "FILE",
+               "Colours of the ground, laid out the same");
+  group.option("--water-level-m", options.water_level, "LENGTH", "Of the sea")
+      ->capture_default_str();
+  group.option("--textures", options.textures, "DIR",
+               "Textures of the ground's materials; those that are missing are made there");
+  group
+      .option("--mesh", options.meshes, "FILE@LAT,LON,ALT[,HEADING[,SCALE]]",
+              "A Wavefront OBJ at a place (degrees, metres above sea level); may be repeated")
+      ->allow_extra_args(false);
+  group.option("--moon", options.moon, "ZENITH,AZIMUTH[,DISTANCE,RADIUS]",
+               "A moon (degrees, from the sun; metres)");
+  group.option("--second-sun", options.second_sun, "ZENITH,AZIMUTH,SHARE",
+               "Another sun (degrees, from the first) and its share of the first's light");
+  group.option("--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
+               "A sheet of clouds: share of the sky, metres, opacity");
+  group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
+}
+
+void add_picture_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Picture");
+  group.option("--size", options.size, "WxH", "Size in pixels")->capture_default_str();
+  group
+      .option("--samples-per-side", options.samples_per_side, "INT",
+              "A pixel is the mean of the square of this, 1 to 4")
+      ->capture_default_str();
+  group
+      .option("--aerial", options.aerial, "pixel|volume",
+              "The air before the ground, by pixel or from a volume of 32 x 32 x 16")
+      ->capture_default_str();
+  group.flag("--gpu", options.gpu, "Draw through EGL, on a GPU where there is one");
+  group.option("--exposure", options.exposure, "K",
+               "K times the luminance goes through the tone curve, m^2/cd; by default automatic");
+  group
+      .option("--exposure-stops", options.exposure_stops, "STOPS",
+              "Brightens the PNG by powers of two")
+      ->capture_default_str();
+  group
+      .option("--tone", options.tone, "filmic|exponential",
+              "Tone curve of the PNG: of film, or 1 - exp(-K L)")
+      ->capture_default_str();
+  group
+      .option("--adaptation-s", options.adaptation, "SECONDS",
+              "How fast the automatic exposure of a sequence follows the light")
+      ->capture_default_str();
+}
+
+void add_sequence_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Sequences and strips");
+  group.option("--sequence", options.sequence, "FILE",
+               "Keyframes of camera, sun and preset as JSON");
+  group.option("--step-min", options.step_min, "MINUTES",
+               "Between frames of --time; by default a film of 10 s");
+  group.option("--frames", options.frames, "N", "Number of frames of --time");
+  group.option("--frames-per-second", options.frames_per_second, "N", "Of the film of --time")
+      ->capture_default_str();
+  group.option("--out-dir", options.out_dir, "DIR",
+               "For frame_00000.png .. and, with ffmpeg, sequence.mp4; what is there already "
+               "is kept");
+  group.option("--format", options.format, "png|exr|png,exr", "Of the frames in --out-dir")
+      ->capture_default_str();
+  group.option("--strip", options.strip, "PARAMETER=LOW..HIGH[:N]",
+               "N frames (5) side by side in which a parameter of the preset varies");
+}
+
+struct Pair {
+  const char *option, *other;
+};
+constexpr Pair kNeeds[] = {
+    {"--latitude-deg", "--longitude-deg"},
+    {"--longitude-deg", "--latitude-deg"},
+    {"--date", "--time"},
+    {"--time", "--date"},
+    {"--utc-offset-h", "--date"},
+    {"--height-range-m", "--height-map"},
+    {"--format", "--out-dir"},
+};
+constexpr Pair kExcludes[] = {
+    {"--altitude-m", "--above-ground-m"},
+    {"--heading-deg", "--azimuth-deg"},
+    {"--pitch-deg", "--view-zenith-deg"},
+    {"--look-at", "--heading-deg"},
+    {"--look-at", "--azimuth-deg"},
+    {"--look-at", "--pitch-deg"},
+    {"--look-at", "--view-zenith-deg"},
+    {"--date", "--sun-zenith-deg"},
+    {"--date", "--sun-azimuth-deg"},
+    {"--step-min", "--frames"},
+    {"--sequence", "--time"},
+    {"--sequence", "--strip"},
+    {"--strip", "--out-dir"},
+    {"--exposure", "--adaptation-s"},
+};
+
+}  // namespace
+
+void check_combinations(const CLI::App& command) {
+  const auto given = [&](const char* option) { return command.count(option) > 0; };
+  const auto fail = [&](const char* option, std::string_view expected) {
+    throw UsageError(option, command.get_option(option)->results().front(), expected);
+  };
+  for (const auto& [option, other] : kNeeds)
+    if (given(option) && !given(other)) fail(option, fmt::format("expected with {}", other));
+  for (const auto& [option, other] : kExcludes)
+    if (given(option) && given(other)) fail(option, fmt::format("expected without {}", other));
+}
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+  command.add_option("--preset", options.preset, "Shipped preset or preset file")
+      ->type_name("FILE|NAME");
+  command
+      .add_option("--model", options.model,
+                  "Sky model: reference, bruneton, bodare, schafhitzel or oneil")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command.add_option("--out", options.out, "frame.png or frame.exr; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_flag("--layers", options.layers,
+                   "Also in the EXR: light of the air and of the ground, transmittance, normal, "
+                   "albedo");
+  command.add_flag("--stats", options.stats, "Print triangles, blocks and the time of every pass");
+  add_threads_option(command, options.threads);
+  add_camera_options(command, options);
+  add_sun_options(command, options);
+  add_scene_options(command, options);
+  add_picture_options(command, options);
+  add_sequence_options(command, options);
+}
+
+}  // namespace skyfit::cli

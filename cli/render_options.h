@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `skyfit render`, as they are typed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/inputs.h"
+#include "render/render.h"
+
+namespace skyfit::cli {
+
+struct RenderOptions {
+  std::string preset, model = "reference";
+  // Camera
+  std::string view = "ground", latitude, longitude, altitude, above_ground;
+  std::string heading, azimuth, pitch, view_zenith, look_at, field_of_view;
+  // Sun
+  std::string sun_zenith, sun_azimuth, date, time, utc_offset = "0";
+  // Several frames
+  std::string sequence, step_min, frames_per_second = "24", out_dir, format = "png", strip;
+  std::string adaptation = "1";
+  int frames = 0;
+  // Scene
+  std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
+  std::string moon, second_sun, clouds;
+  std::vector<std::string> meshes;
+  // Picture
+  std::string size = "1280x720", aerial = "pixel", exposure, exposure_stops = "0", tone = "filmic";
+  int samples_per_side = FrameOptions{}.samples_per_side;
+  bool shadows = false, layers = false, gpu = false, stats = false;
+  std::vector<std::string> out;
+  int threads = default_threads();
+};
+
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+// Throws UsageError for options that need others, or that go without them.
+void check_combinations(const CLI::App& command);
+
+}  // namespace skyfit::cli

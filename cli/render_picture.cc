@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/arguments.h"
+#include "cli/frame_statistics.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/render_arguments.h"
+#include "cli/render_modes.h"
+#include "cli/studio.h"
+#include "render/film.h"
+
+namespace skyfit::cli {
+namespace {
+
+constexpr double kTablesShare = 0.8;  // of the time that a frame takes
+constexpr int kGap = 4;               // pixels between the frames of a strip
+
+std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+void render_picture(const RenderRequest& request) {
+  Frame frame;
+  {
+    Progress progress("rendering");
+    Studio studio(request, weather_of(request.sequence), [&](double done, std::string_view what) {
+      progress.show(kTablesShare * done, what);
+    });
+    frame = studio.draw(shot_at(request.sequence, 0, sun_over), 0, [&](double done) {
+      progress.show(kTablesShare + (1 - kTablesShare) * done, "frame");
+    });
+  }
+  write_frame_files(frame, paths(request.out), request.tone);
+  if (request.stats) print(StatisticsTable().row(0, frame.statistics));
+}
+
+void render_strip(const RenderRequest& request) {
+  const Strip& strip = *request.strip;
+  const int count = static_cast<int>(strip.values.size());
+  std::vector<WeatherStep> steps;
+  for (int i = 0; i < count; ++i) {
+    Preset preset = request.sequence.keyframes.front().preset;
+    set_parameter(preset.atmosphere, strip.parameter, strip.values[i]);
+    preset.fit = nullptr;
+    steps.push_back({1.0 * i, preset});
+  }
+  std::vector<Frame> frames;
+  std::string statistics;
+  {
+    Progress progress("rendering");
+    StatisticsTable table;
+    Studio studio(request, steps, [](double, std::string_view) {});
+    for (int i = 0; i < count; ++i) {
+      progress.show((i + 0.0) / count, fmt::format("frame {} of {}", i + 1, count));
+      frames.push_back(studio.draw(shot_at(request.sequence, 0, sun_over), i, {}));
+      statistics += table.row(i, frames.back().statistics);
+    }
+    statistics += table.medians();
+  }
+  const ParameterInfo& info = parameter_info(strip.parameter);
+  std::vector<std::string> values;
+  for (const double value : strip.values) values.push_back(fmt::format("{:.9g}", value));
+  Frame whole = side_by_side(frames, kGap);
+  whole.metadata.emplace_back(
+      "skyfit:strip", fmt::format("{} [{}]: {}", info.name, info.unit, fmt::join(values, ", ")));
+  write_frame_files(whole, paths(request.out), request.tone);
+  print(fmt::format("from left to right, {} [{}]:\n", info.name, info.unit));
+  for (int i = 0; i < count; ++i) print(fmt::format("  {:>3}  {}\n", i, values[i]));
+  if (request.stats) print(statistics);
+}
+
+}  // namespace skyfit::cli

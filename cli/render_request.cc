@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "cli/arguments.h"
+#include "cli/output.h"
+#include "cli/render_arguments.h"
+
+namespace skyfit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kStripFrames = 5, kMostStripFrames = 64;
+
+Sequence load_sequence(const std::string& file, const Keyframe& start) {
+  std::ostringstream text;
+  text << std::ifstream(readable_file("--sequence", file), std::ios::binary).rdbuf();
+  const fs::path folder = fs::path(file).parent_path();
+  const auto preset = [&](const std::string& name) {
+    const bool beside = !folder.empty() && fs::exists(folder / name);
+    return preset_named(beside ? (folder / name).string() : name);
+  };
+  return parse_sequence(text.str(), file, start, {preset, parse_instant});
+}
+
+Strip parse_strip(const std::string& text, const Preset& preset) {
+  constexpr std::string_view kForm =
+      "PARAMETER=LOW..HIGH or PARAMETER=LOW..HIGH:N in the parameter's unit";
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    throw UsageError("--strip", text, fmt::format("expected {}", kForm));
+  Strip strip{parse_parameters("--strip", text.substr(0, equals)).front(), {}};
+  if (!has_parameter(preset.atmosphere, strip.parameter))
+    throw UsageError("--strip", text, fmt::format("expected a parameter that {} has", preset.name));
+  auto [low, high] = parse_ends("--strip", text.substr(equals + 1), kForm);
+  double count = kStripFrames;
+  if (const std::size_t colon = high.find(':'); colon != std::string::npos) {
+    count = parse_number("--strip", high.substr(colon + 1));
+    high.resize(colon);
+  }
+  if (!(count >= 2 && count <= kMostStripFrames) || count != std::floor(count))
+    throw UsageError("--strip", text, fmt::format("expected 2 to {} frames", kMostStripFrames));
+  const double first = parse_number("--strip", low), last = parse_number("--strip", high);
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    strip.values.push_back(std::lerp(first, last, i / (count - 1)));
+    Atmosphere<double> atmosphere = preset.atmosphere;
+    set_parameter(atmosphere, strip.parameter, strip.values.back());
+    validate(atmosphere);
+  }
+  return strip;
+}
+
+// Every camera that the request holds, as far as it can be judged before there is a ground.
+void check_cameras(const RenderRequest& request) {
+  const auto flat = [](const std::optional<Site>&) { return 0.0; };
+  for (const Keyframe& keyframe : request.sequence.keyframes) {
+    FrameOptions frame = request.frame;
+    place_camera(keyframe.camera, shot_at(request.sequence, keyframe.time_s, sun_over).sun,
+                 keyframe.preset.atmosphere.bottom_radius_m, flat, frame);
+    frame.camera.altitude_m = std::max(frame.camera.altitude_m, 1.0);
+    validate(frame);
+  }
+}
+
+// Options that would be ignored.
+void require_mode(const CLI::App& command, bool is_day, bool is_sequence) {
+  const auto require = [&](const char* option, bool mode, std::string_view expected) {
+    if (command.count(option) > 0 && !mode)
+      throw UsageError(option, command.get_option(option)->results().front(), expected);
+  };
+  for (const char* option : {"--step-min", "--frames", "--frames-per-second"})
+    require(option, is_day, "expected with --time FROM..TO");
+  for (const char* option : {"--adaptation-s", "--format"})
+    require(option, is_sequence, "expected with a sequence (--sequence, or --time FROM..TO)");
+}
+
+std::vector<std::string> parse_formats(const std::string& text) {
+  if (text == "png") return {".png"};
+  if (text == "exr") return {".exr"};
+  if (text == "png,exr" || text == "exr,png") return {".png", ".exr"};
+  throw UsageError("--format", text, "expected png, exr or png,exr");
+}
+
+void check_outputs(const RenderOptions& options, const RenderRequest& request) {
+  const auto is_exr = [](const std::string& name) { return name.ends_with(".exr"); };
+  if (request.is_sequence) {
+    if (!options.out.empty())
+      throw UsageError("--out", options.out.front(), "expected --out-dir for a sequence");
+    if (options.out_dir.empty())
+      throw UsageError("--out-dir", "", "expected a directory for the frames of a sequence");
+  } else {
+    if (!options.out_dir.empty())
+      throw UsageError("--out-dir", options.out_dir,
+                       "expected a sequence (--sequence, or --time FROM..TO)");
+    if (options.out.empty()) throw UsageError("--out", "", "expected name.png or name.exr");
+    require_output_files(options.out, {".png", ".exr"});
+  }
+  if (options.layers &&
+      std::ranges::none_of(request.is_sequence ? request.extensions : request.out, is_exr))
+    throw UsageError("--layers", "true", "expected an output that ends in .exr");
+}
+
+}  // namespace
+
+RenderRequest render_request(const RenderOptions& options, const CLI::App& command) {
+  check_combinations(command);
+  const bool is_file = command.count("--sequence") > 0;
+  const bool is_day = options.time.find("..") != std::string::npos;
+  if (!is_file && command.count("--preset") == 0)
+    throw UsageError("--preset", "", "expected a shipped preset or a preset file");
+  require_mode(command, is_day, is_file || is_day);
+  RenderRequest request;
+  request.is_sequence = is_file || is_day;
+  request.extensions = parse_formats(options.format);
+  request.out = options.out;
+  request.out_dir = options.out_dir;
+  request.frame = parse_frame(options, command);
+  request.tone = parse_tone(options, command);
+  request.adaptation_s =
+      parse_number_within("--adaptation-s", options.adaptation, 0, 3600, "a time in seconds");
+  const Keyframe start = parse_start(options, command);
+  if (is_file) {
+    request.sequence = load_sequence(options.sequence, start);
+  } else if (is_day) {
+    request.sequence = parse_day(options, command, start);
+  } else {
+    request.sequence.keyframes = {start};
+  }
+  if (command.count("--strip") > 0) {
+    if (is_day) throw UsageError("--strip", options.strip, "expected no sequence beside it");
+    request.strip = parse_strip(options.strip, start.preset);
+  }
+  check_cameras(request);
+  check_outputs(options, request);
+  request.scene = parse_scene(options, command);
+  request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
+  request.model = options.model;
+  request.stats = options.stats;
+  request.threads = options.threads;
+  return request;
+}
+
+}  // namespace skyfit::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the options of `skyfit render` ask for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/render_options.h"
+#include "model/parameters.h"
+#include "render/sequence.h"
+
+namespace skyfit::cli {
+
+struct Strip {
+  Parameter parameter;
+  std::vector<double> values;  // in the parameter's unit
+};
+
+struct RenderRequest {
+  Scene scene;
+  GraphicsDevice device = GraphicsDevice::kSoftware;
+  std::string model;
+  FrameOptions frame;  // camera, site and sun are those of the sequence
+  Sequence sequence;   // of one frame for a single picture and a strip
+  bool is_sequence = false;
+  std::optional<Strip> strip;
+  ToneOptions tone;
+  double adaptation_s = 1;
+  std::vector<std::string> out;         // of a picture
+  std::string out_dir;                  // of a sequence
+  std::vector<std::string> extensions;  // of its frames: .png, .exr
+  bool stats = false;
+  int threads = 1;
+};
+
+// Throws UsageError and what the readers of presets and sequences throw, before anything is drawn:
+// files to be read can be, cameras and sizes are possible.
+RenderRequest render_request(const RenderOptions& options, const CLI::App& command);
+
+}  // namespace skyfit::cli

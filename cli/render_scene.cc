@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "cli/arguments.h"
+#include "cli/render_arguments.h"
+
+namespace skyfit::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kMaxStops = 50;  // 2^50: from the darkest night to the sun's disc and beyond
+
+PlacedMesh parse_mesh(const std::string& text) {
+  constexpr std::string_view kForm =
+      "FILE@LATITUDE,LONGITUDE,ALTITUDE[,HEADING[,SCALE]] in degrees and metres";
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos) throw UsageError("--mesh", text, fmt::format("expected {}", kForm));
+  const auto values = parse_tuple("--mesh", text.substr(at + 1), 3, 5, kForm);
+  const Place place = parse_place("--mesh", text, values);
+  PlacedMesh mesh;
+  mesh.file = readable_file("--mesh", text.substr(0, at));
+  mesh.latitude = place.latitude;
+  mesh.longitude = place.longitude;
+  mesh.altitude_m = values[2];
+  if (values.size() > 3) mesh.heading = radians(values[3]);
+  if (values.size() > 4) mesh.scale = values[4];
+  return mesh;
+}
+
+void parse_sky_objects(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {
+  if (command.count("--moon") > 0) {
+    const auto values = parse_tuple("--moon", options.moon, 2, 4,
+                                    "ZENITH,AZIMUTH or ZENITH,AZIMUTH,DISTANCE,RADIUS");
+    if (values.size() == 3)
+      throw UsageError("--moon", options.moon, "expected a radius after the distance");
+    frame.moon = Moon{.zenith = radians(values[0]), .azimuth = radians(values[1])};
+    if (values.size() == 4) {
+      frame.moon->distance_m = values[2];
+      frame.moon->radius_m = values[3];
+    }
+  }
+  if (command.count("--second-sun") > 0) {
+    const auto values =
+        parse_tuple("--second-sun", options.second_sun, 3, 3, "ZENITH,AZIMUTH,SHARE");
+    frame.second_sun = SecondSun{radians(values[0]), radians(values[1]), values[2]};
+  }
+  if (command.count("--clouds") > 0) {
+    const auto values = parse_tuple("--clouds", options.clouds, 1, 3,
+                                    "COVER, COVER,ALTITUDE or COVER,ALTITUDE,OPACITY");
+    frame.clouds = CloudLayer{.cover = values[0]};
+    if (values.size() > 1) frame.clouds->altitude_m = values[1];
+    if (values.size() > 2) frame.clouds->opacity = values[2];
+  }
+}
+
+}  // namespace
+
+fs::path readable_file(std::string_view option, const std::string& name) {
+  const auto fail = [&](std::string_view reason) {
+    throw std::runtime_error(fmt::format("{} {}: cannot be read: {}", option, name, reason));
+  };
+  if (fs::is_directory(name)) fail("expected a file, this is a directory");
+  if (!std::ifstream(name)) fail(std::strerror(errno));
+  return name;
+}
+
+Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
+  Scene scene;
+  if (command.count("--height-map") > 0)
+    scene.height_map = readable_file("--height-map", options.height_map);
+  if (command.count("--color-map") > 0)
+    scene.color_map = readable_file("--color-map", options.color_map);
+  const auto [low, high] =
+      parse_ends("--height-range-m", options.height_range, "LOW..HIGH in metres");
+  scene.lowest_m = parse_number("--height-range-m", low);
+  scene.highest_m = parse_number("--height-range-m", high);
+  scene.water_level_m = parse_number("--water-level-m", options.water_level);
+  for (const std::string& mesh : options.meshes) scene.meshes.push_back(parse_mesh(mesh));
+  scene.textures = options.textures;
+  validate(scene);
+  return scene;
+}
+
+FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) {
+  const ImageSize size = parse_image_size("--size", options.size);
+  FrameOptions frame;
+  frame.width = size.width;
+  frame.height = size.height;
+  frame.samples_per_side = options.samples_per_side;
+  frame.shadows = options.shadows;
+  frame.layers = options.layers;
+  if (options.aerial != "pixel" && options.aerial != "volume")
+    throw UsageError("--aerial", options.aerial, "expected pixel or volume");
+  frame.aerial =
+      options.aerial == "pixel" ? AerialPerspective::kPerPixel : AerialPerspective::kVolume;
+  parse_sky_objects(options, command, frame);
+  validate(frame);
+  return frame;
+}
+
+ToneOptions parse_tone(const RenderOptions& options, const CLI::App& command) {
+  ToneOptions tone;
+  tone.exposure_stops = parse_number("--exposure-stops", options.exposure_stops);
+  if (std::abs(tone.exposure_stops) > kMaxStops)
+    throw UsageError("--exposure-stops", options.exposure_stops,
+                     fmt::format("expected stops from {} to {}", -kMaxStops, kMaxStops));
+  if (command.count("--exposure") > 0) {
+    tone.exposure = parse_number("--exposure", options.exposure);
+    if (!(*tone.exposure > 0 && *tone.exposure <= 1e12))
+      throw UsageError("--exposure", options.exposure, "expected m^2/cd > 0, at most 1e12");
+  }
+  if (options.tone != "filmic" && options.tone != "exponential")
+    throw UsageError("--tone", options.tone, "expected filmic or exponential");
+  tone.curve = options.tone == "filmic" ? ToneCurve::kFilmic : ToneCurve::kExponential;
+  return tone;
+}
+
+}  // namespace skyfit::cli

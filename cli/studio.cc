@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/studio.h"
+
+#include "data_refs/spectra.h"
+#include "model/tables.h"
+#include "render/plot/whole_files.h"
+
+namespace skyfit::cli {
+
+Studio::Studio(const RenderRequest& request, std::vector<WeatherStep> weather, Report report)
+    : request_(request),
+      report_(std::move(report)),
+      model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads)),
+      renderer_(request.scene, request.device),
+      weather_(std::move(weather), [this](const Preset& preset) { return tables_of(preset); }) {}
+
+AtmosphereTables Studio::tables_of(const Preset& preset) const {
+  return compute_tables_of(*model_, preset.atmosphere, color_rule(refs::standard_spectral_data()),
+                           TableSizes{}, request_.threads,
+                           [this](double done) { report_(done, "tables of the atmosphere"); });
+}
+
+Frame Studio::draw(const Shot& shot, double time_s, const std::function<void(double)>& progress) {
+  const Weather::Now now = weather_.at(time_s);
+  if (now.tables != shown_) {
+    renderer_.set_atmosphere(now.preset, *now.tables);
+    shown_ = now.tables;
+  }
+  FrameOptions frame = request_.frame;
+  place_camera(
+      shot.camera, shot.sun, now.preset.atmosphere.bottom_radius_m,
+      [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
+  return renderer_.draw(frame, progress);
+}
+
+void write_frame(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone) {
+  if (file.extension() == ".exr") {
+    write_exr(frame, file);
+  } else {
+    write_png(frame, file, tone);
+  }
+}
+
+void write_frame_files(const Frame& frame, const std::vector<std::filesystem::path>& files,
+                       const ToneOptions& tone) {
+  plot::WholeFiles whole(files);
+  for (std::size_t i = 0; i < files.size(); ++i) write_frame(frame, whole.temporary(i), tone);
+  whole.commit();
+}
+
+std::vector<WeatherStep> weather_of(const Sequence& sequence) {
+  std::vector<WeatherStep> steps;
+  for (const Keyframe& keyframe : sequence.keyframes)
+    steps.push_back({keyframe.time_s, keyframe.preset});
+  return refined(steps);
+}
+
+}  // namespace skyfit::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the frames of `skyfit render` are drawn: the planet, the model that makes the tables, and
+// the weather.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "cli/render_request.h"
+#include "model/sky_model.h"
+#include "render/weather.h"
+
+namespace skyfit::cli {
+
+// Progress in 0..1 and what is being done; may be called from several threads.
+using Report = std::function<void(double, std::string_view)>;
+
+class Studio {
+ public:
+  // Opens the scene. `report` hears of the tables. Throws what Renderer and make_sky_model() throw.
+  Studio(const RenderRequest& request, std::vector<WeatherStep> weather, Report report);
+
+  Frame draw(const Shot& shot, double time_s, const std::function<void(double)>& progress);
+
+ private:
+  AtmosphereTables tables_of(const Preset& preset) const;
+
+  const RenderRequest& request_;
+  Report report_;
+  std::unique_ptr<SkyModel> model_;
+  Renderer renderer_;
+  Weather weather_;
+  Weather::Tables shown_;  // what renderer_ has
+};
+
+// Writes PNG or EXR, by the extension.
+void write_frame(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone);
+
+// All files appear, or none.
+void write_frame_files(const Frame& frame, const std::vector<std::filesystem::path>& files,
+                       const ToneOptions& tone);
+
+// The weather that the keyframes ask for.
+std::vector<WeatherStep> weather_of(const Sequence& sequence);
+
+}  // namespace skyfit::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames together: side by side in one picture, or one after the other under an exposure that does
+// not flicker.
+#pragma once
+
+#include <span>
+
+#include "render/render.h"
+
+namespace skyfit {
+
+// From left to right with `gap` black pixels between them. All must have the same height, and
+// layers all or none; the metadata is the first's, statistics are not kept.
+Frame side_by_side(std::span<const Frame> frames, int gap);
+
+// Follows the metered exposures of the frames as an eye does: the logarithm approaches that of the
+// frame and is within 1/e of it after `adaptation_s`, 0 for at once. Depends on nothing but what it
+// was given, so that a sequence that is continued looks as one that was not interrupted.
+class Adaptation {
+ public:
+  Adaptation(double adaptation_s, double frames_per_second);
+  double next(double metered);  // the exposure of the next frame; m^2/cd
+
+ private:
+  double share_;
+  double exposure_ = 0;  // of the frame before; 0: there was none
+};
+
+}  // namespace skyfit

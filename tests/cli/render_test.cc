@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Driving the renderer: strips, sequences that are kept, continued and redrawn, films, and what is
+// refused before anything is drawn.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace skyfit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+class RenderTest : public ProgramTest {
+ protected:
+  void expect_render_refusal(const std::vector<std::string>& arguments,
+                             const std::vector<std::string>& texts) const {
+    expect_refusal(
+        std::vector<std::string>{"render", "--preset", "earth-clear", "--out", "frame.png"} +
+            arguments,
+        texts);
+  }
+  // Of a drawn file, to see that it is not written again.
+  fs::file_time_type time_of(const std::string& name) const {
+    return fs::last_write_time(folder_ / name);
+  }
+};
+
+TEST_F(RenderTest, AStripStandsSideBySide) {
+  const Outcome outcome =
+      run({"render", "--preset", "earth-clear", "--strip", "mie.scattering=1e-5..3e-5:3", "--view",
+           "space", "--size", "32x18", "--samples-per-side", "1", "--stats", "--out", "strip.png"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("mie.scattering [1/m]"));
+  EXPECT_THAT(outcome.out, HasSubstr("  1  2e-05"));
+  EXPECT_THAT(outcome.out, HasSubstr("frame ms"));
+  EXPECT_THAT(outcome.out, HasSubstr("median"));
+  // IHDR: 3 x 32 and two gaps of 4 wide
+  EXPECT_EQ(read("strip.png").substr(16, 8), std::string("\0\0\0\x68\0\0\0\x12", 8));
+}
+
+constexpr const char* kSequence = R"({"skyfit_sequence": 1, "frames_per_second": 10, "keyframes": [
+  {"time_s": 0, "camera": {"view": "space"}, "sun": {"zenith_deg": 40}},
+  {"time_s": 0.2, "sun": {"zenith_deg": 60}, "parameters": {"ground.albedo": 0.12}}]})";
+
+TEST_F(RenderTest, ASequenceIsKeptContinuedAndRedrawn) {
+  write("day.json", kSequence);
+  const std::vector<std::string> command = {
+      "render", "--preset",  "earth-clear", "--sequence",         "day.json", "--size",
+      "33x18",  "--out-dir", "film",        "--samples-per-side", "1"};
+  const std::string nowhere = "PATH=" + (folder_ / "no-programs").string();
+
+  const Outcome first = run(command, {nowhere});
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("film: 3 frames at 10 per second, 3 drawn, 0 kept"));
+  EXPECT_EQ(lines(first.err).size(), 1u);
+  EXPECT_THAT(first.err, HasSubstr("no ffmpeg in PATH"));
+  EXPECT_THAT(first.err, HasSubstr("libx264"));
+  EXPECT_THAT(files(), ::testing::UnorderedElementsAre("day.json", "film", "film/frame_00000.png",
+                                                       "film/frame_00001.png",
+                                                       "film/frame_00002.png", "film/frames.json"));
+
+  // Nothing is drawn again, and the film is made once there is a program for it.
+  const auto drawn = time_of("film/frame_00001.png");
+  const std::string bytes = read("film/frame_00001.png"), manifest = read("film/frames.json");
+  fs::permissions(
+      write("programs/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho \"$@\" >\"$last\"\n"),
+      fs::perms::owner_all);
+  const std::string programs = "PATH=" + (folder_ / "programs").string();
+  const Outcome second = run(command, {programs});
+  ASSERT_EQ(second.status, 0) << second.err;
+  EXPECT_EQ(second.err, "");
+  EXPECT_THAT(second.out, HasSubstr("0 drawn, 3 kept, film film/sequence.mp4"));
+  EXPECT_EQ(time_of("film/frame_00001.png"), drawn);
+  EXPECT_THAT(read("film/sequence.mp4"), HasSubstr("-framerate 10"));
+  EXPECT_THAT(read("film/sequence.mp4"), HasSubstr("yuv420p"));
+
+  // A run that was cut off after two frames: the third comes out as it would have.
+  const auto film = time_of("film/sequence.mp4");
+  const std::string last = read("film/frame_00002.png");
+  auto cut = nlohmann::ordered_json::parse(manifest);
+  cut["frames"].erase("frame_00002");
+  write("film/frames.json", cut.dump());
+  fs::remove(folder_ / "film/frame_00002.png");
+  const Outcome third = run(command, {programs});
+  EXPECT_THAT(third.out, HasSubstr("1 drawn, 2 kept"));
+  EXPECT_EQ(time_of("film/frame_00001.png"), drawn);
+  EXPECT_EQ(read("film/frame_00002.png"), last);
+  EXPECT_GE(time_of("film/sequence.mp4"), film);
+
+  // Another tone curve makes other pictures.
+  const Outcome fourth =
+      run(command + std::vector<std::string>{"--tone", "exponential"}, {nowhere});
+  EXPECT_THAT(fourth.out, HasSubstr("3 drawn, 0 kept"));
+  EXPECT_NE(read("film/frame_00001.png"), bytes);
+}
+
+TEST_F(RenderTest, AFailingFfmpegIsNamed) {
+  write("one.json", R"({"skyfit_sequence": 1, "keyframes": [{"time_s": 0}]})");
+  fs::permissions(write("programs/ffmpeg", "#!/bin/sh\necho 'no such encoder' >&2\nexit 3\n"),
+                  fs::perms::owner_all);
+  const Outcome outcome = run({"render", "--preset", "earth-clear", "--sequence", "one.json",
+                               "--size", "16x9", "--samples-per-side", "1", "--out-dir", "film"},
+                              {"PATH=" + (folder_ / "programs").string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("film/sequence.mp4: ffmpeg: exit status 3: no such encoder"));
+  EXPECT_FALSE(fs::exists(folder_ / "film/sequence.mp4"));
+  EXPECT_TRUE(fs::exists(folder_ / "film/frame_00000.png"));
+}
+
+TEST_F(RenderTest, CamerasThatCannotBe) {
+  const auto at_a_place = [](std::vector<std::string> more) {
+    return std::vector<std::string>{"--latitude-deg", "47", "--longitude-deg", "8"} + more;
+  };
+  expect_render_refusal({"--latitude-deg", "91", "--longitude-deg", "0"},
+                        {"--latitude-deg", "91", "-90 to 90"});
+  expect_render_refusal({"--latitude-deg", "47"}, {"--latitude-deg", "with --longitude-deg"});
+  expect_render_refusal({"--altitude-m", "1e300"}, {"--altitude-m", "1e300", "1e+09"});
+  expect_render_refusal({"--altitude-m", "-5"}, {"--altitude-m", "-5"});
+  expect_render_refusal({"--altitude-m", "5", "--above-ground-m", "5"},
+                        {"--altitude-m", "without --above-ground-m"});
+  expect_render_refusal({"--above-ground-m", "0"}, {"--above-ground-m", "0.1"});
+  expect_render_refusal({"--heading-deg", "90"}, {"--heading-deg", "--latitude-deg"});
+  expect_render_refusal(at_a_place({"--heading-deg", "north"}), {"--heading-deg", "north"});
+  expect_render_refusal({"--pitch-deg", "95"}, {"--pitch-deg", "95", "-90 to 90"});
+  expect_render_refusal({"--look-at", "1,2,3"}, {"--look-at", "--latitude-deg"});
+  expect_render_refusal(at_a_place({"--look-at", "1,2"}), {"--look-at", "LATITUDE"});
+  expect_render_refusal(at_a_place({"--look-at", "47,8,10", "--altitude-m", "10"}), {"look_at"});
+  expect_render_refusal(at_a_place({"--look-at", "47,9,0", "--pitch-deg", "1"}),
+                        {"--look-at", "without --pitch-deg"});
+  expect_render_refusal({"--size", "100000x100000"}, {"--size", "100000x100000"});
+  expect_render_refusal({"--size", "0x0"}, {"--size", "0x0"});
+}
+
+TEST_F(RenderTest, ScenesThatCannotBe) {
+  expect_render_refusal({"--height-map", "missing.png"}, {"--height-map missing.png", "No such"});
+  expect_render_refusal({"--color-map", "."}, {"--color-map .", "directory"});
+  write("heights.png", "");
+  expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000..0"},
+                        {"highest_m", "0"});
+  expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000"},
+                        {"--height-range-m", "LOW..HIGH"});
+  expect_render_refusal({"--height-range-m", "0..1"}, {"--height-range-m", "with --height-map"});
+  expect_render_refusal({"--water-level-m", "-3"}, {"water_level_m", "-3"});
+  expect_render_refusal({"--mesh", "tower.obj"}, {"--mesh", "tower.obj", "FILE@LATITUDE"});
+  expect_render_refusal({"--mesh", "tower.obj@47,8,0"}, {"--mesh tower.obj", "No such"});
+  expect_render_refusal({"--moon", "10"}, {"--moon", "10", "ZENITH"});
+  expect_render_refusal({"--moon", "10,20,30,40"}, {"moon.distance_m", "30"});
+  expect_render_refusal({"--second-sun", "10,20,-1"}, {"second_sun.irradiance", "-1"});
+  expect_render_refusal({"--clouds", "2"}, {"clouds.cover", "2"});
+  expect_render_refusal({"--aerial", "fog"}, {"--aerial", "fog", "pixel or volume"});
+  expect_render_refusal({"--tone", "sepia"}, {"--tone", "sepia", "filmic or exponential"});
+  expect_render_refusal({"--exposure", "0"}, {"--exposure", "0", "m^2/cd"});
+  expect_render_refusal({"--layers"}, {"--layers", ".exr"});
+}
+
+TEST_F(RenderTest, SequencesAndStripsThatCannotBe) {
+  const std::vector<std::string> day = {
+      "render",          "--preset", "earth-clear", "--latitude-deg", "47",
+      "--longitude-deg", "8",        "--date",      "2026-06-21",     "--time"};
+  expect_refusal(day + std::vector<std::string>{"05:00..21:00"}, {"--out-dir"});
+  expect_refusal(day + std::vector<std::string>{"05:00..21:00", "--out", "x.png"},
+                 {"--out", "--out-dir for a sequence"});
+  expect_refusal(day + std::vector<std::string>{"05:00..25:00", "--out-dir", "x"},
+                 {"--time", "05:00..25:00", "HH:MM"});
+  expect_refusal(day + std::vector<std::string>{"05:00", "--out-dir", "x"},
+                 {"--out-dir", "expected a sequence"});
+  expect_refusal(day + std::vector<std::string>{"05:00", "--frames", "4", "--out", "x.png"},
+                 {"--frames", "FROM..TO"});
+  expect_refusal(day + std::vector<std::string>{"05:00..21:00", "--frames", "0", "--out-dir", "x"},
+                 {"--frames", "0", "1 to 100000"});
+  expect_refusal(
+      day + std::vector<std::string>{"05:00..21:00", "--step-min", "-1", "--out-dir", "x"},
+      {"--step-min", "-1"});
+  expect_render_refusal({"--date", "2026-06-21", "--time", "12:00"}, {"--date", "--latitude-deg"});
+  expect_render_refusal({"--date", "2026-06-21"}, {"--date", "with --time"});
+  expect_render_refusal({"--strip", "mie.scattering"}, {"--strip", "LOW..HIGH"});
+  expect_render_refusal({"--strip", "mie.fog=1..2"}, {"--strip", "mie.fog", "mie.scattering"});
+  expect_render_refusal({"--strip", "ground.albedo=0..2"}, {"ground.albedo", "1.5"});
+  expect_render_refusal({"--strip", "ground.albedo=0..1:1"}, {"--strip", "2 to 64 frames"});
+  const std::vector<std::string> sequence = {"render",    "--preset", "earth-clear",
+                                             "--out-dir", "x",        "--sequence"};
+  expect_refusal(sequence + std::vector<std::string>{"missing.json"}, {"missing.json", "No such"});
+  write("bad.json", "{\"skyfit_sequence\": 1,\n\"keyframes\": [{\"time_s\": \"noon\"}]}");
+  expect_refusal(sequence + std::vector<std::string>{"bad.json"},
+                 {"bad.json:2: keyframes[0].time_s", "noon", "a number"});
+  write("planets.json", R"({"skyfit_sequence": 1, "keyframes": [{"time_s": 0},
+      {"time_s": 1, "preset": "mars"}]})");
+  expect_refusal(sequence + std::vector<std::string>{"planets.json"},
+                 {"earth-clear and mars", "planet.bottom_radius_m"});
+  write("x/frames.json", "{}");
+  write("good.json", kSequence);
+  expect_refusal(sequence + std::vector<std::string>{"good.json"}, {"x/frames.json", "remove it"});
+  expect_refusal(
+      {"render", "--preset", "earth-clear", "--sequence", "good.json", "--out-dir", "a/b"},
+      {"a/b", "No such file"});
+  expect_refusal({"render", "--out", "x.png"}, {"--preset"});
+  expect_refusal({"render", "--preset", "earth-clear"}, {"--out"});
+}
+
+}  // namespace
+}  // namespace skyfit::cli

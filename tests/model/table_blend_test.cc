@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables between two others: at the ends they are those, and halfway the light is that of the
+// atmosphere halfway.
+#include "model/table_blend.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "data_refs/references.h"
+#include "data_refs/spectra.h"
+#include "model/preset.h"
+#include "model/table_lookup.h"
+
+namespace skyfit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr TableSizes kSmall = {64, 32, 16, 8, 16, 16, 24, 16, 8};
+
+Atmosphere<double> shipped(const char* name) {
+  return parse_preset(refs::shipped_preset_json(name), name).atmosphere;
+}
+
+AtmosphereTables tables_of(const Atmosphere<double>& atmosphere) {
+  return compute_tables(atmosphere, color_rule(refs::standard_spectral_data()), kSmall, 2, {});
+}
+
+// A clear sky and one with a quarter more aerosol over brighter ground: the most that one step of
+// the weather changes (render/weather.h).
+struct Weather {
+  AtmosphereTables clear, hazy;
+};
+const Weather& weather() {
+  static const Weather made = [] {
+    const Atmosphere<double> clear = shipped("earth-clear");
+    Atmosphere<double> hazy = clear;
+    hazy.mie.scattering_per_m.value *= 1.25;
+    hazy.ground_albedo += 0.05;
+    return Weather{tables_of(clear), tables_of(hazy)};
+  }();
+  return made;
+}
+
+TEST(TableBlend, TheEndsAreTheTables) {
+  const AtmosphereTables start = interpolated_tables(weather().clear, weather().hazy, 0),
+                         end = interpolated_tables(weather().clear, weather().hazy, 1);
+  EXPECT_EQ(start.atmosphere, weather().clear.atmosphere);
+  EXPECT_EQ(start.rayleigh_like.rgba, weather().clear.rayleigh_like.rgba);
+  EXPECT_EQ(start.optical_depth.rgba, weather().clear.optical_depth.rgba);
+  EXPECT_EQ(end.atmosphere, weather().hazy.atmosphere);
+  EXPECT_EQ(end.single_mie.rgba, weather().hazy.single_mie.rgba);
+  EXPECT_EQ(end.irradiance.rgba, weather().hazy.irradiance.rgba);
+}
+
+TEST(TableBlend, HalfwayIsTheAtmosphereHalfway) {
+  const AtmosphereTables blended = interpolated_tables(weather().clear, weather().hazy, 0.5),
+                         computed = tables_of(blended.atmosphere);
+  constexpr double kOfLogarithms = 0.01;  // (ln 1.25)^2 / 8, for light linear in the parameter
+  for (const double sun : {10.0, 60.0, 85.0}) {
+    for (const double view : {0.0, 45.0, 80.0, 88.0}) {
+      for (const double azimuth : {0.0, 90.0, 180.0}) {
+        const double mu = std::cos(view * kDegree), mu_s = std::cos(sun * kDegree);
+        const double nu = mu * mu_s + std::sin(view * kDegree) * std::sin(sun * kDegree) *
+                                          std::cos(azimuth * kDegree);
+        const NodeValues expected = lookup_radiance(computed, 2, mu, mu_s, nu, false),
+                         found = lookup_radiance(blended, 2, mu, mu_s, nu, false);
+        for (std::size_t k = 0; k < 4; ++k)
+          EXPECT_NEAR(found[k] / expected[k], 1, kOfLogarithms)
+              << "sun " << sun << ", view " << view << ", azimuth " << azimuth << ", node " << k;
+      }
+    }
+  }
+}
+
+TEST(TableBlend, ParametersAreLinearWhateverTheirWavelength) {
+  const Atmosphere<double> a = shipped("earth-clear");
+  Atmosphere<double> b = a;
+  // The same aerosol, stated at 680 nm, and twice as much of it.
+  b.mie.scattering_per_m = {
+      680,
+      2 * a.mie.scattering_per_m.value *
+          std::pow(680 / a.mie.scattering_per_m.wavelength_nm, -a.mie.scattering_per_m.exponent),
+      a.mie.scattering_per_m.exponent};
+  b.ozone.column_du = a.ozone.column_du + 40;
+  const Atmosphere<double> between = interpolated_atmosphere(a, b, 0.25);
+  EXPECT_NEAR(between.mie.scattering_per_m.value / a.mie.scattering_per_m.value, 1.25, 1e-12);
+  EXPECT_NEAR(between.ozone.column_du, a.ozone.column_du + 10, 1e-9);
+}
+
+TEST(TableBlend, RefusesWhatHasNothingBetween) {
+  const Atmosphere<double> a = shipped("earth-clear");
+  Atmosphere<double> b = a;
+  b.top_radius_m += 1e3;
+  EXPECT_THAT([&] { interpolated_atmosphere(a, b, 0.5); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("planet.top_radius_m: differs")));
+  b = a;
+  b.mie.phase.type =
+      a.mie.phase.type == PhaseType::kTwoLobe ? PhaseType::kHenyeyGreenstein : PhaseType::kTwoLobe;
+  EXPECT_THAT([&] { interpolated_atmosphere(a, b, 0.5); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("mie.phase.type: differs")));
+}
+
+}  // namespace
+}  // namespace skyfit

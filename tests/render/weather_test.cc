@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weather over a sequence: tables are computed once per step, shared where nothing changes, and
+// interpolated in between.
+#include "render/weather.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+
+#include "data_refs/references.h"
+#include "data_refs/spectra.h"
+
+namespace skyfit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr TableSizes kTiny = {16, 16, 8, 4, 4, 4, 8, 8, 4};
+
+Preset preset(double aerosol) {
+  Preset preset = parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear");
+  preset.name = "weather";
+  preset.atmosphere.mie.scattering_per_m.value = aerosol;
+  return preset;
+}
+
+TEST(Weather, StepsAreAtMostAQuarter) {
+  const std::vector<WeatherStep> steps =
+      refined({{0, preset(1e-5)}, {8, preset(4e-5)}, {9, preset(4e-5)}});
+  ASSERT_EQ(steps.size(),
+            9u);  // ln 4 / ln 1.25 = 6.2, so 7 steps, and the one that changes nothing
+  for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
+    EXPECT_GT(steps[i].time_s, steps[i - 1].time_s);
+    const double ratio = steps[i].preset.atmosphere.mie.scattering_per_m.value /
+                         steps[i - 1].preset.atmosphere.mie.scattering_per_m.value;
+    EXPECT_NEAR(ratio, std::pow(4, 1.0 / 7), 1e-9);
+  }
+  // The coefficient goes linearly with time, however the steps lie.
+  EXPECT_NEAR(steps[3].preset.atmosphere.mie.scattering_per_m.value,
+              1e-5 + 3e-5 * steps[3].time_s / 8, 1e-12);
+}
+
+TEST(Weather, MomentsLieBetweenSteps) {
+  const std::vector<WeatherStep> steps = {{1, preset(1e-5)}, {3, preset(2e-5)}};
+  EXPECT_EQ(moment_at(steps, 0).after, 0u);
+  EXPECT_EQ(moment_at(steps, 1).after, 0u);
+  EXPECT_EQ(moment_at(steps, 2).after, 1u);
+  EXPECT_DOUBLE_EQ(moment_at(steps, 1.5).share, 0.25);
+  EXPECT_EQ(moment_at(steps, 3).before, 1u);
+  EXPECT_EQ(moment_at(steps, 30).before, 1u);
+}
+
+TEST(Weather, TablesAreMadeOncePerStep) {
+  std::atomic<int> calls = 0, running = 0;
+  Weather weather({{0, preset(1e-5)}, {1, preset(1.2e-5)}, {2, preset(1.2e-5)}, {3, preset(1e-5)}},
+                  [&](const Preset& p) {
+                    EXPECT_EQ(++running, 1);
+                    ++calls;
+                    const AtmosphereTables tables = compute_tables(
+                        p.atmosphere, color_rule(refs::standard_spectral_data()), kTiny, 1, {});
+                    --running;
+                    return tables;
+                  });
+  const Weather::Now start = weather.at(0), again = weather.at(0), half = weather.at(0.5);
+  EXPECT_EQ(start.tables, again.tables);
+  EXPECT_NE(start.tables, half.tables);
+  EXPECT_NEAR(half.preset.atmosphere.mie.scattering_per_m.value, 1.1e-5, 1e-15);
+  const std::size_t texel = half.tables->optical_depth.rgba.size() / 2;
+  EXPECT_GT(half.tables->optical_depth.rgba[texel], start.tables->optical_depth.rgba[texel]);
+  EXPECT_EQ(weather.at(1.2).tables, weather.at(1.9).tables);  // nothing changes
+  EXPECT_EQ(weather.at(3).preset.name, "weather");
+  EXPECT_EQ(calls, 3);  // of four steps two are the same
+}
+
+TEST(Weather, ErrorsOfTheTablesArrive) {
+  Weather weather({{0, preset(1e-5)}},
+                  [](const Preset&) -> AtmosphereTables { throw std::runtime_error("no tables"); });
+  EXPECT_THAT([&] { weather.at(0); }, ThrowsMessage<std::runtime_error>("no tables"));
+}
+
+TEST(Weather, BetweenTwoPlanetsThereIsNone) {
+  Preset mars = parse_preset(refs::shipped_preset_json("mars"), "mars");
+  EXPECT_THAT(
+      [&] {
+        refined({{0, preset(1e-5)}, {2, mars}});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("presets weather and mars at 0 s")));
+}
+
+}  // namespace
+}  // namespace skyfit
