@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "render/render.h"
+
 namespace skyfit {
 
 class GlContext {
@@ -15,13 +17,35 @@ class GlContext {
   GlContext& operator=(const GlContext&) = delete;
   virtual ~GlContext() = default;
 
-  // Makes the context that of the calling thread and loads the OpenGL functions from it.
+  // Makes the context that of the calling thread, in place of any other, and loads the OpenGL
+  // functions from it: there is one set of them in a process, so that two contexts are used in
+  // turn, not at once.
   virtual void make_current() = 0;
+
+  // What draws, for statistics: the way to it, the renderer and the version of OpenGL.
+  const std::string& description() const { return description_; }
+
+ protected:
+  // Of the current context.
+  void describe(const std::string& way);
+
+ private:
+  std::string description_;
 };
 
-// Software rendering without display or GPU. The context is current when this returns. Throws
-// std::runtime_error when the driver has no OpenGL 4.5 core.
+// The context is current when this returns. Throws std::runtime_error, in one line, when there is
+// no OpenGL 4.5 core.
+std::unique_ptr<GlContext> make_context(GraphicsDevice device);
+
+// Software rendering without display or GPU.
 std::unique_ptr<GlContext> make_osmesa_context();
+
+// EGL without display: its devices, GPUs before software, then Mesa's platform without surfaces.
+std::unique_ptr<GlContext> make_egl_context();
+
+// Takes the calling thread's context from it, whichever of the two libraries it came from. Both may
+// be one Mesa inside, which keeps one current context and does not tell the other library.
+void release_current_context();
 
 // Throws std::runtime_error that names `where` and the error when OpenGL has recorded one since the
 // last call.
