@@ -122,7 +122,7 @@ struct FrameOptions {
   std::optional<Moon> moon;
   std::optional<CloudLayer> clouds;
   bool layers = false;        // fill Frame::layers
-  double samples_per_quad = 8;  // side of a terrain quad in the picture, in samples: 1 to 64
+  double samples_per_quad = 16;  // side of a terrain quad in the picture, in samples: 1 to 64
 };
 
 // Throws std::invalid_argument `render.name = value: must be ...` for the first option out of

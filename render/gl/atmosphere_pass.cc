@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "model/shared/shared.h"
 #include "render/gl/shader.h"
 #include "render/gl/uniform_block.h"
 
@@ -19,6 +20,33 @@ void add(const std::string& name, const Table& table, FrameGraph& graph) {
 
 // Rows and columns of the sky's view for each texel of the scattering table.
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
+
+// After those of kAtmosphereReads.
+constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14;
+
+// Densities of air and aerosol relative to h = 0, over the heights of the tables.
+GlTexture density_texture(const Atmosphere<double>& a) {
+  constexpr int kHeights = 256;
+  const double thickness = a.top_radius_m - a.bottom_radius_m;
+  const auto density = [](const TabulatedProfile& profile, double scale_height, double h) {
+    return profile ? profile->density(h) : std::exp(-h / scale_height);
+  };
+  std::vector<glm::vec2> values;
+  Shared<double> shared;
+  for (int i = 0; i < kHeights; ++i) {
+    const double h = shared.height_from_unit(i / (kHeights - 1.0), thickness);
+    values.emplace_back(density(a.rayleigh.profile, a.rayleigh.scale_height_m, h),
+                        density(a.mie.profile, a.mie.scale_height_m, h));
+  }
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  GlTexture texture(id);
+  glTextureStorage2D(id, 1, GL_RG32F, kHeights, 1);
+  glTextureSubImage2D(id, 0, 0, 0, kHeights, 1, GL_RG, GL_FLOAT, values.data());
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  return texture;
+}
 
 glm::vec4 second_sun(const SecondSun& sun) {
   const double s = std::sin(sun.zenith);
@@ -95,12 +123,19 @@ GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program) {
   return block.bind();
 }
 
+bool AtmosphereView::volume(const AtmosphereTables& tables) const {
+  const double thickness = tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
+  return options.aerial == AerialPerspective::kVolume && !options.second_sun &&
+         options.camera.altitude_m < thickness;
+}
+
 AtmospherePass::AtmospherePass() : empty_(make_vertex_array()) {}
 
 void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   tables_.atmosphere = tables.atmosphere;
   tables_.color = tables.color;
   tables_.sizes = tables.sizes;
+  densities_ = density_texture(tables.atmosphere);
 }
 
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
@@ -109,15 +144,14 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
           fmt::format("LOBE_TYPE {}", static_cast<int>(phase.lobe))};
 }
 
-GLuint AtmospherePass::program(const std::string& fragment, const Defined& defined) {
-  const auto key = std::pair(fragment, defined);
+GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
+  const auto key = std::pair(path, defined);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second.id();
-  GlProgram built =
-      build_program(std::array{ShaderStage{GL_VERTEX_SHADER, "render/shaders/fullscreen.vert"},
-                               ShaderStage{GL_FRAGMENT_SHADER, fragment}},
-                    {}, defined);
-  return programs_.emplace(key, std::move(built)).first->second.id();
+  std::vector<ShaderStage> stages = {{GL_VERTEX_SHADER, "render/shaders/fullscreen.vert"},
+                                     {GL_FRAGMENT_SHADER, path}};
+  if (path.ends_with(".comp")) stages = {{GL_COMPUTE_SHADER, path}};
+  return programs_.emplace(key, build_program(stages, {}, defined)).first->second.id();
 }
 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
@@ -133,22 +167,23 @@ glm::ivec3 AtmospherePass::sky_view_size() const {
           (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
 }
 
-void AtmospherePass::bind_blocks(GLuint program, const Projection& projection,
-                                 const SiteAxes& axes, const FrameOptions& options) {
-  UniformBlock view(program, "View");
-  view.set("site_from_view", glm::transpose(projection.view_from_site));
-  view.set("planet_from_site", glm::mat3(axes.planet_from_site()));
-  view.set("tangent", projection.tangent);
-  view.set("camera_km", 1e-3 * options.camera.altitude_m);
-  view.set("near_km", projection.near_km);
-  view.set("pixel_angle",
-           options.camera.vertical_fov / (options.height * options.samples_per_side));
-  view.set("sky_view_size", glm::vec4(sky_view_size(), 0));
+void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
+  const FrameOptions& options = view.options;
+  UniformBlock block(program, "View");
+  block.set("site_from_view", glm::transpose(view.projection.view_from_site));
+  block.set("planet_from_site", glm::mat3(view.axes.planet_from_site()));
+  block.set("tangent", view.projection.tangent);
+  block.set("camera_km", 1e-3 * options.camera.altitude_m);
+  block.set("near_km", view.projection.near_km);
+  block.set("pixel_angle",
+            options.camera.vertical_fov / (options.height * options.samples_per_side));
+  block.set("volume_km", view.farthest_km);
+  block.set("sky_view_size", glm::vec4(sky_view_size(), 0));
   std::vector<glm::vec4> suns = {{std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
-  view.set("suns", std::span<const glm::vec4>(suns));
+  block.set("suns", std::span<const glm::vec4>(suns));
   blocks_.clear();
-  blocks_.push_back(view.bind());
+  blocks_.push_back(block.bind());
   blocks_.push_back(atmosphere_block(tables_, program));
 }
 
@@ -164,23 +199,42 @@ void AtmospherePass::draw_triangle(GLuint program) const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void AtmospherePass::draw_sky_view(const Projection& projection, const SiteAxes& axes,
-                                   const FrameOptions& options) {
-  const GLuint id = program("render/shaders/sky_view.frag", defined_by(options));
-  bind_blocks(id, projection, axes, options);
+void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
+  const GLuint id = program("render/shaders/sky_view.frag", defined_by(view.options));
+  bind_blocks(id, view);
   draw_triangle(id);
 }
 
-GLuint AtmospherePass::variant(bool surface, const FrameOptions& options) {
-  Defined defined = defined_by(options);
+void AtmospherePass::fill_volume(const AtmosphereView& view) {
+  if (!volume_) volume_.emplace();
+  const GLuint id = program("render/shaders/aerial_volume.comp", defined_by(view.options));
+  bind_blocks(id, view);
+  volume_->fill(id);
+}
+
+GLuint AtmospherePass::variant(bool surface, const AtmosphereView& view) {
+  Defined defined = defined_by(view.options);
   if (surface) defined.push_back("SURFACE");
-  if (options.layers) defined.push_back("LAYERS");
+  if (surface && view.volume(tables_)) defined.push_back("VOLUME");
+  if (view.options.layers) defined.push_back("LAYERS");
+  if (view.options.clouds) defined.push_back("CLOUDS");
+  if (view.shadows != nullptr) defined.push_back("SHADOWS");
   return program("render/shaders/atmosphere.frag", defined);
 }
 
-void AtmospherePass::draw(const FrameOptions& options) {
-  const GLuint sky = variant(false, options), surface = variant(true, options);
+void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_maps) {
+  const GLuint sky = variant(false, view), surface = variant(true, view);
+  bind_blocks(sky, view);
   blocks_.push_back(color_block(tables_.color, sky));
+  if (view.shadows != nullptr) {
+    blocks_.push_back(shadow_maps.bind(*view.shadows, surface, kShadowUnit));
+    glBindTextureUnit(kShadowUnit + 1, densities_.id());
+  }
+  if (view.options.clouds) {
+    if (!clouds_) clouds_.emplace();
+    blocks_.push_back(clouds_->bind(*view.options.clouds, sky, kCloudUnit));
+  }
+  if (view.volume(tables_)) volume_->bind(kVolumeUnit);
   // The triangle lies at depth 0, as the sky does.
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);

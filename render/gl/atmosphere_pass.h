@@ -7,13 +7,18 @@
 // for all pixels, into the targets kSkyViewWrites.
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "render/gl/aerial_volume.h"
+#include "render/gl/clouds.h"
 #include "render/gl/objects.h"
 #include "render/gl/passes.h"
 #include "render/gl/projection.h"
+#include "render/gl/shadow_pass.h"
 #include "render/gl/site_axes.h"
 
 namespace skyfit {
@@ -38,34 +43,49 @@ inline const std::vector<std::string> kSkyViewWrites = {"view_air", "view_aeroso
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables);
 GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program);
 
+// A frame as the atmosphere's passes see it.
+struct AtmosphereView {
+  const FrameOptions& options;
+  const Projection& projection;
+  const SiteAxes& axes;
+  const std::array<ShadowView, kShadowMaps>* shadows;  // null: none
+  double farthest_km;  // of what is seen in the air: the length of the volume
+
+  // The volume holds one sun's light, for an eye in the air.
+  bool volume(const AtmosphereTables& tables) const;
+};
+
 class AtmospherePass {
  public:
   AtmospherePass();
 
   // The tables' values are read from the textures; the rest is kept.
   void set_tables(const AtmosphereTables& tables);
+  const AtmosphereTables& tables() const { return tables_; }  // without values
 
   void add_sky_view(const FrameOptions& options, FrameGraph& graph) const;
-  void draw_sky_view(const Projection& projection, const SiteAxes& axes,
-                     const FrameOptions& options);
+  void draw_sky_view(const AtmosphereView& view);
+  void fill_volume(const AtmosphereView& view);
 
-  // After draw_sky_view() of the same view. Compiles the variants that the options need, when they
-  // are new. The depth target holds the G-buffer's depth.
-  void draw(const FrameOptions& options);
+  // After draw_sky_view() and, where there is a volume, fill_volume() of the same view. Compiles the
+  // variants that the options need, when they are new. The depth target holds the G-buffer's depth.
+  void draw(const AtmosphereView& view, const ShadowPass& shadow_maps);
 
  private:
   using Defined = std::vector<std::string>;
-  GLuint program(const std::string& fragment, const Defined& defined);
-  GLuint variant(bool surface, const FrameOptions& options);
+  GLuint program(const std::string& path, const Defined& defined);
   Defined defined_by(const FrameOptions& options) const;
+  GLuint variant(bool surface, const AtmosphereView& view);
   glm::ivec3 sky_view_size() const;  // columns of a sun, rows to the ground, rows to the sky
-  void bind_blocks(GLuint program, const Projection& projection, const SiteAxes& axes,
-                   const FrameOptions& options);
+  void bind_blocks(GLuint program, const AtmosphereView& view);
   void draw_triangle(GLuint program) const;
 
   AtmosphereTables tables_;  // without the tables' values
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
   GlVertexArray empty_;
+  GlTexture densities_;                   // over height
+  std::optional<AerialVolume> volume_;    // made when first used
+  std::optional<Clouds> clouds_;
   std::vector<GlBuffer> blocks_;  // of the frame
 };
 

@@ -35,20 +35,18 @@ int BlockStore::free_slot() {
   const auto oldest =
       std::min_element(slots_.begin(), slots_.end(),
                        [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+  if (oldest->second.used == frame_) throw std::length_error("render: too many blocks of terrain");
   const int slot = oldest->second.slot;
   slots_.erase(oldest);
   return slot;
 }
 
-int BlockStore::provide(std::span<const CubeBlock> blocks,
-                        const std::function<void(double)>& progress) {
-  if (blocks.size() > kMostBlocks) throw std::logic_error("render: too many blocks of terrain");
-  ++call_;
+void BlockStore::provide(std::span<const CubeBlock> blocks) {
   std::vector<CubeBlock> missing;
   for (const CubeBlock& block : blocks) {
     const auto found = slots_.find(block);
     if (found != slots_.end()) {
-      found->second.used = call_;
+      found->second.used = frame_;
     } else {
       missing.push_back(block);
     }
@@ -64,13 +62,12 @@ int BlockStore::provide(std::span<const CubeBlock> blocks,
     });
     for (std::size_t i = 0; i < count; ++i) {
       const int slot = free_slot();
-      slots_[missing[first + i]] = {slot, heights[i], call_};
+      slots_[missing[first + i]] = {slot, heights[i], frame_};
       glNamedBufferSubData(vertices_.id(), slot * kBlockBytes, kBlockBytes,
                            made.data() + i * kBlockVertices);
     }
-    progress(static_cast<double>(first + count) / static_cast<double>(missing.size()));
   }
-  return static_cast<int>(missing.size());
+  made_ += static_cast<int>(missing.size());
 }
 
 }  // namespace skyfit

@@ -3,7 +3,6 @@
 // in parallel, and stay for the frames that follow; the longest unused make room.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -20,11 +19,15 @@ class BlockStore {
   // Both outlive the store.
   BlockStore(const Ground& ground, double radius_m);
 
-  // Makes what is missing, at most kMostBlocks in all; what the call before asked for may go.
-  // Returns how many were made. Progress in 0..1.
-  int provide(std::span<const CubeBlock> blocks, const std::function<void(double)>& progress);
+  // What is provided from now on stays until the next call.
+  void begin_frame() { ++frame_, made_ = 0; }
 
-  // Of a block that the last provide() asked for: where its vertices begin, in vertices.
+  // Makes what is missing. Throws std::length_error when a frame needs more than kMostBlocks.
+  void provide(std::span<const CubeBlock> blocks);
+
+  int made() const { return made_; }  // since begin_frame()
+
+  // Of a block of this frame: where its vertices begin, in vertices.
   GLint first_vertex(const CubeBlock& block) const { return slots_.at(block).slot * kBlockVertices; }
 
   const HeightRange& heights(const CubeBlock& block) const { return slots_.at(block).heights; }
@@ -35,7 +38,7 @@ class BlockStore {
   struct Slot {
     int slot;
     HeightRange heights;
-    std::int64_t used;  // by which call of provide()
+    std::int64_t used;  // by which frame
   };
   void reserve(int blocks);
   int free_slot();
@@ -44,7 +47,8 @@ class BlockStore {
   double radius_m_;
   GlBuffer vertices_;
   int capacity_ = 0, next_ = 0;
-  std::int64_t call_ = 0;
+  std::int64_t frame_ = 0;
+  int made_ = 0;
   std::map<CubeBlock, Slot> slots_;
 };
 

@@ -23,9 +23,11 @@ constexpr std::array<FaceAxes, 6> kFaces = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                              {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
                                              {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}}};
 
-double distance_to(const Box& box, const glm::dvec3& p) {
+double distance_between(const Box& box, const glm::dvec3& p) {
   return glm::length(glm::max(glm::max(box.low - p, p - box.high), glm::dvec3(0)));
 }
+
+enum class Visibility { kSeen, kOutside, kBehind };
 
 // What a view can see, in the axes of its site about the planet's centre.
 class Frustum {
@@ -33,12 +35,16 @@ class Frustum {
   explicit Frustum(const TerrainView& view)
       : view_(view),
         frame_from_planet_(view.axes.site_from_planet()),
-        camera_(0, 0, view.radius_m + view.altitude_m) {
+        camera_(0, 0, view.radius_m + view.altitude_m),
+        own_horizon_(horizon(view.altitude_m)) {
     const auto& [right, up, forward] = view.basis;
     const double w = view.tangent.x, h = view.tangent.y;
-    planes_ = {forward * w + right, forward * w - right, forward * h + up, forward * h - up,
-               forward};
-    own_horizon_ = horizon(view.altitude_m);
+    planes_ = view.planes;
+    if (!planes_.empty()) return;
+    for (const glm::dvec3& inward : {forward * w + right, forward * w - right, forward * h + up,
+                                     forward * h - up, forward}) {
+      planes_.emplace_back(inward, 0);
+    }
   }
 
   const glm::dvec3& camera() const { return camera_; }
@@ -47,9 +53,9 @@ class Frustum {
     return block_box(block, heights, frame_from_planet_, view_.radius_m);
   }
 
-  Visibility visibility(const CubeBlock& block, const HeightRange& heights, const Box& box) const {
+  Visibility visibility(const CubeBlock& block, const HeightRange& heights) const {
     if (behind(block, heights.high)) return Visibility::kBehind;
-    return outside(box) ? Visibility::kOutside : Visibility::kSeen;
+    return outside(box(block, heights)) ? Visibility::kOutside : Visibility::kSeen;
   }
 
  private:
@@ -60,9 +66,10 @@ class Frustum {
 
   // Outside a plane is a box whose farthest corner along the plane's normal, its p-vertex, is.
   bool outside(const Box& box) const {
-    return std::any_of(planes_.begin(), planes_.end(), [&](const glm::dvec3& normal) {
+    return std::any_of(planes_.begin(), planes_.end(), [&](const glm::dvec4& plane) {
+      const glm::dvec3 normal(plane);
       const glm::dvec3 p = glm::mix(box.low, box.high, glm::greaterThan(normal, glm::dvec3(0)));
-      return glm::dot(normal, p - camera_) < 0;
+      return glm::dot(normal, p - camera_) + plane.w < 0;
     });
   }
 
@@ -80,16 +87,19 @@ class Frustum {
   const TerrainView& view_;
   glm::dmat3 frame_from_planet_;
   glm::dvec3 camera_;
-  std::array<glm::dvec3, 5> planes_;  // inward normals of planes through the camera
   double own_horizon_;
+  std::vector<glm::dvec4> planes_;
 };
 
 class Selector {
  public:
-  explicit Selector(const TerrainView& view) : view_(view), frustum_(view) {}
+  Selector(const TerrainView& view, const HeightsOf& heights_of)
+      : view_(view), heights_of_(heights_of), frustum_(view) {}
 
   BlockSelection select() {
-    for (int face = 0; face < 6; ++face) visit({face, 0, 0, 0});
+    std::vector<Node> nodes;
+    for (int face = 0; face < 6; ++face) nodes.push_back({{face, 0, 0, 0}, {0, view_.highest_m}});
+    while (!nodes.empty()) nodes = next_level(std::move(nodes));
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Found& a, const Found& b) { return a.distance < b.distance; });
     for (const Found& found : found_) selection_.blocks.push_back(found.block);
@@ -97,33 +107,56 @@ class Selector {
   }
 
  private:
+  struct Node {
+    CubeBlock block;
+    HeightRange heights;
+  };
   struct Found {
     double distance;
     CubeBlock block;
   };
 
-  void visit(const CubeBlock& block) {
-    const HeightRange heights{0, view_.highest_m};
-    const Box box = frustum_.box(block, heights);
-    if (view_.cull) {
-      const Visibility seen = frustum_.visibility(block, heights, box);
+  void drop_unseen(std::vector<Node>& nodes) {
+    if (!view_.cull) return;
+    std::erase_if(nodes, [&](const Node& node) {
+      const Visibility seen = frustum_.visibility(node.block, node.heights);
       if (seen == Visibility::kBehind) ++selection_.behind;
       if (seen == Visibility::kOutside) ++selection_.outside;
-      if (seen != Visibility::kSeen) return;
+      return seen != Visibility::kSeen;
+    });
+  }
+
+  // First with the heights that the parent allows, then with the block's own.
+  std::vector<Node> next_level(std::vector<Node> nodes) {
+    drop_unseen(nodes);
+    std::vector<CubeBlock> blocks;
+    for (const Node& node : nodes) blocks.push_back(node.block);
+    const std::vector<HeightRange> heights = heights_of_(blocks);
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].heights = heights[i];
+    drop_unseen(nodes);
+    std::vector<Node> children;
+    for (const Node& node : nodes) {
+      const CubeBlock& block = node.block;
+      const double arc = block_arc_m(block.level, view_.radius_m);
+      // Finer details stand up to half a quad out of these heights.
+      const double margin = 0.5 * arc / kBlockQuads;
+      const HeightRange allowed{node.heights.low - margin, node.heights.high + margin};
+      const double distance = distance_between(frustum_.box(block, allowed), frustum_.camera());
+      if (block.level + 1 >= view_.levels || distance >= view_.split_ratio * arc) {
+        found_.push_back({distance, block});
+        continue;
+      }
+      for (const auto& [column, row] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+        children.push_back(
+            {{block.face, block.level + 1, 2 * block.column + column, 2 * block.row + row},
+             allowed});
+      }
     }
-    const double distance = distance_to(box, frustum_.camera());
-    const bool split = block.level + 1 < view_.levels &&
-                       distance < view_.split_ratio * block_arc_m(block.level, view_.radius_m);
-    if (!split) {
-      found_.push_back({distance, block});
-      return;
-    }
-    for (const auto& [column, row] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
-      visit({block.face, block.level + 1, 2 * block.column + column, 2 * block.row + row});
-    }
+    return children;
   }
 
   const TerrainView& view_;
+  const HeightsOf& heights_of_;
   Frustum frustum_;
   std::vector<Found> found_;
   BlockSelection selection_;
@@ -172,11 +205,13 @@ Box block_box(const CubeBlock& block, const HeightRange& heights,
   return box;
 }
 
-BlockSelection select_blocks(const TerrainView& view) { return Selector(view).select(); }
+BlockSelection select_blocks(const TerrainView& view, const HeightsOf& heights_of) {
+  return Selector(view, heights_of).select();
+}
 
-Visibility visibility(const CubeBlock& block, const HeightRange& heights, const TerrainView& view) {
+double distance_to(const CubeBlock& block, const HeightRange& heights, const TerrainView& view) {
   const Frustum frustum(view);
-  return frustum.visibility(block, heights, frustum.box(block, heights));
+  return distance_between(frustum.box(block, heights), frustum.camera());
 }
 
 }  // namespace skyfit

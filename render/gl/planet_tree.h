@@ -4,14 +4,17 @@
 //
 // A block is split while its distance from the camera is less than `split_ratio` times its arc
 // length. The distance is that to the block's axis-aligned box, so no vertex of a block is nearer,
-// and with a ratio of at least 2 neighbours differ by one level at most: a vertex that has become
+// and with a ratio of at least 1.6 neighbours differ by one level at most: a vertex that has become
 // one of the coarser level at split_ratio times that level's arc length meets its neighbour's.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "render/gl/site_axes.h"
@@ -57,9 +60,13 @@ struct TerrainView {
   ViewBasis basis;
   glm::dvec2 tangent;  // of half the field of view, horizontal and vertical
   double radius_m = 6360e3, highest_m = 9e3;
-  double split_ratio = 50;  // >= 2
+  double split_ratio = 50;  // >= 1.6
+  double sample_angle = 1e-3;  // that a sample of the picture spans
   int levels = 9;           // >= 1
   bool cull = true;
+  // What is seen instead of the picture's frustum, when there are any: normals that point inward and
+  // distances from the camera, in the axes of the site.
+  std::vector<glm::dvec4> planes;
 
   glm::dvec3 camera() const { return (radius_m + altitude_m) * axes.z; }  // planet coordinates
 };
@@ -69,11 +76,13 @@ struct BlockSelection {
   int outside = 0, behind = 0;    // culled nodes: outside the frustum, behind the horizon
 };
 
-BlockSelection select_blocks(const TerrainView& view);
+// Heights of the blocks' vertices, which it may have to make first.
+using HeightsOf = std::function<std::vector<HeightRange>(std::span<const CubeBlock>)>;
 
-enum class Visibility { kSeen, kOutside, kBehind };  // as in BlockSelection
+// Throws what `heights_of` throws.
+BlockSelection select_blocks(const TerrainView& view, const HeightsOf& heights_of);
 
-// Of a block whose heights are known.
-Visibility visibility(const CubeBlock& block, const HeightRange& heights, const TerrainView& view);
+// From the camera to the block's box.
+double distance_to(const CubeBlock& block, const HeightRange& heights, const TerrainView& view);
 
 }  // namespace skyfit

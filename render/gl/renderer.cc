@@ -14,8 +14,11 @@
 
 #include "render/gl/atmosphere_pass.h"
 #include "render/gl/context.h"
+#include "render/gl/map_ground.h"
+#include "render/gl/object_pass.h"
 #include "render/gl/passes.h"
 #include "render/gl/relief.h"
+#include "render/gl/shadow_pass.h"
 #include "render/gl/terrain_pass.h"
 
 namespace skyfit {
@@ -138,10 +141,9 @@ void add_directions(const Camera& camera, Frame& frame) {
 // How finely the planet is drawn: a quad spans options.samples_per_quad samples of the picture, but
 // no block more than 1/50 of its distance (Sperlhofer 2011, C = 50); 9 levels and, near the camera,
 // as many more as show details of a third of a metre.
-constexpr double kLargestRatio = 50, kSmallestRatio = 2;
+constexpr double kLargestRatio = 50, kSmallestRatio = 1.6;
 constexpr int kFewestLevels = 9;
 constexpr double kFinestQuad = 0.3;  // m
-constexpr std::size_t kMostSelected = 4096;  // blocks of one view, 9 million triangles
 
 int levels_of(double radius) {
   int levels = kFewestLevels;
@@ -160,20 +162,29 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
   view.tangent = {tall * aspect, tall};
   view.radius_m = radius;
   view.highest_m = ground.highest_m();
-  const double sample = 2 * tall / (options.height * options.samples_per_side);
-  view.split_ratio = std::clamp(1 / (kBlockQuads * options.samples_per_quad * sample),
+  view.sample_angle = 2 * tall / (options.height * options.samples_per_side);
+  view.split_ratio = std::clamp(1 / (kBlockQuads * options.samples_per_quad * view.sample_angle),
                                 kSmallestRatio, kLargestRatio);
   view.levels = levels_of(radius);
   return view;
 }
 
 // Coarser where a picture asks for more blocks than memory should hold.
-BlockSelection affordable_blocks(TerrainView& view) {
+BlockSelection affordable_blocks(TerrainView& view, BlockStore& store) {
+  const HeightsOf heights_of = [&](std::span<const CubeBlock> blocks) {
+    store.provide(blocks);
+    std::vector<HeightRange> heights;
+    for (const CubeBlock& block : blocks) heights.push_back(store.heights(block));
+    return heights;
+  };
   for (;;) {
-    BlockSelection selection = select_blocks(view);
-    if (selection.blocks.size() <= kMostSelected || view.split_ratio <= kSmallestRatio)
-      return selection;
-    view.split_ratio = std::max(0.8 * view.split_ratio, kSmallestRatio);
+    try {
+      return select_blocks(view, heights_of);
+    } catch (const std::length_error&) {
+      if (view.split_ratio <= kSmallestRatio) throw;
+      view.split_ratio = std::max(0.8 * view.split_ratio, kSmallestRatio);
+      store.begin_frame();
+    }
   }
 }
 
@@ -184,17 +195,20 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 class GlRenderer final : public FrameDrawer {
  public:
-  GlRenderer(const Scene& scene, GraphicsDevice) : scene_(scene), context_(make_osmesa_context()) {}
+  GlRenderer(const Scene& scene, GraphicsDevice device)
+      : scene_(scene), context_(make_context(device)) {}
 
   void set_atmosphere(const AtmosphereTables& tables) override {
     context_->make_current();
     const double bottom = tables.atmosphere.bottom_radius_m;
     if (!ground_) {
       radius_m_ = bottom;
-      auto relief = std::make_unique<Relief>(bottom, tables.atmosphere.ground_albedo);
-      coast_ = relief->coast();
-      ground_ = std::move(relief);
+      make_ground(tables);
       terrain_.emplace(*ground_, radius_m_, scene_.textures);
+      for (const PlacedMesh& mesh : scene_.meshes) {
+        meshes_.push_back(ObjectPass::upload_mesh(
+            read_object_mesh(mesh.file, mesh.reflectance, tables.color)));
+      }
     } else if (bottom != radius_m_) {
       throw std::invalid_argument(
           fmt::format("render.bottom_radius = {:.9g} m: must stay {:.9g} m from frame to frame",
@@ -213,41 +227,19 @@ class GlRenderer final : public FrameDrawer {
       if (progress) progress(done);
     };
     context_->make_current();
-    const SiteAxes axes = axes_of(options.site);
     require_above_ground(options);
     FrameOptions sampled = options;
     sampled.samples_per_side = affordable_samples(options);
     const int samples = sampled.samples_per_side;
-    const auto start = std::chrono::steady_clock::now();
-    TerrainView view = terrain_view(sampled, axes, *ground_, radius_m_);
-    BlockSelection selection = affordable_blocks(view);
-    Frame frame;
-    frame.statistics.blocks_made =
-        terrain_->provide(selection.blocks, [&](double done) { report(0.8 * done); });
-    const TerrainDraw blocks = terrain_->prepare(selection, view);
     add_targets(options.width * samples, options.height * samples, options.layers, graph_);
     atmosphere_.add_sky_view(options, graph_);
-    const double aspect = static_cast<double>(options.width) / options.height;
-    const Projection projection = make_projection(options.camera, aspect);
-    std::vector<std::string> lights = {"light", "distance", "depth"};
-    if (options.layers) lights.insert(lights.begin() + 2, kLayerWrites.begin(), kLayerWrites.end());
-    const std::vector<Pass> passes = {
-        {"terrain", {}, {"color", "normal_reflectance", "depth"}, [&] {
-           clear_gbuffer();
-           terrain_->draw(blocks, projection, axes);
-         }},
-        // A texture is not read by the pass that tests against it.
-        {"copy of the depth", {}, {}, [&] { graph_.copy("depth", "depth_copy"); }},
-        {"sky view", kTableReads, kSkyViewWrites, [&] {
-           atmosphere_.draw_sky_view(projection, axes, sampled);
-         }},
-        {"atmosphere", kAtmosphereReads, lights, [&] { atmosphere_.draw(sampled); }}};
-    frame.statistics.passes = graph_.run(passes);
+
+    const auto start = std::chrono::steady_clock::now();
+    Frame frame;
+    prepare_scene(sampled, frame.statistics);
+    report(0.7);
+    frame.statistics.passes = graph_.run(passes(sampled));
     frame.statistics.milliseconds = milliseconds_since(start);
-    frame.statistics.triangles = TerrainPass::triangles(blocks);
-    frame.statistics.blocks_drawn = blocks.blocks;
-    frame.statistics.blocks_outside = selection.outside;
-    frame.statistics.blocks_behind = selection.behind;
     report(0.9);
     frame.width = options.width;
     frame.height = options.height;
@@ -259,8 +251,19 @@ class GlRenderer final : public FrameDrawer {
   }
 
  private:
+  void make_ground(const AtmosphereTables& tables) {
+    if (scene_.height_map.empty()) {
+      auto relief = std::make_unique<Relief>(radius_m_, tables.atmosphere.ground_albedo);
+      home_ = relief->coast();
+      ground_ = std::move(relief);
+    } else {
+      ground_ = std::make_unique<MapGround>(scene_, radius_m_, tables.color);
+      home_ = site_axes({});
+    }
+  }
+
   SiteAxes axes_of(const std::optional<Site>& site) const {
-    return site ? site_axes(*site) : coast_;
+    return site ? site_axes(*site) : home_;
   }
 
   void require_above_ground(const FrameOptions& options) const {
@@ -273,14 +276,147 @@ class GlRenderer final : public FrameDrawer {
     }
   }
 
+  // What stands where in a frame.
+  struct Placed {
+    const ObjectPass::Model* model;
+    ObjectPlace place;
+  };
+  struct FrameScene {
+    SiteAxes axes;
+    Projection projection;
+    TerrainDraw blocks;
+    std::vector<Placed> meshes;  // they cast shadows, the moon does not
+    std::optional<Placed> moon;
+    std::array<ShadowView, kShadowMaps> shadows;
+    std::array<TerrainDraw, kShadowMaps> casters;
+    double farthest_km = 0;
+  };
+
+  // Chooses the blocks of the picture and of the shadow maps and makes those that are missing.
+  void prepare_scene(const FrameOptions& options, FrameStatistics& statistics) {
+    const double aspect = static_cast<double>(options.width) / options.height;
+    current_.axes = axes_of(options.site);
+    current_.projection = make_projection(options.camera, aspect);
+    TerrainView view = terrain_view(options, current_.axes, *ground_, radius_m_);
+    BlockStore& store = terrain_->store();
+    store.begin_frame();
+    const BlockSelection selection = affordable_blocks(view, store);
+    statistics.blocks_drawn = static_cast<int>(selection.blocks.size());
+    statistics.blocks_outside = selection.outside;
+    statistics.blocks_behind = selection.behind;
+    if (options.shadows) prepare_shadows(options, view);
+    statistics.blocks_made = store.made();
+    current_.blocks = terrain_->prepare(selection.blocks, view);
+    statistics.triangles = TerrainPass::triangles(current_.blocks);
+    place_objects(options, statistics);
+    current_.farthest_km = farthest_m(options.camera.altitude_m, ground_->highest_m()) * 1e-3;
+  }
+
+  // The same blocks as in the picture where both see them: a surface must not shade itself.
+  void prepare_shadows(const FrameOptions& options, TerrainView view) {
+    const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
+    current_.shadows =
+        shadow_views(sun, options.camera.altitude_m - ground_height_m(options.site));
+    for (std::size_t i = 0; i < kShadowMaps; ++i) {
+      view.planes = current_.shadows[i].planes;
+      current_.casters[i] =
+          terrain_->prepare(affordable_blocks(view, terrain_->store()).blocks, view);
+    }
+  }
+
+  void place_objects(const FrameOptions& options, FrameStatistics& statistics) {
+    current_.meshes.clear();
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      current_.meshes.push_back({&meshes_[i], place_of(scene_.meshes[i], current_.axes, radius_m_,
+                                                       options.camera.altitude_m)});
+      statistics.triangles += meshes_[i].triangles();
+    }
+    current_.moon.reset();
+    if (!options.moon) return;
+    if (!moon_ || moon_reflectance_ != options.moon->reflectance) {
+      moon_ = ObjectPass::upload_mesh(moon_mesh(*options.moon));
+      moon_reflectance_ = options.moon->reflectance;
+    }
+    current_.moon = Placed{&*moon_, place_of(*options.moon)};
+    statistics.triangles += moon_->triangles();
+  }
+
+  double farthest_m(double altitude, double peak) const {
+    const auto horizon = [&](double h) { return std::sqrt(h * (2 * radius_m_ + h)); };
+    return horizon(altitude) + horizon(peak);
+  }
+
+  std::vector<Pass> passes(const FrameOptions& options) {
+    const AtmosphereView view{options, current_.projection, current_.axes,
+                              options.shadows ? &current_.shadows : nullptr, current_.farthest_km};
+    std::vector<Pass> list;
+    if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
+    list.push_back({"terrain", {}, {"color", "normal_reflectance", "depth"}, [this] {
+                      clear_gbuffer();
+                      terrain_->draw(current_.blocks, current_.projection, current_.axes);
+                    }});
+    if (!current_.meshes.empty() || current_.moon) {
+      list.push_back({"objects", {}, {"color", "normal_reflectance", "depth"}, [this] {
+                        draw_objects();
+                      }});
+    }
+    // A texture is not read by the pass that tests against it.
+    list.push_back({"copy of the depth", {}, {}, [this] { graph_.copy("depth", "depth_copy"); }});
+    list.push_back({"sky view", kTableReads, kSkyViewWrites, [this, view] {
+                      atmosphere_.draw_sky_view(view);
+                    }});
+    if (view.volume(atmosphere_.tables())) {
+      list.push_back({"aerial volume", kTableReads, {}, [this, view] {
+                        atmosphere_.fill_volume(view);
+                      }});
+    }
+    std::vector<std::string> lights = {"light", "distance"};
+    if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
+    lights.emplace_back("depth");
+    list.push_back({"atmosphere", kAtmosphereReads, lights, [this, view] {
+                      atmosphere_.draw(view, shadow_maps());
+                    }});
+    return list;
+  }
+
+  void draw_objects() const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    for (const Placed& mesh : current_.meshes)
+      objects_.draw(*mesh.model, mesh.place, current_.projection);
+    if (current_.moon) objects_.draw(*current_.moon->model, current_.moon->place, current_.projection);
+  }
+
+  const ShadowPass& shadow_maps() {
+    if (!shadow_pass_) shadow_pass_.emplace();
+    return *shadow_pass_;
+  }
+
+  void draw_shadows() {
+    const glm::dmat4 site_from_planet(current_.axes.site_from_planet());
+    shadow_maps().draw([&](int i) {
+      const auto map = static_cast<std::size_t>(i);
+      const glm::dmat4& clip_from_site = current_.shadows[map].clip_from_site;
+      terrain_->draw_depth(current_.casters[map], glm::mat4(clip_from_site * site_from_planet));
+      for (const Placed& mesh : current_.meshes)
+        objects_.draw_depth(*mesh.model, mesh.place, clip_from_site);
+    });
+  }
+
   Scene scene_;
   std::unique_ptr<GlContext> context_;
   FrameGraph graph_;
   double radius_m_ = 0;
   std::unique_ptr<Ground> ground_;
-  SiteAxes coast_;  // where the camera stands without a site
+  SiteAxes home_;  // where the camera stands without a site
   std::optional<TerrainPass> terrain_;
+  ObjectPass objects_;
+  std::vector<ObjectPass::Model> meshes_;  // of the scene
+  std::optional<ObjectPass::Model> moon_;
+  double moon_reflectance_ = 0;
+  std::optional<ShadowPass> shadow_pass_;  // made when first used
   AtmospherePass atmosphere_;
+  FrameScene current_;
 };
 
 }  // namespace

@@ -15,10 +15,11 @@
 
 namespace skyfit {
 
-// Blocks ready to be drawn, relative to a camera.
+// Blocks ready to be drawn, relative to a camera, near to far.
 struct TerrainDraw {
   GlBuffer instances, commands;
   int blocks = 0;
+  int near_blocks = 0;  // the first of them, near enough for the finer scale of the materials
 };
 
 class TerrainPass {
@@ -26,14 +27,10 @@ class TerrainPass {
   // `ground` outlives the pass.
   TerrainPass(const Ground& ground, double radius_m, const std::filesystem::path& textures);
 
-  // Makes the blocks that are missing; those of all selections of a frame in one call, as the store
-  // keeps only what the last call asked for.
-  int provide(std::span<const CubeBlock> blocks, const std::function<void(double)>& progress) {
-    return store_.provide(blocks, progress);
-  }
+  BlockStore& store() { return store_; }
 
-  // Of a selection that has been provided, without the blocks that their heights hide: counted there.
-  TerrainDraw prepare(BlockSelection& selection, const TerrainView& view) const;
+  // Of blocks in the store.
+  TerrainDraw prepare(std::span<const CubeBlock> blocks, const TerrainView& view) const;
 
   void draw(const TerrainDraw& draw, const Projection& projection, const SiteAxes& axes) const;
 
@@ -43,11 +40,11 @@ class TerrainPass {
   static std::int64_t triangles(const TerrainDraw& draw);
 
  private:
-  void submit(const TerrainDraw& draw) const;
+  void submit(const TerrainDraw& draw, int first, int count) const;
 
   double radius_m_;
   BlockStore store_;
-  GlProgram program_, depth_program_;
+  GlProgram near_program_, far_program_, depth_program_;
   GlTexture soil_, rock_;
   GlBuffer indices_;
   GlVertexArray layout_;
