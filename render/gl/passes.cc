@@ -81,28 +81,33 @@ GlFramebuffer FrameGraph::framebuffer(const Pass& pass) const {
 }
 
 std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
-  std::vector<GlQuery> queries;
+  std::vector<GlQuery> stamps;  // before the first pass and after each
+  const auto stamp = [&] {
+    GLuint query = 0;
+    glCreateQueries(GL_TIMESTAMP, 1, &query);
+    stamps.emplace_back(query);
+    glQueryCounter(query, GL_TIMESTAMP);
+  };
+  stamp();
   for (const Pass& pass : passes) {
     const GlFramebuffer target = pass.writes.empty() ? GlFramebuffer() : framebuffer(pass);
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
     for (std::size_t unit = 0; unit < pass.reads.size(); ++unit) {
       bind(pass.reads[unit], static_cast<GLuint>(unit));
     }
-    GLuint query = 0;
-    glCreateQueries(GL_TIME_ELAPSED, 1, &query);
-    queries.emplace_back(query);
-    glBeginQuery(GL_TIME_ELAPSED, query);
     pass.draw();
-    glEndQuery(GL_TIME_ELAPSED);
     check_gl("pass " + pass.name);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    stamp();
   }
+  const auto nanoseconds = [&](std::size_t i) {
+    GLuint64 value = 0;
+    glGetQueryObjectui64v(stamps[i].id(), GL_QUERY_RESULT, &value);
+    return static_cast<double>(value);
+  };
   std::vector<PassTime> times;
-  for (std::size_t i = 0; i < passes.size(); ++i) {
-    GLuint64 nanoseconds = 0;
-    glGetQueryObjectui64v(queries[i].id(), GL_QUERY_RESULT, &nanoseconds);
-    times.push_back({passes[i].name, 1e-6 * static_cast<double>(nanoseconds)});
-  }
+  for (std::size_t i = 0; i < passes.size(); ++i)
+    times.push_back({passes[i].name, 1e-6 * (nanoseconds(i + 1) - nanoseconds(i))});
   return times;
 }
 
