@@ -22,7 +22,7 @@ void add(const std::string& name, const Table& table, FrameGraph& graph) {
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
 
 // After those of kAtmosphereReads.
-constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14;
+constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14, kMaterialUnit = 17;
 
 // Densities of air and aerosol relative to h = 0, over the heights of the tables.
 GlTexture density_texture(const Atmosphere<double>& a) {
@@ -235,6 +235,9 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
     blocks_.push_back(clouds_->bind(*view.options.clouds, sky, kCloudUnit));
   }
   if (view.volume(tables_)) volume_->bind(kVolumeUnit);
+  const glm::dvec3 camera =
+      (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
+  blocks_.push_back(view.materials.bind(camera, surface, kMaterialUnit));
   // The triangle lies at depth 0, as the sky does.
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);

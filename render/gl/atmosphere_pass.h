@@ -15,6 +15,7 @@
 
 #include "render/gl/aerial_volume.h"
 #include "render/gl/clouds.h"
+#include "render/gl/materials.h"
 #include "render/gl/objects.h"
 #include "render/gl/passes.h"
 #include "render/gl/projection.h"
@@ -28,11 +29,11 @@ inline const std::vector<std::string> kTableReads = {"optical_depth", "irradianc
                                                      "rayleigh_like", "single_mie", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
     "optical_depth", "irradiance", "rayleigh_like",      "single_mie",
-    "phase",         "color",      "normal_reflectance", "depth_copy",
+    "phase",         "color",      "surface", "depth_copy",
     "view_air",      "view_aerosol", "view_depth"};
 
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",
-                                                      "albedo"};
+                                                      "albedo", "normal"};
 
 // Makes the textures of the tables, named as in kAtmosphereReads.
 void add_tables(const AtmosphereTables& tables, FrameGraph& graph);
@@ -50,6 +51,7 @@ struct AtmosphereView {
   const SiteAxes& axes;
   const std::array<ShadowView, kShadowMaps>* shadows;  // null: none
   double farthest_km;  // of what is seen in the air: the length of the volume
+  const Materials& materials;
 
   // The volume holds one sun's light, for an eye in the air.
   bool volume(const AtmosphereTables& tables) const;

@@ -8,16 +8,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 #include <stdexcept>
 
 #include "render/gl/image_files.h"
 #include "render/gl/noise.h"
+#include "render/gl/uniform_block.h"
 
 namespace skyfit {
 namespace {
 
 constexpr int kSide = kMaterialSide;
+constexpr double kGrainPeriod = 9, kCragPeriod = 520;  // m: a unit of each texture
 constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
 
 std::size_t texel(int x, int y, int z) {
@@ -25,27 +27,40 @@ std::size_t texel(int x, int y, int z) {
   return (wrap(z) * kSide + wrap(y)) * kSide + wrap(x);
 }
 
-// Soil is soft and grainy; rock has ridges and cracks.
-double relief_of(Material material, const glm::dvec3& p) {
+double relief_of(Texture texture, const glm::dvec3& p) {
   double sum = 0, amplitude = 1;
-  for (int period = material == Material::kSoil ? 4 : 2; period <= kSide / 4; period *= 2) {
+  for (int period = texture == Texture::kGrains ? 4 : 2; period <= kSide / 4; period *= 2) {
     const double noise = periodic_gradient_noise(p * static_cast<double>(period), period);
-    sum += amplitude * (material == Material::kSoil ? noise : 0.5 - std::abs(1.6 * noise));
-    amplitude *= material == Material::kSoil ? 0.6 : 0.55;
+    sum += amplitude * (texture == Texture::kGrains ? noise : 0.5 - std::abs(1.6 * noise));
+    amplitude *= texture == Texture::kGrains ? 0.6 : 0.55;
   }
   return sum;
 }
 
-const char* name_of(Material material) { return material == Material::kSoil ? "soil" : "rock"; }
+const char* name_of(Texture texture) { return texture == Texture::kGrains ? "grains" : "crags"; }
+
+GlTexture solid_texture(const MaterialTexels& texels) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_3D, 1, &id);
+  GlTexture texture(id);
+  const int levels = static_cast<int>(std::lround(std::log2(kSide))) + 1;
+  glTextureStorage3D(id, levels, GL_RGBA8, kSide, kSide, kSide);
+  glTextureSubImage3D(id, 0, 0, 0, 0, kSide, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE,
+                      texels.data());
+  glGenerateTextureMipmap(id);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
 
 }  // namespace
 
-MaterialTexels make_material(Material material) {
+MaterialTexels make_texture(Texture texture) {
   std::vector<double> relief(kTexels);
   tbb::parallel_for(0, kSide, [&](int z) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
-        relief[texel(x, y, z)] = relief_of(material, glm::dvec3(x, y, z) / double{kSide});
+        relief[texel(x, y, z)] = relief_of(texture, glm::dvec3(x, y, z) / double{kSide});
       }
     }
   });
@@ -54,7 +69,7 @@ MaterialTexels make_material(Material material) {
   for (const double value : relief) square += (value - mean) * (value - mean) / kTexels;
   const double deviation = std::sqrt(square);
   // Brightness follows the relief: crests are lighter than hollows.
-  const double contrast = material == Material::kSoil ? 0.16 : 0.22;
+  const double contrast = texture == Texture::kGrains ? 0.16 : 0.22;
   double steepest = 0;
   const auto gradient = [&](int x, int y, int z) {
     return glm::dvec3(relief[texel(x + 1, y, z)] - relief[texel(x - 1, y, z)],
@@ -85,11 +100,11 @@ MaterialTexels make_material(Material material) {
   return texels;
 }
 
-MaterialTexels load_material(Material material, const std::filesystem::path& directory) {
-  if (directory.empty()) return make_material(material);
-  const std::filesystem::path file = directory / fmt::format("{}.png", name_of(material));
+MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory) {
+  if (directory.empty()) return make_texture(texture);
+  const std::filesystem::path file = directory / fmt::format("{}.png", name_of(texture));
   if (!std::filesystem::exists(file)) {
-    MaterialTexels texels = make_material(material);
+    MaterialTexels texels = make_texture(texture);
     write_png_texels(texels, kSide, kSide * kSide, file);
     return texels;
   }
@@ -101,7 +116,7 @@ MaterialTexels load_material(Material material, const std::filesystem::path& dir
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width != kSide || spec.height != kSide * kSide || spec.nchannels != 4) {
     throw std::runtime_error(fmt::format(
-        "{}: {} x {} pixels of {} channels: a material has {} x {} of 4", file.string(), spec.width,
+        "{}: {} x {} pixels of {} channels: a texture has {} x {} of 4", file.string(), spec.width,
         spec.height, spec.nchannels, kSide, kSide * kSide));
   }
   MaterialTexels texels(4 * kTexels);
@@ -111,18 +126,19 @@ MaterialTexels load_material(Material material, const std::filesystem::path& dir
   return texels;
 }
 
-GlTexture material_texture(const MaterialTexels& texels) {
-  GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_3D, 1, &id);
-  GlTexture texture(id);
-  const int levels = static_cast<int>(std::lround(std::log2(kSide))) + 1;
-  glTextureStorage3D(id, levels, GL_RGBA8, kSide, kSide, kSide);
-  glTextureSubImage3D(id, 0, 0, 0, 0, kSide, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE,
-                      texels.data());
-  glGenerateTextureMipmap(id);
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  return texture;
+Materials::Materials(const std::filesystem::path& directory)
+    : grains_(solid_texture(load_texture(Texture::kGrains, directory))),
+      crags_(solid_texture(load_texture(Texture::kCrags, directory))) {}
+
+GlBuffer Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit) const {
+  glBindTextureUnit(unit, grains_.id());
+  glBindTextureUnit(unit + 1, crags_.id());
+  UniformBlock block(program, "Materials");
+  block.set("grain_phase", glm::vec3(glm::fract(camera / kGrainPeriod)));
+  block.set("grains_per_km", 1e3 / kGrainPeriod);
+  block.set("crag_phase", glm::vec3(glm::fract(camera / kCragPeriod)));
+  block.set("crags_per_km", 1e3 / kCragPeriod);
+  return block.bind();
 }
 
 }  // namespace skyfit

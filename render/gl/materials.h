@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures of the ground's two materials: solid (three-dimensional) noise, so that no surface has a
-// seam. They repeat after one unit in each direction.
+// The textures of render/shaders/materials.glsl: solid (three-dimensional) noise, so that no surface
+// has a seam. They repeat after one unit in each direction.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "render/gl/objects.h"
@@ -16,16 +17,25 @@ inline constexpr int kMaterialSide = 64;  // texels
 // RGBA8, x fastest: gradient of a relief, / 127 - 1 in each component; brightness, / 127.5, mean 1.
 using MaterialTexels = std::vector<std::uint8_t>;
 
-enum class Material { kSoil, kRock };
+enum class Texture { kGrains, kCrags };  // soft and grainy; with ridges and cracks
 
-MaterialTexels make_material(Material material);
+MaterialTexels make_texture(Texture texture);
 
-// From DIRECTORY/soil.png and rock.png, slices one below the other; made and saved when it is
+// From DIRECTORY/grains.png and crags.png, slices one below the other; made and saved when it is
 // missing, only made when `directory` is empty. Throws std::runtime_error that names a file that
 // cannot be read or written or has another size.
-MaterialTexels load_material(Material material, const std::filesystem::path& directory);
+MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory);
 
-// With mipmaps.
-GlTexture material_texture(const MaterialTexels& texels);
+class Materials {
+ public:
+  explicit Materials(const std::filesystem::path& directory);
+
+  // As two textures from `unit` on, and what the shader needs, which is bound while the buffer lives.
+  // `camera`: planet coordinates, m.
+  GlBuffer bind(const glm::dvec3& camera, GLuint program, GLuint unit) const;
+
+ private:
+  GlTexture grains_, crags_;
+};
 
 }  // namespace skyfit

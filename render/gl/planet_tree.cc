@@ -209,9 +209,4 @@ BlockSelection select_blocks(const TerrainView& view, const HeightsOf& heights_o
   return Selector(view, heights_of).select();
 }
 
-double distance_to(const CubeBlock& block, const HeightRange& heights, const TerrainView& view) {
-  const Frustum frustum(view);
-  return distance_between(frustum.box(block, heights), frustum.camera());
-}
-
 }  // namespace skyfit

@@ -61,7 +61,6 @@ struct TerrainView {
   glm::dvec2 tangent;  // of half the field of view, horizontal and vertical
   double radius_m = 6360e3, highest_m = 9e3;
   double split_ratio = 50;  // >= 1.6
-  double sample_angle = 1e-3;  // that a sample of the picture spans
   int levels = 9;           // >= 1
   bool cull = true;
   // What is seen instead of the picture's frustum, when there are any: normals that point inward and
@@ -81,8 +80,5 @@ using HeightsOf = std::function<std::vector<HeightRange>(std::span<const CubeBlo
 
 // Throws what `heights_of` throws.
 BlockSelection select_blocks(const TerrainView& view, const HeightsOf& heights_of);
-
-// From the camera to the block's box.
-double distance_to(const CubeBlock& block, const HeightRange& heights, const TerrainView& view);
 
 }  // namespace skyfit

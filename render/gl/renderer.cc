@@ -46,7 +46,7 @@ int affordable_samples(const FrameOptions& options) {
 
 void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   graph.add_target("color", GL_RGBA8, width, height);
-  graph.add_target("normal_reflectance", GL_RGBA16F, width, height);
+  graph.add_target("surface", GL_RGBA16F, width, height);
   graph.add_target("depth", GL_DEPTH_COMPONENT32F, width, height);
   graph.add_target("light", GL_RGBA32F, width, height);
   graph.add_target("distance", GL_R32F, width, height);
@@ -112,7 +112,7 @@ FrameLayers resolve_layers(const FrameGraph& graph, int samples, const Frame& fr
   layers.in_scatter = resolve_color(graph, "in_scatter", samples, frame);
   layers.reflected = resolve_color(graph, "reflected", samples, frame);
   layers.transmittance = resolve_color(graph, "transmittance", samples, frame);
-  layers.normal = resolve_color(graph, "normal_reflectance", samples, frame);
+  layers.normal = resolve_color(graph, "normal", samples, frame);
   layers.albedo = resolve_color(graph, "albedo", samples, frame);
   for (std::size_t i = 0; i < layers.normal.size(); i += 3) {
     float* const n = &layers.normal[i];
@@ -162,8 +162,8 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
   view.tangent = {tall * aspect, tall};
   view.radius_m = radius;
   view.highest_m = ground.highest_m();
-  view.sample_angle = 2 * tall / (options.height * options.samples_per_side);
-  view.split_ratio = std::clamp(1 / (kBlockQuads * options.samples_per_quad * view.sample_angle),
+  const double sample = 2 * tall / (options.height * options.samples_per_side);
+  view.split_ratio = std::clamp(1 / (kBlockQuads * options.samples_per_quad * sample),
                                 kSmallestRatio, kLargestRatio);
   view.levels = levels_of(radius);
   return view;
@@ -196,7 +196,7 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 class GlRenderer final : public FrameDrawer {
  public:
   GlRenderer(const Scene& scene, GraphicsDevice device)
-      : scene_(scene), context_(make_context(device)) {}
+      : scene_(scene), context_(make_context(device)), materials_(scene.textures) {}
 
   void set_atmosphere(const AtmosphereTables& tables) override {
     context_->make_current();
@@ -204,7 +204,7 @@ class GlRenderer final : public FrameDrawer {
     if (!ground_) {
       radius_m_ = bottom;
       make_ground(tables);
-      terrain_.emplace(*ground_, radius_m_, scene_.textures);
+      terrain_.emplace(*ground_, radius_m_);
       for (const PlacedMesh& mesh : scene_.meshes) {
         meshes_.push_back(ObjectPass::upload_mesh(
             read_object_mesh(mesh.file, mesh.reflectance, tables.color)));
@@ -348,15 +348,16 @@ class GlRenderer final : public FrameDrawer {
 
   std::vector<Pass> passes(const FrameOptions& options) {
     const AtmosphereView view{options, current_.projection, current_.axes,
-                              options.shadows ? &current_.shadows : nullptr, current_.farthest_km};
+                              options.shadows ? &current_.shadows : nullptr, current_.farthest_km,
+                              materials_};
     std::vector<Pass> list;
     if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
-    list.push_back({"terrain", {}, {"color", "normal_reflectance", "depth"}, [this] {
+    list.push_back({"terrain", {}, {"color", "surface", "depth"}, [this] {
                       clear_gbuffer();
                       terrain_->draw(current_.blocks, current_.projection, current_.axes);
                     }});
     if (!current_.meshes.empty() || current_.moon) {
-      list.push_back({"objects", {}, {"color", "normal_reflectance", "depth"}, [this] {
+      list.push_back({"objects", {}, {"color", "surface", "depth"}, [this] {
                         draw_objects();
                       }});
     }
@@ -411,6 +412,7 @@ class GlRenderer final : public FrameDrawer {
   SiteAxes home_;  // where the camera stands without a site
   std::optional<TerrainPass> terrain_;
   ObjectPass objects_;
+  Materials materials_;
   std::vector<ObjectPass::Model> meshes_;  // of the scene
   std::optional<ObjectPass::Model> moon_;
   double moon_reflectance_ = 0;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "render/gl/block_store.h"
-#include "render/gl/materials.h"
 #include "render/gl/objects.h"
 #include "render/gl/planet_tree.h"
 #include "render/gl/projection.h"
@@ -15,17 +14,16 @@
 
 namespace skyfit {
 
-// Blocks ready to be drawn, relative to a camera, near to far.
+// Blocks ready to be drawn, relative to a camera.
 struct TerrainDraw {
   GlBuffer instances, commands;
   int blocks = 0;
-  int near_blocks = 0;  // the first of them, near enough for the finer scale of the materials
 };
 
 class TerrainPass {
  public:
   // `ground` outlives the pass.
-  TerrainPass(const Ground& ground, double radius_m, const std::filesystem::path& textures);
+  TerrainPass(const Ground& ground, double radius_m);
 
   BlockStore& store() { return store_; }
 
@@ -40,12 +38,11 @@ class TerrainPass {
   static std::int64_t triangles(const TerrainDraw& draw);
 
  private:
-  void submit(const TerrainDraw& draw, int first, int count) const;
+  void submit(const TerrainDraw& draw) const;
 
   double radius_m_;
   BlockStore store_;
-  GlProgram near_program_, far_program_, depth_program_;
-  GlTexture soil_, rock_;
+  GlProgram program_, depth_program_;
   GlBuffer indices_;
   GlVertexArray layout_;
 };

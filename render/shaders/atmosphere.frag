@@ -3,7 +3,11 @@
 // way, plus the light that the air scatters into the path; drawn once where there is something (SURFACE) and once for the
 // sky and the suns. See atmosphere_pass.h for the other variants.
 #include "render/shaders/sky_view.glsl"
+#include "render/shaders/gbuffer.glsl"
 #include "render/shaders/surface_light.glsl"
+#ifdef SURFACE
+#include "render/shaders/materials.glsl"
+#endif
 #ifdef VOLUME
 #include "render/shaders/aerial_volume.glsl"
 #endif
@@ -15,7 +19,7 @@
 #endif
 
 layout(binding = 5) uniform sampler2D color;
-layout(binding = 6) uniform sampler2D normal_reflectance;
+layout(binding = 6) uniform sampler2D surface_target;
 layout(binding = 7) uniform sampler2D depth;
 
 layout(std140, binding = 2) uniform Colors {
@@ -31,6 +35,7 @@ layout(location = 2) out vec4 in_scatter_layer;
 layout(location = 3) out vec4 reflected_layer;
 layout(location = 4) out vec4 transmittance_layer;
 layout(location = 5) out vec4 albedo_layer;
+layout(location = 6) out vec4 normal_layer;
 #endif
 
 const float kInfinity = uintBitsToFloat(0x7f800000u);
@@ -130,9 +135,10 @@ void main() {
 #ifdef SURFACE
   Surface surface;
   surface.d = near_km / texelFetch(depth, ivec2(gl_FragCoord.xy), 0).x * stretch;
-  vec4 shape = texelFetch(normal_reflectance, ivec2(gl_FragCoord.xy), 0);
-  surface.reflectance = texelFetch(color, ivec2(gl_FragCoord.xy), 0) * (shape.w * kPi);
-  surface.normal = normalize(shape.xyz);
+  vec4 shape = texelFetch(surface_target, ivec2(gl_FragCoord.xy), 0);
+  surface.normal = from_octahedral(shape.xy);
+  float light_or_dark = add_material(surface.d * ray.direction, surface.d, ray.direction, shape.z, surface.normal);
+  surface.reflectance = min(texelFetch(color, ivec2(gl_FragCoord.xy), 0) * (shape.w * kPi * light_or_dark), 1.0);
   surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
   if (ray.hits_ground) surface.d = min(surface.d, ray.entry + distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0));
   float d = surface.d;
@@ -171,8 +177,10 @@ void main() {
   transmittance_layer = vec4(srgb(clear * path.transmittance) / white, 1.0);
 #ifdef SURFACE
   albedo_layer = vec4(srgb(surface.reflectance) / white, 1.0);
+  normal_layer = vec4(surface.normal, 1.0);
 #else
   albedo_layer = vec4(0.0);
+  normal_layer = vec4(0.0);
 #endif
 #endif
 }

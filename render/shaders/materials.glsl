@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ground's two materials, soil and rock, at two scales: grains near the eye and crags far away. The textures are solid
+// noise in the planet's axes, so that no surface has a seam.
+#include "render/shaders/view_ray.glsl"
+
+layout(binding = 17) uniform sampler3D grains;
+layout(binding = 18) uniform sampler3D crags;
+
+layout(std140, binding = 5) uniform Materials {
+  vec3 grain_phase;  // texture coordinates of the camera, 0..1
+  float grains_per_km;
+  vec3 crag_phase;
+  float crags_per_km;
+};
+
+// Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
+const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.35, 1.1);
+const vec2 kGrainContrast = vec2(0.9, 0.6), kCragContrast = vec2(0.5, 1.0);
+
+// Tilts the normal and returns the factor of the reflectance. `position` is relative to the camera, km, in the camera
+// frame; rock < 0: neither material.
+float add_material(vec3 position, float d, vec3 ray, float rock, inout vec3 normal) {
+  // Of the mipmaps the one whose texel is a pixel, seen at a slant, chosen at random between two.
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  float texels = 64.0 * d * pixel_angle * inversesqrt(max(abs(dot(ray, normal)), 0.1));
+  float level = log2(texels * crags_per_km) + noise - 0.5;
+  vec3 place = planet_from_site * position;
+  vec4 grain = textureLod(grains, grain_phase + grains_per_km * place, level + log2(grains_per_km / crags_per_km));
+  vec4 crag = textureLod(crags, crag_phase + crags_per_km * place, level);
+  float rocky = max(rock, 0.0), land = rock < 0.0 ? 0.0 : 1.0;
+  vec3 gradient = (255.0 / 127.0) * (mix(kGrainSlope.x, kGrainSlope.y, rocky) * (grain.xyz - 127.0 / 255.0) +
+                                     mix(kCragSlope.x, kCragSlope.y, rocky) * (crag.xyz - 127.0 / 255.0));
+  gradient = gradient * planet_from_site;  // the transpose: from the planet's axes
+  // What of the gradient lies in the surface tilts its normal.
+  normal = normalize(normal - land * (gradient - dot(gradient, normal) * normal));
+  return 1.0 + land * (mix(kGrainContrast.x, kGrainContrast.y, rocky) * (2.0 * grain.w - 1.0) +
+                       mix(kCragContrast.x, kCragContrast.y, rocky) * (2.0 * crag.w - 1.0));
+}
