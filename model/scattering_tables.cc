@@ -29,7 +29,6 @@ class ScatteringBuilder {
         tables_(tables),
         heights_(level_heights()),
         source_(shells, optics, source_heights(heights_)) {
-    set_cells();
     set_sun_steps();
     beam_.resize(heights_.size());
     tbb::parallel_for(0, static_cast<int>(heights_.size()), [&](int i) { set_beam(i); });
@@ -58,13 +57,6 @@ class ScatteringBuilder {
     std::vector<double> heights;
     for (std::size_t i = 0; i < levels.size(); i += kSourceStep) heights.push_back(levels[i]);
     return heights;
-  }
-
-  void set_cells() {
-    for (const TexelSun& sun : texel_suns(tables_.sizes)) {
-      mu_s_.push_back(static_cast<float>(sun.mu_s));
-      across_.push_back(static_cast<float>(sun.across));
-    }
   }
 
   double sun_at(int step, int count) const {
@@ -167,20 +159,24 @@ class ScatteringBuilder {
   void scatter(int mu_index, int r_index) {
     const TexelRay texel =
         texel_ray(shells_, tables_.sizes, mu_index, heights_[kLevelsPerTexel * r_index]);
-    const std::size_t cells = mu_s_.size();
-    std::vector<float> nu(cells), phase(cells), single(8 * cells), multiple(16 * cells);
+    const std::vector<TexelSun> suns =
+        texel_suns(tables_.sizes, shells_.bottom_radius, texel.sun_point.height);
+    const std::size_t cells = suns.size();
+    std::vector<float> mu_s(cells), nu(cells), phase(cells), single(8 * cells),
+        multiple(16 * cells);
     Scratch scratch;
     const auto mu = static_cast<float>(texel.sun_point.mu);
     const auto sine = std::sqrt(1 - mu * mu);
     for (std::size_t i = 0; i < cells; ++i) {
-      nu[i] = mu * mu_s_[i] + sine * across_[i];
+      mu_s[i] = static_cast<float>(suns[i].mu_s);
+      nu[i] = mu * mu_s[i] + sine * static_cast<float>(suns[i].across);
       phase[i] = static_cast<float>(
           shared.rayleigh_phase(tables_.atmosphere.rayleigh.depolarisation, nu[i]));
     }
     const std::vector<LevelNode> nodes =
         level_path(shells_, optics_, heights_, texel.ray, kLevelsPerTexel * r_index);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      kernels::add_node(kernel_node(nodes, i, texel.sun_point, scratch), mu_s_.data(), nu.data(),
+      kernels::add_node(kernel_node(nodes, i, texel.sun_point, scratch), mu_s.data(), nu.data(),
                         cells, single.data(), multiple.data());
     }
     const std::size_t row = static_cast<std::size_t>(r_index) * tables_.rayleigh_like.height +
@@ -196,7 +192,6 @@ class ScatteringBuilder {
   AtmosphereTables& tables_;
   std::vector<double> heights_;
   DiffuseSource source_;
-  std::vector<float> mu_s_, across_;  // of the cells: [azimuth][sun]; sin(sun zenith) cos(azimuth)
   std::vector<kernels::SunStep> sun_steps_;
   std::vector<std::vector<float>> beam_;  // [level][step][wavelength]
 };
