@@ -20,8 +20,8 @@ struct LevelWeights {
   std::array<double, 4> air{}, aerosol{};
 };
 
-// The source is taken at every second level.
-inline constexpr int kSourceStep = 2;
+// The source is taken at every third level.
+inline constexpr int kSourceStep = 3;
 
 struct LevelNode {
   double s, height, mu;
