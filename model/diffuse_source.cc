@@ -48,8 +48,8 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   air_.resize(index(count, 0, 1));
   aerosol_.resize(index(count, 0, kBlocks));
   tbb::parallel_for(0, count, [&](int i) {
-    const double level = level_coordinate(heights[static_cast<std::size_t>(i)], shells.top,
-                                          kSourceOptions.levels);
+    const double level =
+        level_coordinate(heights[static_cast<std::size_t>(i)], shells.top, kSourceOptions.levels);
     tabulate(i, level, optics, fields);
   });
 }
@@ -82,7 +82,8 @@ void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
       const std::size_t size = fields[k].shape.level(static_cast<int>(m));
       moments[k].resize(size);
       for (std::size_t i = 0; i < levels.share.size(); ++i)
-        kernels::add_scaled(levels.share[i], fields[k].moments[m].data() + (levels.first + i) * size,
+        kernels::add_scaled(levels.share[i],
+                            fields[k].moments[m].data() + (levels.first + i) * size,
                             moments[k].data(), size);
     }
     for (int i = 0; i < kZeniths; ++i) {

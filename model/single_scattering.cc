@@ -119,9 +119,8 @@ std::vector<double> densities(const Profile& profile, const std::vector<double>&
 }  // namespace
 
 RayNodes ray_nodes(const Shells& shells, const ViewRay& ray, const std::vector<double>& edges) {
-  std::vector<double> breaks =
-      with_short_pieces(shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top)),
-                        shells.bottom_radius);
+  std::vector<double> breaks = with_short_pieces(
+      shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top)), shells.bottom_radius);
   breaks.insert(breaks.end(), edges.begin(), edges.end());
   RayNodes nodes;
   for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, ray, breaks), kOrder)) {

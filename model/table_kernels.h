@@ -29,8 +29,8 @@ struct SunStep {
 struct TableNode {
   // Where the node is: its local sun is sun_factor mu_s + nu_factor nu.
   float sun_factor, nu_factor, mu;
-  // Of the node's share of the ray, the part is lit that lies above the edge of the planet's shadow,
-  // sun + horizon = 0; over the share, sun + horizon changes by step_nu nu + step.
+  // Of the node's share of the ray, the part is lit that lies above the edge of the planet's
+  // shadow, sun + horizon = 0; over the share, sun + horizon changes by step_nu nu + step.
   float horizon, step_nu, step;
   // Cosines of the local sun go from `lowest` to 1, in even steps.
   float lowest;

@@ -122,8 +122,7 @@ NodeValues lookup_sun_transmittance(const AtmosphereTables& tables, double heigh
 
 NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, double mu_s) {
   const Table& table = tables.irradiance;
-  const double sun =
-      Shared<double>{}.sun_height(height, mu_s, tables.atmosphere.bottom_radius_m);
+  const double sun = Shared<double>{}.sun_height(height, mu_s, tables.atmosphere.bottom_radius_m);
   NodeValues sum{};
   accumulate(table, Between(sun_coordinate(sun, table.width), table.width),
              Between(height_coordinate(tables, height, table.height), table.height),

@@ -85,9 +85,9 @@ void make_irradiance(double top, AtmosphereTables& tables) {
     constexpr int kPolar = 16, kAzimuth = 8;
     for (int y = 0; y < rows; ++y) {
       const double h = height_of_row(y, rows, top);
-      const double mu_s = shared.mu_s_from_sun_height(
-          h, shared.sun_from_unit(x / (columns - 1.0), kTableLowestSun),
-          tables.atmosphere.bottom_radius_m);
+      const double mu_s =
+          shared.mu_s_from_sun_height(h, shared.sun_from_unit(x / (columns - 1.0), kTableLowestSun),
+                                      tables.atmosphere.bottom_radius_m);
       const std::vector<SkySample> sky = sky_samples(mu_s, kPolar, kAzimuth);
       NodeValues sum{};
       for (const SkySample& sample : sky) {
@@ -113,8 +113,7 @@ void tabulate_slice(const SkyModel& model, const Shells& shells, int slice, doub
     constexpr double kSide = 1e-9;
     const double start_mu =
         std::clamp(texel.ray.entry_mu + (texel.ray.hits_ground ? -kSide : kSide), -1.0, 1.0);
-    for (const TexelSun& sun :
-         texel_suns(sizes, shells.bottom_radius, texel.sun_point.height)) {
+    for (const TexelSun& sun : texel_suns(sizes, shells.bottom_radius, texel.sun_point.height)) {
       const double nu =
           std::clamp(mu * sun.mu_s + std::sqrt(std::max(1 - mu * mu, 0.0)) * sun.across, -1.0, 1.0);
       const double mu_s = std::clamp((r * sun.mu_s - texel.sun_point.s * nu) / r0, -1.0, 1.0);

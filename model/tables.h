@@ -18,8 +18,8 @@ using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blu
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
-  int scattering_r = 32, scattering_ground = 24, scattering_sky = 72;  // rays to ground and to sky
-  int scattering_mu_s = 60, scattering_azimuth = 24;
+  int scattering_r = 32, scattering_ground = 22, scattering_sky = 70;  // rays to ground and to sky
+  int scattering_mu_s = 64, scattering_azimuth = 24;
 };
 
 // width varies fastest; depth = 1 for 2D.

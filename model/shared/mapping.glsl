@@ -88,11 +88,12 @@ Number mu_s_from_sun_height(Number h, Number height, Number bottom) {
   return clamp(height * (1.0 + dip) - dip, Number(-1.0), Number(1.0));
 }
 
-// Coordinate of the sun's height, by t = sqrt(1 - height), which is nearly the zenith angle; finest, a quarter of a
-// degree with 60 texels, at the edge of the shadow. `lowest` is the lowest sun in the table. Deviation: Bruneton 2017
-// takes distances to the top, which leaves 3 of 48 texels for suns within 60 degrees of the zenith.
+// Coordinate of the sun's height, by t = sqrt(1 - height), which is nearly the zenith angle; finest, 0.3
+// degrees with 64 texels, at the edge of the shadow, on which the 22nd of them lies when the lowest sun is -0.2079: the
+// light has a kink there. Deviation: Bruneton 2017 takes distances to the top, which leaves 3 of 48 texels for suns
+// within 60 degrees of the zenith.
 Number sun_curve(Number t) {
-  Number x = (1.005 - t) / 0.02;
+  Number x = (1.0053 - t) / 0.025;
   return log(x + sqrt(x * x + 1.0));  // asinh
 }
 
@@ -105,7 +106,7 @@ Number unit_from_sun(Number height, Number lowest) {
 Number sun_from_unit(Number x, Number lowest) {
   Number least = sun_curve(sqrt(1.0 - lowest));
   Number e = exp(least + x * (sun_curve(Number(0.0)) - least));
-  Number t = 1.005 - 0.01 * (e - 1.0 / e);  // sinh
+  Number t = 1.0053 - 0.0125 * (e - 1.0 / e);  // sinh
   return clamp(1.0 - t * t, lowest, Number(1.0));
 }
 
