@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kFloat = 4e-6;       // a dozen roundings of 6e-8
 constexpr double kCoordinate = 2e-6;  // of 0..1: well below a hundredth of a texel of 256
-constexpr double kSunCoordinate =
-    1e-5;  // of a root whose rounding, 6e-8, is half a hundredth of 0.02
 constexpr double kRoot =
     8e-5;  // a hundredth of a texel of 128: near the zenith, the root of a distance's rounding
 constexpr double kBottom = 6360, kThickness = 100;
@@ -78,8 +76,8 @@ TEST_F(SharedFormulas, Mappings) {
                 kRoot)
         << "h = " << h << ", mu = " << mu;
     EXPECT_NEAR(outputs[i + 1], shared_.unit_from_height(h, kThickness), kCoordinate);
-    EXPECT_NEAR(outputs[i + 2], shared_.unit_from_sun(shared_.sun_height(h, mu_s, kBottom), -0.2079),
-                kSunCoordinate);
+    EXPECT_NEAR(outputs[i + 2],
+                shared_.unit_from_sun(shared_.sun_height(h, mu_s, kBottom), -0.2079), kCoordinate);
   }
 }
 
