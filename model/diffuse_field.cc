@@ -26,6 +26,15 @@ double level_coordinate(double height, double top, int count) {
   return std::cbrt(std::clamp(height / top, 0.0, 1.0)) * (count - 1);
 }
 
+LevelStencil level_stencil(double x, int levels) {
+  const int below = static_cast<int>(x);
+  if (x == below) return {below, {1.0}};
+  LevelStencil stencil{std::clamp(below - 1, 0, levels - 4), std::vector<double>(4)};
+  const double node_x[4] = {0, 1, 2, 3};
+  lagrange_weights(node_x, 4, x - stencil.first, stencil.share.data());
+  return stencil;
+}
+
 void normalised_legendre(int m, int count, double mu, double* out) {
   const double sine = std::sqrt(std::max(1 - mu * mu, 0.0));
   double diagonal = std::sqrt(0.25 / std::numbers::pi);

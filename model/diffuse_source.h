@@ -2,7 +2,8 @@
 // The source of multiple scattering as a table: light that has been scattered or reflected before
 // and is scattered here toward the eye, per unit of scattering coefficient (1/sr), of the air and
 // of the aerosol, at four wavelengths. From the diffuse field of model/diffuse_field.h, whose
-// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine.
+// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine. Levels
+// and suns of the field, and what lies between them, are those of the reference model.
 #pragma once
 
 #include <array>
@@ -28,28 +29,25 @@ class DiffuseSource {
   // Floats of one block: [wavelength][power].
   static constexpr std::size_t kBlock = 4 * kPowers;
 
-  // The field is solved at `levels`, heights that ascend from 0 to the top; the source is kept at
-  // every `step`-th of them.
-  DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& levels,
-                int step);
+  // Kept at `heights`, which ascend from 0 to the top.
+  DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& heights);
 
   const SunGrid& suns() const { return suns_; }
 
-  // The source at a level that is kept toward a view direction (mu is that of the view ray) for all
-  // suns of the grid, with a factor per wavelength for air and aerosol, written to
-  // out[sun][block][wavelength] [power].
-  void slice(int level, double mu, const std::array<double, 4>& air,
+  // The source at one of the heights toward a view direction (mu is that of the view ray), with a
+  // factor per wavelength for air and aerosol, written to out[1 + sun][block][wavelength][power]
+  // for all suns of the grid; out[0] is the second sun seen across the zenith, at the opposite
+  // azimuth.
+  void slice(int height, double mu, const std::array<double, 4>& air,
              const std::array<double, 4>& aerosol, std::vector<float>& out) const;
 
  private:
-  static SunGrid sun_grid();
-  void tabulate(int level, const NodeOptics& optics, const std::vector<DiffuseField>& fields);
-  std::size_t index(int level, int zenith, int blocks) const;
+  void tabulate(int height, double level, const NodeOptics& optics,
+                const std::vector<DiffuseField>& fields);
+  std::size_t index(int height, int zenith, int blocks) const;
 
   SunGrid suns_;
-  int step_;
-  std::vector<float> air_,
-      aerosol_;  // [level / step][zenith][sun][block][wavelength][power]; air: one block
+  std::vector<float> air_, aerosol_;  // [height][zenith] as slice(); air: one block
 };
 
 }  // namespace skyfit

@@ -12,12 +12,19 @@ namespace {
 
 Shared<double> shared;  // stateless
 
-// Where the ray crosses the levels, ascending in s, with its two ends.
+LevelNode between_levels(const RayPoint& p, const std::vector<double>& heights, bool lowest) {
+  const auto above = std::upper_bound(heights.begin() + 1, heights.end() - 1, p.height);
+  const int level = static_cast<int>(above - heights.begin()) - 1;
+  const double part = (p.height - heights[level]) / (heights[level + 1] - heights[level]);
+  return {p.s, p.height, p.mu, level, part, lowest, {}, {}};
+}
+
+// Where the ray crosses the levels, ascending in s, with its two ends and its lowest point.
 std::vector<LevelNode> crossings(const ViewRay& ray, double bottom,
                                  const std::vector<double>& heights, int level) {
   std::vector<LevelNode> nodes;
   auto cross = [&](double s, int at) {
-    nodes.push_back({s, heights[at], ray_point(ray, bottom, s).mu, at, 0, {}, {}});
+    nodes.push_back({s, heights[at], ray_point(ray, bottom, s).mu, at, 0, false, {}, {}});
   };
   cross(0, level);
   const int last = static_cast<int>(heights.size()) - 1;
@@ -33,6 +40,8 @@ std::vector<LevelNode> crossings(const ViewRay& ray, double bottom,
     cross(ray.length, 0);
     return nodes;
   }
+  if (ray.tangent_s > 0)
+    nodes.push_back(between_levels(ray_point(ray, bottom, ray.tangent_s), heights, true));
   for (; up <= last; ++up) {
     const double s = up == last ? ray.length
                                 : shared.distance_to_outer_sphere(bottom, ray.entry_height,
@@ -57,10 +66,7 @@ std::vector<LevelNode> with_short_steps(const std::vector<LevelNode>& coarse, co
     const int steps = static_cast<int>(std::min(std::ceil(length / longest), kMostSteps));
     for (int k = 1; k < steps; ++k) {
       const RayPoint p = ray_point(ray, bottom, coarse[i].s + length * k / steps);
-      const auto above = std::upper_bound(heights.begin() + 1, heights.end() - 1, p.height);
-      const int level = static_cast<int>(above - heights.begin()) - 1;
-      const double part = (p.height - heights[level]) / (heights[level + 1] - heights[level]);
-      nodes.push_back({p.s, p.height, p.mu, level, part, {}, {}});
+      nodes.push_back(between_levels(p, heights, false));
     }
   }
   return nodes;
@@ -74,7 +80,7 @@ class Interpolation {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (keep(nodes[i])) index_.push_back(i);
     }
-    drop_near_pair(nodes);
+    drop_near_lowest(nodes);
     for (const std::size_t i : index_) s_.push_back(nodes[i].s);
     count_ = std::min(4, static_cast<int>(s_.size()));
   }
@@ -90,16 +96,24 @@ class Interpolation {
   }
 
  private:
-  // Two crossings of one level close to the ray's lowest point spoil the interpolation.
-  void drop_near_pair(const std::vector<LevelNode>& nodes) {
+  // Crossings close to the ray's lowest point say nothing new and spoil the interpolation; so does
+  // that point close to the ray's beginning.
+  void drop_near_lowest(const std::vector<LevelNode>& nodes) {
     constexpr double kLeastShare = 0.25;  // of the distance to the next
+    const auto s = [&](std::size_t i) { return nodes[index_[i]].s; };
+    const auto drop = [&](std::size_t i) {
+      index_.erase(index_.begin() + static_cast<std::ptrdiff_t>(i));
+    };
     for (std::size_t i = 1; i + 1 < index_.size(); ++i) {
-      const LevelNode &before = nodes[index_[i - 1]], &at = nodes[index_[i]],
-                      &after = nodes[index_[i + 1]];
-      if (before.height == at.height && at.s - before.s < kLeastShare * (after.s - at.s)) {
-        index_.erase(index_.begin() + static_cast<std::ptrdiff_t>(i));
-        return;
+      if (!nodes[index_[i]].lowest) continue;
+      if (i + 2 < index_.size() && s(i + 1) - s(i) < kLeastShare * (s(i + 2) - s(i + 1)))
+        drop(i + 1);
+      if (i > 1 && s(i) - s(i - 1) < kLeastShare * (s(i - 1) - s(i - 2))) {
+        drop(i - 1);
+      } else if (i == 1 && s(1) - s(0) < kLeastShare * (s(2) - s(1))) {
+        drop(1);
       }
+      return;
     }
   }
 

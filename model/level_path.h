@@ -3,7 +3,7 @@
 // what is known at the levels (a transmittance, a source of light) adds up along the ray without
 // interpolation in height. The sun's beam, which changes fast along low rays, is taken at every
 // level, and between two levels where they are far apart; the source of multiple scattering at some
-// levels. Four wavelengths at once; lengths in metres.
+// levels; both at the ray's lowest point. Four wavelengths at once; lengths in metres.
 #pragma once
 
 #include <array>
@@ -20,17 +20,18 @@ struct LevelWeights {
   std::array<double, 4> air{}, aerosol{};
 };
 
-// The source is taken at every second level.
-inline constexpr int kSourceStep = 2;
+// The source is taken at every third level.
+inline constexpr int kSourceStep = 3;
 
 struct LevelNode {
   double s, height, mu;
   int level;
   double part;  // of the way from the level to the one above
+  bool lowest;  // of the ray, between two levels
   LevelWeights beam, source;
 
   bool on_level() const { return part == 0; }
-  bool has_source() const { return on_level() && level % kSourceStep == 0; }
+  bool has_source() const { return lowest || (on_level() && level % kSourceStep == 0); }
 };
 
 // `heights` ascend from 0 to the top, which has a source; the ray begins at `level`, which has one

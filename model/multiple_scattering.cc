@@ -20,12 +20,10 @@ struct MultipleScattering<N>::Node {
   std::vector<double> wave_factor;  // [mode][point]: (2 - delta_m0) cos m phi
 };
 
-// Nodes at one height: on a level, or between levels, where the moments are Lagrange's cubic in the
-// levels' own coordinate.
+// Nodes at one height.
 template <int N>
 struct MultipleScattering<N>::Group {
-  int first_level;
-  std::vector<double> share;  // of the levels first_level ..; {1} on a level
+  LevelStencil levels;
   std::vector<Node> nodes;
 };
 
@@ -61,19 +59,9 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
       const RayPoint& point = nodes[i];
       double x = level_coordinate(point.height, heights_.back(), levels);
       constexpr double kOnLevel = 1e-6;  // of the distance of two levels
-      const bool on_level = std::abs(x - std::round(x)) < kOnLevel;
-      if (on_level) x = std::round(x);
+      if (std::abs(x - std::round(x)) < kOnLevel) x = std::round(x);
       const auto [at, added] = groups.try_emplace(x, bundle.groups.size());
-      if (added) {
-        Group group{static_cast<int>(x), {1.0}, {}};
-        if (!on_level) {
-          group.first_level = std::clamp(group.first_level - 1, 0, levels - 4);
-          const double node_x[4] = {0, 1, 2, 3};
-          group.share.resize(4);
-          lagrange_weights(node_x, 4, x - group.first_level, group.share.data());
-        }
-        bundle.groups.push_back(std::move(group));
-      }
+      if (added) bundle.groups.push_back({level_stencil(x, levels), {}});
       Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, {}};
       node.lambda.resize(static_cast<std::size_t>(modes) * moments);
       for (int m = 0; m < modes; ++m)
@@ -111,11 +99,12 @@ template <int N>
 const double* MultipleScattering<N>::block_at(const Group& group, const DiffuseField& field, int m,
                                               LargeArray& scratch) const {
   const std::size_t size = field.shape.level(m);
-  const double* first = field.moments[m].data() + group.first_level * size;
-  if (group.share.size() == 1) return first;
+  const std::vector<double>& share = group.levels.share;
+  const double* first = field.moments[m].data() + group.levels.first * size;
+  if (share.size() == 1) return first;
   scratch.assign(size, 0.0);
-  for (std::size_t k = 0; k < group.share.size(); ++k)
-    kernels::add_scaled(group.share[k], first + k * size, scratch.data(), size);
+  for (std::size_t k = 0; k < share.size(); ++k)
+    kernels::add_scaled(share[k], first + k * size, scratch.data(), size);
   return scratch.data();
 }
 

@@ -28,8 +28,7 @@ class ScatteringBuilder {
         optics_(optics),
         tables_(tables),
         heights_(level_heights()),
-        source_(shells, optics, heights_, kSourceStep) {
-    set_cells();
+        source_(shells, optics, source_heights(heights_)) {
     set_sun_steps();
     beam_.resize(heights_.size());
     tbb::parallel_for(0, static_cast<int>(heights_.size()), [&](int i) { set_beam(i); });
@@ -54,11 +53,10 @@ class ScatteringBuilder {
     return heights;
   }
 
-  void set_cells() {
-    for (const TexelSun& sun : texel_suns(tables_.sizes)) {
-      mu_s_.push_back(static_cast<float>(sun.mu_s));
-      across_.push_back(static_cast<float>(sun.across));
-    }
+  static std::vector<double> source_heights(const std::vector<double>& levels) {
+    std::vector<double> heights;
+    for (std::size_t i = 0; i < levels.size(); i += kSourceStep) heights.push_back(levels[i]);
+    return heights;
   }
 
   double sun_at(int step, int count) const {
@@ -69,13 +67,9 @@ class ScatteringBuilder {
   void set_sun_steps() {
     constexpr int kSteps = 16384;
     for (int i = 0; i < kSteps; ++i) {
-      const int first =
-          std::clamp(source_.suns().below(sun_at(i, kSteps)) - 2, 0, source_.suns().size() - 4);
-      double zenith[4], weight[4];
-      for (int j = 0; j < 4; ++j) zenith[j] = source_.suns().zenith(first + j);
-      lagrange_weights(zenith, 4, std::acos(sun_at(i, kSteps)), weight);
-      kernels::SunStep step{first, {}};
-      for (std::size_t j = 0; j < 4; ++j) step.weight[j] = static_cast<float>(weight[j]);
+      const SunStencil stencil = source_.suns().stencil(sun_at(i, kSteps));
+      kernels::SunStep step{stencil.index[3] - 2, {}};  // the grid's first sun has the place 1
+      for (std::size_t j = 0; j < 4; ++j) step.weight[j] = static_cast<float>(stencil.even[j]);
       sun_steps_.push_back(step);
     }
   }
@@ -85,24 +79,40 @@ class ScatteringBuilder {
   void set_beam(int level) {
     constexpr int kSteps = 1024;
     const double h = heights_[level], horizon = horizon_cosine(shells_.bottom_radius, h);
+    PathColumns columns;
     for (int i = 0; i < kSteps; ++i) {
-      const double mu_s = sun_at(i, kSteps), visible = visible_sun(shells_.bottom_radius, h, mu_s);
-      PathColumns columns;
-      if (visible > 0) columns = shells_.columns_to_top(h, std::max(mu_s, horizon));
-      for (const Optics<0>& optics : optics_) {
-        const double beam = visible > 0 ? visible * std::exp(-optics.optical_depth(columns).v) : 0;
-        beam_[level].push_back(static_cast<float>(beam));
-      }
+      const double mu_s = sun_at(i, kSteps);
+      if (i == 0 || mu_s > horizon) columns = shells_.columns_to_top(h, std::max(mu_s, horizon));
+      for (const Optics<0>& optics : optics_)
+        beam_[level].push_back(static_cast<float>(std::exp(-optics.optical_depth(columns).v)));
     }
   }
 
   // What kernel nodes point to.
   struct Scratch {
-    std::vector<float> source, beam;
+    std::vector<float> source, above, beam;
   };
 
-  kernels::TableNode kernel_node(const LevelNode& node, const RayPoint& sun_point,
-                                 Scratch& scratch) const {
+  // Linear between the levels that are kept.
+  void set_source(const LevelNode& node, const NodeValues& air, const NodeValues& aerosol,
+                  Scratch& scratch) const {
+    const int below = node.level / kSourceStep;
+    if (node.on_level()) return source_.slice(below, node.mu, air, aerosol, scratch.source);
+    const double low = heights_[kSourceStep * below], high = heights_[kSourceStep * (below + 1)];
+    const double part = (node.height - low) / (high - low);
+    const auto times = [](const NodeValues& values, double factor) {
+      NodeValues product;
+      for (std::size_t k = 0; k < 4; ++k) product[k] = factor * values[k];
+      return product;
+    };
+    source_.slice(below, node.mu, times(air, 1 - part), times(aerosol, 1 - part), scratch.source);
+    source_.slice(below + 1, node.mu, times(air, part), times(aerosol, part), scratch.above);
+    for (std::size_t i = 0; i < scratch.source.size(); ++i) scratch.source[i] += scratch.above[i];
+  }
+
+  kernels::TableNode kernel_node(const std::vector<LevelNode>& nodes, std::size_t index,
+                                 const RayPoint& sun_point, Scratch& scratch) const {
+    const LevelNode& node = nodes[index];
     kernels::TableNode out{};
     for (std::size_t k = 0; k < 4; ++k) {
       out.single[k] = static_cast<float>(optics_[k].air.v * node.beam.air[k]);
@@ -115,7 +125,7 @@ class ScatteringBuilder {
         air[k] = optics_[k].air.v * node.source.air[k];
         aerosol[k] = optics_[k].aerosol_scattering_cut.v * node.source.aerosol[k];
       }
-      source_.slice(node.level, node.mu, air, aerosol, scratch.source);
+      set_source(node, air, aerosol, scratch);
       out.source = scratch.source.data();
       out.blocks = DiffuseSource::kBlocks;
     }
@@ -123,6 +133,15 @@ class ScatteringBuilder {
     out.sun_factor = static_cast<float>((shells_.bottom_radius + sun_point.height) / r);
     out.nu_factor = static_cast<float>((node.s - sun_point.s) / r);
     out.mu = static_cast<float>(node.mu);
+    // A node's share of the ray reaches half way to its neighbours.
+    const LevelNode &before = nodes[index > 0 ? index - 1 : 0],
+                    &after = nodes[std::min(index + 1, nodes.size() - 1)];
+    const auto to_horizon = [&](double height) {
+      return shared.horizon_distance(height, shells_.bottom_radius);
+    };
+    out.horizon = static_cast<float>(to_horizon(node.height) / r);
+    out.step_nu = static_cast<float>(0.5 * (after.s - before.s) / r);
+    out.step = static_cast<float>(0.5 * (to_horizon(after.height) - to_horizon(before.height)) / r);
     out.lowest = static_cast<float>(sun_at(0, 2));
     out.sun_steps = sun_steps_.data();
     out.sun_step_count = sun_steps_.size();
@@ -140,20 +159,25 @@ class ScatteringBuilder {
   void scatter(int mu_index, int r_index) {
     const TexelRay texel =
         texel_ray(shells_, tables_.sizes, mu_index, heights_[kLevelsPerTexel * r_index]);
-    const std::size_t cells = mu_s_.size();
-    std::vector<float> nu(cells), phase(cells), single(8 * cells), multiple(16 * cells);
+    const std::vector<TexelSun> suns =
+        texel_suns(tables_.sizes, shells_.bottom_radius, texel.sun_point.height);
+    const std::size_t cells = suns.size();
+    std::vector<float> mu_s(cells), nu(cells), phase(cells), single(8 * cells),
+        multiple(16 * cells);
     Scratch scratch;
     const auto mu = static_cast<float>(texel.sun_point.mu);
     const auto sine = std::sqrt(1 - mu * mu);
     for (std::size_t i = 0; i < cells; ++i) {
-      nu[i] = mu * mu_s_[i] + sine * across_[i];
+      mu_s[i] = static_cast<float>(suns[i].mu_s);
+      nu[i] = mu * mu_s[i] + sine * static_cast<float>(suns[i].across);
       phase[i] = static_cast<float>(
           shared.rayleigh_phase(tables_.atmosphere.rayleigh.depolarisation, nu[i]));
     }
-    for (const LevelNode& node :
-         level_path(shells_, optics_, heights_, texel.ray, kLevelsPerTexel * r_index)) {
-      kernels::add_node(kernel_node(node, texel.sun_point, scratch), mu_s_.data(), nu.data(), cells,
-                        single.data(), multiple.data());
+    const std::vector<LevelNode> nodes =
+        level_path(shells_, optics_, heights_, texel.ray, kLevelsPerTexel * r_index);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      kernels::add_node(kernel_node(nodes, i, texel.sun_point, scratch), mu_s.data(), nu.data(),
+                        cells, single.data(), multiple.data());
     }
     const std::size_t row = static_cast<std::size_t>(r_index) * tables_.rayleigh_like.height +
                             static_cast<std::size_t>(mu_index);
@@ -168,7 +192,6 @@ class ScatteringBuilder {
   AtmosphereTables& tables_;
   std::vector<double> heights_;
   DiffuseSource source_;
-  std::vector<float> mu_s_, across_;  // of the cells: [azimuth][sun]; sin(sun zenith) cos(azimuth)
   std::vector<kernels::SunStep> sun_steps_;
   std::vector<std::vector<float>> beam_;  // [level][step][wavelength]
 };

@@ -24,6 +24,19 @@ std::vector<double> shell_heights(double top) {
   return heights;
 }
 
+// Between high shells a ray along the limb is long: no piece lets the sun's height change by more
+// than a degree, over which it may rise through all the air below.
+std::vector<double> with_short_pieces(const std::vector<double>& breaks, double bottom_radius) {
+  const double longest = 0.0175 * bottom_radius;
+  std::vector<double> pieces = {breaks.front()};
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double length = breaks[i] - breaks[i - 1], count = std::ceil(length / longest);
+    for (double k = 1; k < count; ++k) pieces.push_back(breaks[i - 1] + length * k / count);
+    pieces.push_back(breaks[i]);
+  }
+  return pieces;
+}
+
 void set_columns(const Shells& shells, const Profile& profile, const std::vector<double>& height,
                  const std::vector<double>& mu, std::vector<double>& value,
                  std::vector<double>& by_scale_height) {
@@ -106,8 +119,8 @@ std::vector<double> densities(const Profile& profile, const std::vector<double>&
 }  // namespace
 
 RayNodes ray_nodes(const Shells& shells, const ViewRay& ray, const std::vector<double>& edges) {
-  std::vector<double> breaks =
-      shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top));
+  std::vector<double> breaks = with_short_pieces(
+      shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top)), shells.bottom_radius);
   breaks.insert(breaks.end(), edges.begin(), edges.end());
   RayNodes nodes;
   for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, ray, breaks), kOrder)) {

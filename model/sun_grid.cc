@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace skyfit {
 
@@ -31,10 +30,6 @@ SunGrid::SunGrid() {
       zenith_.push_back(zenith * std::numbers::pi / 180);
   }
   zenith_.push_back(zenith * std::numbers::pi / 180);
-  set_fours();
-}
-
-SunGrid::SunGrid(std::vector<double> zenith) : zenith_(std::move(zenith)), day_(size() - 1) {
   set_fours();
 }
 
@@ -81,11 +76,6 @@ SunSlope SunGrid::slope(int i) const {
     s.odd[k] = first + k < 0 ? -s.even[k] : s.even[k];
   }
   return s;
-}
-
-int SunGrid::below(double mu_s) const {
-  const double x = std::acos(std::clamp(mu_s, -1.0, 1.0));
-  return static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
 }
 
 SunStencil SunGrid::stencil(double mu_s) const {

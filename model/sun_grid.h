@@ -23,13 +23,9 @@ struct SunSlope {
 class SunGrid {
  public:
   SunGrid();
-  // Any other ascending zenith angles (radians), from 0, at least five.
-  explicit SunGrid(std::vector<double> zenith);
   int size() const { return static_cast<int>(zenith_.size()); }
   double mu(int i) const;
   double zenith(int i) const { return zenith_[i]; }  // radians
-  // The first node whose sun stands lower.
-  int below(double mu_s) const;
   // Of the quartic through the node and its neighbours.
   SunSlope slope(int i) const;
   // Lagrange's cubic in the zenith angle through the four nearest nodes; the last node's value
@@ -40,7 +36,7 @@ class SunGrid {
   void set_fours();
 
   std::vector<double> zenith_;  // radians, ascending, from 0 to below the twilight
-  int day_ = 0;                 // the node at 85 deg; otherwise the last
+  int day_ = 0;                 // the node at 85 deg
   // Four neighbours, from the first or from one before it: Lagrange's weight i is factor[i] times
   // the distances to the other nodes.
   struct Four {

@@ -62,7 +62,7 @@ void add_node(const TableNode& node, const float* __restrict mu_s, const float* 
   const auto last_beam = static_cast<int>(node.beam_count) - 2;
   const float view_sine2 = std::max(1 - node.mu * node.mu, 1e-12f);
   int sun_step[kChunk], beam_step[kChunk];
-  float beam_part[kChunk], cosine[kChunk];
+  float beam_part[kChunk], cosine[kChunk], lit[kChunk];
   for (std::size_t begin = 0; begin < cells; begin += kChunk) {
     const std::size_t count = std::min(kChunk, cells - begin);
     for (std::size_t i = 0; i < count; ++i) {
@@ -73,6 +73,9 @@ void add_node(const TableNode& node, const float* __restrict mu_s, const float* 
       float c = (angle - node.mu * sun) / std::sqrt(sines2 > 1e-14f ? sines2 : 1e-14f);
       c = c < 1 ? c : 1;
       cosine[i] = c > -1 ? c : -1;
+      const float change = std::abs(node.step_nu * angle + node.step);
+      const float share = 0.5f + (sun + node.horizon) / (change > 1e-6f ? change : 1e-6f);
+      lit[i] = share > 0 ? (share < 1 ? share : 1) : 0;
       const float above = sun > node.lowest ? sun - node.lowest : 0;
       sun_step[i] = static_cast<int>(above * sun_steps + 0.5f);
       const float place = above * beam_steps;
@@ -84,7 +87,7 @@ void add_node(const TableNode& node, const float* __restrict mu_s, const float* 
       Vector4 low, high, sum;
       std::memcpy(&low, node.beam + 4 * beam_step[i], sizeof low);
       std::memcpy(&high, node.beam + 4 * beam_step[i] + 4, sizeof high);
-      low += beam_part[i] * (high - low);
+      low = lit[i] * (low + beam_part[i] * (high - low));
       float* to = single + 8 * (begin + i);
       std::memcpy(&sum, to, sizeof sum);
       sum += air * low;

@@ -29,11 +29,15 @@ struct SunStep {
 struct TableNode {
   // Where the node is: its local sun is sun_factor mu_s + nu_factor nu.
   float sun_factor, nu_factor, mu;
+  // Of the node's share of the ray, the part is lit that lies above the edge of the planet's
+  // shadow, sun + horizon = 0; over the share, sun + horizon changes by step_nu nu + step.
+  float horizon, step_nu, step;
   // Cosines of the local sun go from `lowest` to 1, in even steps.
   float lowest;
   const SunStep* sun_steps;
   std::size_t sun_step_count;
-  const float* beam;  // [step][wavelength]: the sun's transmittance, linear in between
+  const float* beam;  // [step][wavelength]: transmittance to the sun where it is up, linear in
+                      // between
   std::size_t beam_count;
   const float* source;  // [sun][block][16]: of multiple scattering, weight included; null: none
   std::size_t blocks;

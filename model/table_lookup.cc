@@ -54,15 +54,15 @@ double height_coordinate(const AtmosphereTables& tables, double height, int size
   return shared.texture_from_unit(shared.unit_from_height(height, Planet(tables).thickness), size);
 }
 
-double sun_coordinate(double mu_s, int size) {
+double sun_coordinate(double sun_height, int size) {
   Shared<double> shared;
-  return shared.texture_from_unit(shared.unit_from_sun(mu_s, kTableLowestSun), size);
+  return shared.texture_from_unit(shared.unit_from_sun(sun_height, kTableLowestSun), size);
 }
 
 }  // namespace
 
-double deep_twilight(double mu_s, double lowest_mu_s) {
-  return std::exp(std::min((mu_s - lowest_mu_s) * 57.3, 0.0));
+double deep_twilight(double sun, double lowest) {
+  return std::exp(std::min((sun - lowest) * 57.3, 0.0));
 }
 
 double horizon_cosine(double bottom, double height) {
@@ -122,10 +122,11 @@ NodeValues lookup_sun_transmittance(const AtmosphereTables& tables, double heigh
 
 NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, double mu_s) {
   const Table& table = tables.irradiance;
+  const double sun = Shared<double>{}.sun_height(height, mu_s, tables.atmosphere.bottom_radius_m);
   NodeValues sum{};
-  accumulate(table, Between(sun_coordinate(mu_s, table.width), table.width),
+  accumulate(table, Between(sun_coordinate(sun, table.width), table.width),
              Between(height_coordinate(tables, height, table.height), table.height),
-             Between(0.5, 1), deep_twilight(mu_s, kTableLowestSun), sum);
+             Between(0.5, 1), deep_twilight(sun, kTableLowestSun), sum);
   return sum;
 }
 
@@ -144,7 +145,8 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
                                            s.scattering_sky, p.bottom, p.thickness),
                   s.scattering_ground + s.scattering_sky);
   const Between w(height_coordinate(tables, height, s.scattering_r), s.scattering_r);
-  Between u(sun_coordinate(at.mu_s, s.scattering_mu_s), s.scattering_mu_s);
+  const double sun = shared.sun_height(at.height, at.mu_s, p.bottom);
+  Between u(sun_coordinate(sun, s.scattering_mu_s), s.scattering_mu_s);
   u.low += first * s.scattering_mu_s;
   u.high += first * s.scattering_mu_s;
   NodeValues rayleigh{}, mie{};
@@ -160,7 +162,7 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   const double length_km =
       1e-3 * (hits_ground ? shared.distance_to_inner_sphere(p.bottom, height, mu, 0.0)
                           : shared.distance_to_outer_sphere(p.bottom, height, mu, p.thickness));
-  const double light = length_km * deep_twilight(at.mu_s, kTableLowestSun);
+  const double light = length_km * deep_twilight(sun, kTableLowestSun);
   NodeValues sum;
   for (std::size_t k = 0; k < 4; ++k)
     sum[k] = light * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);

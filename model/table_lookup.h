@@ -26,8 +26,8 @@ double horizon_cosine(double bottom, double height);
 // Share of the sun's disc, 0.533 degrees wide, that stands above the horizon.
 double visible_sun(double bottom, double height, double mu_s);
 
-// Below the lowest sun of a table its light falls by e per degree of the cosine.
-double deep_twilight(double mu_s, double lowest_mu_s);
+// Below the lowest sun of a table its light falls by e per degree of the sun's height or cosine.
+double deep_twilight(double sun, double lowest);
 
 // From a point to the top along a ray that misses the ground.
 NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, double mu);

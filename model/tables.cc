@@ -83,10 +83,12 @@ void make_irradiance(double top, AtmosphereTables& tables) {
   tables.irradiance = make_table(columns, rows, 1);
   tbb::parallel_for(0, columns, [&](int x) {
     constexpr int kPolar = 16, kAzimuth = 8;
-    const double mu_s = shared.sun_from_unit(x / (columns - 1.0), kTableLowestSun);
-    const std::vector<SkySample> sky = sky_samples(mu_s, kPolar, kAzimuth);
     for (int y = 0; y < rows; ++y) {
       const double h = height_of_row(y, rows, top);
+      const double mu_s =
+          shared.mu_s_from_sun_height(h, shared.sun_from_unit(x / (columns - 1.0), kTableLowestSun),
+                                      tables.atmosphere.bottom_radius_m);
+      const std::vector<SkySample> sky = sky_samples(mu_s, kPolar, kAzimuth);
       NodeValues sum{};
       for (const SkySample& sample : sky) {
         const NodeValues l = lookup_radiance(tables, h, sample.mu, mu_s, sample.nu, false);
@@ -101,7 +103,6 @@ void make_irradiance(double top, AtmosphereTables& tables) {
 void tabulate_slice(const SkyModel& model, const Shells& shells, int slice, double height,
                     AtmosphereTables& tables) {
   const TableSizes& sizes = tables.sizes;
-  const std::vector<TexelSun> suns = texel_suns(sizes);
   std::vector<SkyPoint> points;
   std::vector<double> length_km, nus;
   for (int row = 0; row < sizes.scattering_ground + sizes.scattering_sky; ++row) {
@@ -112,7 +113,7 @@ void tabulate_slice(const SkyModel& model, const Shells& shells, int slice, doub
     constexpr double kSide = 1e-9;
     const double start_mu =
         std::clamp(texel.ray.entry_mu + (texel.ray.hits_ground ? -kSide : kSide), -1.0, 1.0);
-    for (const TexelSun& sun : suns) {
+    for (const TexelSun& sun : texel_suns(sizes, shells.bottom_radius, texel.sun_point.height)) {
       const double nu =
           std::clamp(mu * sun.mu_s + std::sqrt(std::max(1 - mu * mu, 0.0)) * sun.across, -1.0, 1.0);
       const double mu_s = std::clamp((r * sun.mu_s - texel.sun_point.s * nu) / r0, -1.0, 1.0);

@@ -18,8 +18,8 @@ using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blu
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
-  int scattering_r = 32, scattering_ground = 24, scattering_sky = 72;  // rays to ground and to sky
-  int scattering_mu_s = 48, scattering_azimuth = 20;
+  int scattering_r = 32, scattering_ground = 22, scattering_sky = 70;  // rays to ground and to sky
+  int scattering_mu_s = 64, scattering_azimuth = 24;
 };
 
 // width varies fastest; depth = 1 for 2D.
@@ -28,8 +28,9 @@ struct Table {
   std::vector<float> rgba;
 };
 
-// Cosine of the lowest sun that the tables hold (102 degrees from the zenith): below it no light
-// reaches the air that can be seen from a table's point.
+// The lowest sun that the tables hold, by sun_height() of model/shared/mapping.glsl: on the ground
+// the cosine of 102 degrees from the zenith. Below it no light reaches the air that can be seen
+// from a table's point.
 inline constexpr double kTableLowestSun = -0.2079;
 
 // The least value in the scattering tables, as the argument of the logarithm, 1/km: about

@@ -31,13 +31,15 @@ TexelRay texel_ray(const Shells& shells, const TableSizes& s, int row, double he
   return {ray, ray_point(ray, bottom, to_sun_point)};
 }
 
-std::vector<TexelSun> texel_suns(const TableSizes& s) {
+std::vector<TexelSun> texel_suns(const TableSizes& s, double bottom_radius, double height) {
   Shared<double> shared;
   std::vector<TexelSun> suns;
   for (int azimuth = 0; azimuth < s.scattering_azimuth; ++azimuth) {
     const double cosine = std::cos(std::numbers::pi * azimuth / (s.scattering_azimuth - 1));
     for (int sun = 0; sun < s.scattering_mu_s; ++sun) {
-      const double mu_s = shared.sun_from_unit(sun / (s.scattering_mu_s - 1.0), kTableLowestSun);
+      const double sun_height =
+          shared.sun_from_unit(sun / (s.scattering_mu_s - 1.0), kTableLowestSun);
+      const double mu_s = shared.mu_s_from_sun_height(height, sun_height, bottom_radius);
       suns.push_back({mu_s, std::sqrt(1 - mu_s * mu_s) * cosine});
     }
   }

@@ -19,10 +19,10 @@ struct TexelRay {
 TexelRay texel_ray(const Shells& shells, const TableSizes& sizes, int row, double height);
 
 // Cosine of the sun's zenith angle at the sun point, and sine of that angle times the cosine of the
-// azimuth, of the cells of a row: [azimuth][sun].
+// azimuth, of the cells of a row whose sun point has this height: [azimuth][sun].
 struct TexelSun {
   double mu_s, across;
 };
-std::vector<TexelSun> texel_suns(const TableSizes& sizes);
+std::vector<TexelSun> texel_suns(const TableSizes& sizes, double bottom_radius, double height);
 
 }  // namespace skyfit

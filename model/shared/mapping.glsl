@@ -72,25 +72,42 @@ Number mu_from_ground_unit(Number x_mu, Number h, Number bottom) {
   return d > Number(0.0) ? clamp(mu, Number(-1.0), Number(1.0)) : Number(-1.0);
 }
 
-// The sun's height, by t = sqrt(1 - mu_s), which is nearly the zenith angle; finest just below the horizon, where light
-// changes fastest. mu_s_min is the lowest sun in the table. Deviation: Bruneton 2017 takes distances to the top, which
-// leaves 3 of 48 texels for suns within 60 degrees of the zenith.
+// The dip by which the sun's height is counted at a point above the ground. Seven tenths of the horizon's: the beam that
+// grazes the ground is dark, and what dims or lights the air is one that passes higher.
+Number sun_dip(Number h, Number bottom) { return 0.7 * horizon_distance(h, bottom) / (bottom + h); }
+
+// The sun's height at a point: 1 in the zenith, 0 at the edge of the planet's shadow, of which the cosine alone knows
+// nothing above the ground. Light changes fastest there, at any height h.
+Number sun_height(Number h, Number mu_s, Number bottom) {
+  Number dip = sun_dip(h, bottom);
+  return (mu_s + dip) / (1.0 + dip);
+}
+
+Number mu_s_from_sun_height(Number h, Number height, Number bottom) {
+  Number dip = sun_dip(h, bottom);
+  return clamp(height * (1.0 + dip) - dip, Number(-1.0), Number(1.0));
+}
+
+// Coordinate of the sun's height, by t = sqrt(1 - height), which is nearly the zenith angle; finest, 0.3
+// degrees with 64 texels, at the edge of the shadow, on which the 22nd of them lies when the lowest sun is -0.2079: the
+// light has a kink there. Deviation: Bruneton 2017 takes distances to the top, which leaves 3 of 48 texels for suns
+// within 60 degrees of the zenith.
 Number sun_curve(Number t) {
-  Number x = (1.03 - t) / 0.04;
+  Number x = (1.0053 - t) / 0.025;
   return log(x + sqrt(x * x + 1.0));  // asinh
 }
 
-Number unit_from_sun(Number mu_s, Number mu_s_min) {
-  Number lowest = sun_curve(sqrt(1.0 - mu_s_min));
-  Number t = sqrt(max(1.0 - max(mu_s, mu_s_min), Number(0.0)));
-  return (sun_curve(t) - lowest) / (sun_curve(Number(0.0)) - lowest);
+Number unit_from_sun(Number height, Number lowest) {
+  Number least = sun_curve(sqrt(1.0 - lowest));
+  Number t = sqrt(max(1.0 - max(height, lowest), Number(0.0)));
+  return (sun_curve(t) - least) / (sun_curve(Number(0.0)) - least);
 }
 
-Number sun_from_unit(Number x_mu_s, Number mu_s_min) {
-  Number lowest = sun_curve(sqrt(1.0 - mu_s_min));
-  Number e = exp(lowest + x_mu_s * (sun_curve(Number(0.0)) - lowest));
-  Number t = 1.03 - 0.02 * (e - 1.0 / e);  // sinh
-  return clamp(1.0 - t * t, mu_s_min, Number(1.0));
+Number sun_from_unit(Number x, Number lowest) {
+  Number least = sun_curve(sqrt(1.0 - lowest));
+  Number e = exp(least + x * (sun_curve(Number(0.0)) - least));
+  Number t = 1.0053 - 0.0125 * (e - 1.0 / e);  // sinh
+  return clamp(1.0 - t * t, lowest, Number(1.0));
 }
 
 // The sun's height and azimuth in the scattering table are those at a point of the ray about which most of the light is

@@ -60,14 +60,15 @@ vec4 sun_transmittance(float h, float mu_s) {
   return visible * exp(-optical_depth_to_top(h, max(mu_s, mu_horizon)));
 }
 
-// Below the lowest sun of the tables the twilight falls by e per degree.
-float deep_twilight(float mu_s) { return exp(min((mu_s - mu_s_min) * 57.3, 0.0)); }
+// Below the lowest sun of the tables the twilight falls by e per degree of the sun's height.
+float deep_twilight(float sun) { return exp(min((sun - mu_s_min) * 57.3, 0.0)); }
 
 // Diffuse, on a horizontal surface that faces up.
 vec4 sky_irradiance(float h, float mu_s) {
   vec2 size = vec2(textureSize(irradiance_table, 0));
-  float x = texture_from_unit(unit_from_sun(mu_s, mu_s_min), size.x);
-  return deep_twilight(mu_s) * texture(irradiance_table, vec2(x, height_coordinate(h, size.y)));
+  float sun = sun_height(h, mu_s, bottom_km);
+  float x = texture_from_unit(unit_from_sun(sun, mu_s_min), size.x);
+  return deep_twilight(sun) * texture(irradiance_table, vec2(x, height_coordinate(h, size.y)));
 }
 
 // A point on the view ray, as the tables see it.
@@ -92,7 +93,8 @@ Scattering scattering(Place from, float nu, bool hits_ground) {
   Place at = place_along(from, nu, distance_to_sun_point(from.h, from.mu, hits_ground, bottom_km, thickness_km));
   float turn = unit_from_azimuth(cosine_of_azimuth(at.mu, at.mu_s, nu)) * (scattering_size.y - 1.0);
   float first = min(floor(turn), scattering_size.y - 2.0);
-  float u_sun = texture_from_unit(unit_from_sun(at.mu_s, mu_s_min), scattering_size.x);
+  float sun = sun_height(at.h, at.mu_s, bottom_km);
+  float u_sun = texture_from_unit(unit_from_sun(sun, mu_s_min), scattering_size.x);
   vec3 near = vec3((first + u_sun) / scattering_size.y,
                    texture_from_view(from.h, from.mu, hits_ground, scattering_size.z, scattering_size.w, bottom_km,
                                      thickness_km),
@@ -103,7 +105,7 @@ Scattering scattering(Place from, float nu, bool hits_ground) {
   // The tables hold logarithms of the mean over the ray.
   float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
                                 : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);
-  float light = length_km * deep_twilight(at.mu_s);
+  float light = length_km * deep_twilight(sun);
   return Scattering(light * exp(rayleigh_like), light * exp(single_mie));
 }
 

@@ -63,6 +63,16 @@ TEST_P(MappingRoundTrip, Sun) {
   EXPECT_NEAR(shared_.sun_from_unit(1, -0.2079), 1, kRoundTrip);
 }
 
+TEST_P(MappingRoundTrip, SunHeight) {
+  for (const double h : {0.0, 0.01 * thickness_, 0.6 * thickness_}) {
+    for (double height = -0.2; height <= 1; height += 1.0 / 32) {
+      const double mu_s = shared_.mu_s_from_sun_height(h, height, bottom_);
+      EXPECT_NEAR(shared_.sun_height(h, mu_s, bottom_), height, kRoundTrip);
+    }
+    EXPECT_NEAR(shared_.sun_height(h, 1, bottom_), 1, kRoundTrip);
+  }
+}
+
 TEST_P(MappingRoundTrip, Azimuth) {
   for (double x = 0; x <= 1; x += 1.0 / 32) {
     for (const double mu : {-0.7, 0.01, 0.98}) {

@@ -66,7 +66,7 @@ TEST_F(SharedFormulas, Mappings) {
                "bool hit = ray_hits_ground(x.x, x.y, 6360.0);\n"
                "y = vec4(texture_from_view(x.x, x.y, hit, 32.0, 64.0, 6360.0, 100.0), "
                "unit_from_height(x.x, 100.0), "
-               "unit_from_sun(x.z, -0.2079), hit ? 1.0 : 0.0);",
+               "unit_from_sun(sun_height(x.x, x.z, 6360.0), -0.2079), hit ? 1.0 : 0.0);",
                inputs);
   for (std::size_t i = 0; i < inputs.size(); i += 4) {
     const double h = inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
@@ -76,7 +76,8 @@ TEST_F(SharedFormulas, Mappings) {
                 kRoot)
         << "h = " << h << ", mu = " << mu;
     EXPECT_NEAR(outputs[i + 1], shared_.unit_from_height(h, kThickness), kCoordinate);
-    EXPECT_NEAR(outputs[i + 2], shared_.unit_from_sun(mu_s, -0.2079), kCoordinate);
+    EXPECT_NEAR(outputs[i + 2],
+                shared_.unit_from_sun(shared_.sun_height(h, mu_s, kBottom), -0.2079), kCoordinate);
   }
 }
 

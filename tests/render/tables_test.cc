@@ -60,7 +60,7 @@ double luminance(const AtmosphereTables& tables, const NodeValues& nodes) {
 TEST(Tables, FinerTablesSayTheSame) {
   const AtmosphereTables usual = tables_of("earth-clear", TableSizes{});
   const AtmosphereTables fine = tables_of("earth-clear", {512, 256, 64, 16, 64, 64, 96, 80, 24});
-  constexpr double kUsual = 0.03;  // the error allowed to a frame's sky
+  constexpr double kUsual = 0.01;  // the error allowed to a frame's sky
   for (const double height : {2.0, 800.0, 10e3}) {
     for (const double sun : {13.0, 47.0, 76.0, 86.5}) {
       for (const double view : {7.0, 33.0, 58.0, 79.0, 88.0}) {
