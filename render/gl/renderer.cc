@@ -138,10 +138,13 @@ void add_directions(const Camera& camera, Frame& frame) {
   }
 }
 
-// How finely the planet is drawn: a quad spans options.samples_per_quad samples of the picture, but
-// no block more than 1/50 of its distance (Sperlhofer 2011, C = 50); 9 levels and, near the camera,
-// as many more as show details of a third of a metre.
+// How finely the planet is drawn: near the ground a quad spans options.samples_per_quad samples of
+// the picture, but no block is split beyond 50 times its size (Sperlhofer 2011, C = 50); 9 levels
+// and, near the camera, as many more as show details of a third of a metre.
 constexpr double kLargestRatio = 50, kSmallestRatio = 1.6;
+// A view from above holds fewer levels of the tree, so that each can be finer for the same number of
+// blocks; that from 2 m holds this many.
+constexpr double kLevelsFromGround = 19;
 constexpr int kFewestLevels = 9;
 constexpr double kFinestQuad = 0.3;  // m
 
@@ -151,8 +154,13 @@ int levels_of(double radius) {
   return levels;
 }
 
+// To where a view from the height touches the bottom sphere.
+double horizon_m(double radius, double height) {
+  return std::sqrt(height * (2 * radius + height));
+}
+
 TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, const Ground& ground,
-                         double radius) {
+                         double radius, double ground_distance_m) {
   const double aspect = static_cast<double>(options.width) / options.height;
   TerrainView view;
   view.axes = axes;
@@ -163,7 +171,11 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
   view.radius_m = radius;
   view.highest_m = ground.highest_m();
   const double sample = 2 * tall / (options.height * options.samples_per_side);
-  view.split_ratio = std::clamp(1 / (kBlockQuads * options.samples_per_quad * sample),
+  const double height = std::max(ground_distance_m, 2.0);
+  const double horizon = horizon_m(radius, height) + horizon_m(radius, view.highest_m);
+  const double levels = 2 + std::log2(std::max(horizon / height, 1.0));
+  const double finer = std::sqrt(kLevelsFromGround / std::min(levels, kLevelsFromGround));
+  view.split_ratio = std::clamp(finer / (kBlockQuads * options.samples_per_quad * sample),
                                 kSmallestRatio, kLargestRatio);
   view.levels = levels_of(radius);
   return view;
@@ -297,26 +309,27 @@ class GlRenderer final : public FrameDrawer {
     const double aspect = static_cast<double>(options.width) / options.height;
     current_.axes = axes_of(options.site);
     current_.projection = make_projection(options.camera, aspect);
-    TerrainView view = terrain_view(options, current_.axes, *ground_, radius_m_);
+    const double ground_distance = options.camera.altitude_m - ground_height_m(options.site);
+    TerrainView view = terrain_view(options, current_.axes, *ground_, radius_m_, ground_distance);
     BlockStore& store = terrain_->store();
     store.begin_frame();
     const BlockSelection selection = affordable_blocks(view, store);
     statistics.blocks_drawn = static_cast<int>(selection.blocks.size());
     statistics.blocks_outside = selection.outside;
     statistics.blocks_behind = selection.behind;
-    if (options.shadows) prepare_shadows(options, view);
+    if (options.shadows) prepare_shadows(options, view, ground_distance);
     statistics.blocks_made = store.made();
     current_.blocks = terrain_->prepare(selection.blocks, view);
     statistics.triangles = TerrainPass::triangles(current_.blocks);
     place_objects(options, statistics);
-    current_.farthest_km = farthest_m(options.camera.altitude_m, ground_->highest_m()) * 1e-3;
+    current_.farthest_km = 1e-3 * (horizon_m(radius_m_, options.camera.altitude_m) +
+                                   horizon_m(radius_m_, ground_->highest_m()));
   }
 
   // The same blocks as in the picture where both see them: a surface must not shade itself.
-  void prepare_shadows(const FrameOptions& options, TerrainView view) {
+  void prepare_shadows(const FrameOptions& options, TerrainView view, double ground_distance_m) {
     const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
-    current_.shadows =
-        shadow_views(sun, options.camera.altitude_m - ground_height_m(options.site));
+    current_.shadows = shadow_views(sun, ground_distance_m);
     for (std::size_t i = 0; i < kShadowMaps; ++i) {
       view.planes = current_.shadows[i].planes;
       current_.casters[i] =
@@ -339,11 +352,6 @@ class GlRenderer final : public FrameDrawer {
     }
     current_.moon = Placed{&*moon_, place_of(*options.moon)};
     statistics.triangles += moon_->triangles();
-  }
-
-  double farthest_m(double altitude, double peak) const {
-    const auto horizon = [&](double h) { return std::sqrt(h * (2 * radius_m_ + h)); };
-    return horizon(altitude) + horizon(peak);
   }
 
   std::vector<Pass> passes(const FrameOptions& options) {
