@@ -29,6 +29,35 @@ double distance_between(const Box& box, const glm::dvec3& p) {
 
 enum class Visibility { kSeen, kOutside, kBehind };
 
+// Corners, middles of the edges and the middle: unit vectors in some frame's axes.
+using BlockPoints = std::array<glm::dvec3, 9>;
+
+BlockPoints block_points(const CubeBlock& block, const glm::dmat3& frame_from_planet) {
+  BlockPoints points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = frame_from_planet * block_direction(block, 0.5 * static_cast<double>(i % 3),
+                                                    0.5 * static_cast<double>(i / 3));
+  }
+  return points;
+}
+
+Box box_of(const BlockPoints& points, int level, const HeightRange& heights, double radius_m) {
+  Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
+  for (const glm::dvec3& direction : points) {
+    for (const double r : {radius_m + heights.low, radius_m + heights.high}) {
+      box.low = glm::min(box.low, r * direction);
+      box.high = glm::max(box.high, r * direction);
+    }
+  }
+  // The sphere bulges between these points by less than the arrow of the arc between two of them;
+  // sqrt(2) for the diagonal, and for the faces' corners.
+  const double half_step = std::min(block_arc_m(level, 1) * std::numbers::sqrt2 * 0.25, 1.0);
+  const double bulge = 1.1 * (radius_m + heights.high) * (1 - std::cos(half_step));
+  box.low -= bulge;
+  box.high += bulge;
+  return box;
+}
+
 // What a view can see, in the axes of its site about the planet's centre.
 class Frustum {
  public:
@@ -49,13 +78,13 @@ class Frustum {
 
   const glm::dvec3& camera() const { return camera_; }
 
-  Box box(const CubeBlock& block, const HeightRange& heights) const {
-    return block_box(block, heights, frame_from_planet_, view_.radius_m);
+  BlockPoints points(const CubeBlock& block) const {
+    return block_points(block, frame_from_planet_);
   }
 
-  Visibility visibility(const CubeBlock& block, const HeightRange& heights) const {
-    if (behind(block, heights.high)) return Visibility::kBehind;
-    return outside(box(block, heights)) ? Visibility::kOutside : Visibility::kSeen;
+  Visibility visibility(const BlockPoints& points, int level, const HeightRange& heights) const {
+    if (behind(points, level, heights.high)) return Visibility::kBehind;
+    return outside(box_of(points, level, heights, view_.radius_m)) ? Visibility::kOutside : Visibility::kSeen;
   }
 
  private:
@@ -74,14 +103,12 @@ class Frustum {
   }
 
   // A peak is seen as far as its own horizon reaches beyond the camera's.
-  bool behind(const CubeBlock& block, double highest) const {
-    const glm::dvec3 middle = block_direction(block, 0.5, 0.5);
-    double radius = 0;
-    for (const auto& [u, v] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
-      radius = std::max(radius, glm::distance(middle, block_direction(block, u, v)));
-    }
-    const double angle = 2 * std::asin(std::min(0.5 * glm::distance(middle, view_.axes.z), 1.0));
-    return angle - 2 * std::asin(0.5 * radius) > own_horizon_ + horizon(highest);
+  bool behind(const BlockPoints& points, int level, double highest) const {
+    const glm::dvec3 up(0, 0, 1);
+    const double angle = 2 * std::asin(std::min(0.5 * glm::distance(points[4], up), 1.0));
+    // Arcs are longest along a face's middle lines.
+    const double radius = 0.5 * std::numbers::sqrt2 * block_arc_m(level, 1);
+    return angle - radius > own_horizon_ + horizon(highest);
   }
 
   const TerrainView& view_;
@@ -98,7 +125,7 @@ class Selector {
 
   BlockSelection select() {
     std::vector<Node> nodes;
-    for (int face = 0; face < 6; ++face) nodes.push_back({{face, 0, 0, 0}, {0, view_.highest_m}});
+    for (int face = 0; face < 6; ++face) nodes.push_back(node({face, 0, 0, 0}, {0, view_.highest_m}));
     while (!nodes.empty()) nodes = next_level(std::move(nodes));
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Found& a, const Found& b) { return a.distance < b.distance; });
@@ -110,16 +137,21 @@ class Selector {
   struct Node {
     CubeBlock block;
     HeightRange heights;
+    BlockPoints points;
   };
   struct Found {
     double distance;
     CubeBlock block;
   };
 
+  Node node(const CubeBlock& block, const HeightRange& heights) const {
+    return {block, heights, frustum_.points(block)};
+  }
+
   void drop_unseen(std::vector<Node>& nodes) {
     if (!view_.cull) return;
     std::erase_if(nodes, [&](const Node& node) {
-      const Visibility seen = frustum_.visibility(node.block, node.heights);
+      const Visibility seen = frustum_.visibility(node.points, node.block.level, node.heights);
       if (seen == Visibility::kBehind) ++selection_.behind;
       if (seen == Visibility::kOutside) ++selection_.outside;
       return seen != Visibility::kSeen;
@@ -141,15 +173,16 @@ class Selector {
       // Finer details stand up to half a quad out of these heights.
       const double margin = 0.5 * arc / kBlockQuads;
       const HeightRange allowed{node.heights.low - margin, node.heights.high + margin};
-      const double distance = distance_between(frustum_.box(block, allowed), frustum_.camera());
+      const double distance = distance_between(
+          box_of(node.points, block.level, allowed, view_.radius_m), frustum_.camera());
       if (block.level + 1 >= view_.levels || distance >= view_.split_ratio * arc) {
         found_.push_back({distance, block});
         continue;
       }
       for (const auto& [column, row] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
         children.push_back(
-            {{block.face, block.level + 1, 2 * block.column + column, 2 * block.row + row},
-             allowed});
+            this->node({block.face, block.level + 1, 2 * block.column + column, 2 * block.row + row},
+                       allowed));
       }
     }
     return children;
@@ -182,27 +215,7 @@ double block_arc_m(int level, double radius_m) {
 
 Box block_box(const CubeBlock& block, const HeightRange& heights,
               const glm::dmat3& frame_from_planet, double radius_m) {
-  constexpr int kSteps = 2;
-  Box box{glm::dvec3(1e300), glm::dvec3(-1e300)};
-  for (int i = 0; i <= kSteps; ++i) {
-    for (int j = 0; j <= kSteps; ++j) {
-      const glm::dvec3 direction =
-          frame_from_planet * block_direction(block, static_cast<double>(i) / kSteps,
-                                              static_cast<double>(j) / kSteps);
-      for (const double r : {radius_m + heights.low, radius_m + heights.high}) {
-        box.low = glm::min(box.low, r * direction);
-        box.high = glm::max(box.high, r * direction);
-      }
-    }
-  }
-  // The sphere bulges between these points by less than the arrow of the arc between two of them;
-  // sqrt(2) for the diagonal, and for the faces' corners.
-  const double half_step =
-      std::min(block_arc_m(block.level, 1) / kSteps * std::numbers::sqrt2 * 0.5, 1.0);
-  const double bulge = 1.1 * (radius_m + heights.high) * (1 - std::cos(half_step));
-  box.low -= bulge;
-  box.high += bulge;
-  return box;
+  return box_of(block_points(block, frame_from_planet), block.level, heights, radius_m);
 }
 
 BlockSelection select_blocks(const TerrainView& view, const HeightsOf& heights_of) {
