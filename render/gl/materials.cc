@@ -19,7 +19,7 @@ namespace skyfit {
 namespace {
 
 constexpr int kSide = kMaterialSide;
-constexpr double kGrainPeriod = 3.1, kCragPeriod = 190;  // m: a unit of each texture
+constexpr double kGrainPeriod = 1.5, kCragPeriod = 190;  // m: a unit of each texture
 constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
 
 std::size_t texel(int x, int y, int z) {

@@ -15,7 +15,7 @@ layout(std140, binding = 5) uniform Materials {
 
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
 const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);
-const vec2 kGrainContrast = vec2(0.9, 0.6), kCragContrast = vec2(0.5, 1.0);
+const vec2 kGrainContrast = vec2(1.0, 0.8), kCragContrast = vec2(0.4, 0.5);
 
 // Tilts the normal and returns the factor of the reflectance. `position` is relative to the camera, km, in the camera
 // frame; rock < 0: neither material.
