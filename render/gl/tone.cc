@@ -8,15 +8,6 @@
 namespace skyfit {
 namespace {
 
-// A mean of this becomes middle grey.
-constexpr double kMiddleGrey = 0.18;
-// At most one pixel in ten becomes brighter than this.
-constexpr double kHighlights = 0.9, kHighlightLevel = 0.45;
-// Below this luminance pictures stay dark, as for the eye; above, a camera stops down no further.
-// cd/m^2.
-constexpr double kDarkest = 0.02;
-constexpr double kBrightest = 3e4;
-
 // Narkowicz 2015, a fit of the ACES film curve; 0 to 0, about 0.8 at 1.
 double film(double x) {
   x *= 0.8;
@@ -51,27 +42,8 @@ std::array<double, 3> into_gamut(std::array<double, 3> rgb, double luminance) {
 
 }  // namespace
 
-double automatic_exposure(const Frame& frame) {
-  std::vector<float> seen;
-  double sum = 0;
-  for (const float luminance : frame.luminance) {
-    if (!(luminance > kDarkest * 1e-3)) continue;  // space
-    seen.push_back(luminance);
-    sum +=
-        std::log(std::min<double>(luminance, kBrightest));  // the sun's disc counts as a bright sky
-  }
-  if (seen.empty()) return kMiddleGrey / kDarkest;
-  const double mean = std::exp(sum / static_cast<double>(seen.size()));
-  const auto high = seen.begin() +
-                    static_cast<std::ptrdiff_t>(kHighlights * static_cast<double>(seen.size() - 1));
-  std::nth_element(seen.begin(), high, seen.end());
-  const double level = std::max(mean / kMiddleGrey, *high / kHighlightLevel);
-  return 1 / std::clamp(level, kDarkest / kMiddleGrey, kBrightest / kMiddleGrey);
-}
-
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone) {
-  const double exposure =
-      tone.exposure.value_or(automatic_exposure(frame)) * std::exp2(tone.exposure_stops);
+  const double exposure = tone.exposure.value() * std::exp2(tone.exposure_stops);
   const auto curve = [&](double x) {
     return tone.curve == ToneCurve::kFilmic ? film(x) : 1 - std::exp(-std::max(x, 0.0));
   };

@@ -9,11 +9,8 @@
 
 namespace skyfit {
 
-// Multiplier of linear values, from the mean logarithm of the luminance between limits.
-double automatic_exposure(const Frame& frame);
-
-// [pixel][3]. Filmic curve, sRGB transfer function (IEC 61966-2-1), dithered with triangular noise
-// of one step.
+// [pixel][3], with an exposure that is set: the tone curve, the sRGB transfer function (IEC
+// 61966-2-1), dithered with triangular noise of one step.
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone);
 
 }  // namespace skyfit
