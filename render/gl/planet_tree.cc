@@ -199,8 +199,14 @@ class Selector {
 
 glm::dvec3 cube_direction(int face, double s, double t) {
   const FaceAxes& axes = kFaces[static_cast<std::size_t>(face)];
-  return glm::normalize(axes.out + std::tan(0.25 * kPi * s) * axes.along +
-                        std::tan(0.25 * kPi * t) * axes.across);
+  double along = std::tan(0.25 * kPi * s), across = std::tan(0.25 * kPi * t);
+  // Where the neighbouring face is in front, the lines of its own grid go on.
+  if (std::abs(s) > 1) {
+    across *= std::abs(along);
+  } else if (std::abs(t) > 1) {
+    along *= std::abs(across);
+  }
+  return glm::normalize(axes.out + along * axes.along + across * axes.across);
 }
 
 glm::dvec3 block_direction(const CubeBlock& block, double u, double v) {

@@ -31,7 +31,7 @@ struct CubeBlock {
 };
 
 // Unit vector. s and t run from -1 to 1 over a face, in equal angles along its middle lines; a
-// little beyond is the face's own continuation.
+// little beyond an edge are the places that the face there has in the same distance from it.
 glm::dvec3 cube_direction(int face, double s, double t);
 
 // The same of a block; u and v run from 0 to 1.

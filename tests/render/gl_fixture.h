@@ -30,10 +30,11 @@ inline AtmosphereTables tables_of(const Preset& preset, const TableSizes& sizes)
 }
 
 // Runs `body` (statements that turn vec4 x into vec4 y) once per input on the GPU. `prepare` sets
-// uniforms and textures.
+// uniforms, blocks and textures; `defined` as in build_program().
 template <class Prepare>
 std::vector<float> run_glsl(const std::string& includes, const std::string& body,
-                            const std::vector<float>& inputs, Prepare&& prepare) {
+                            const std::vector<float>& inputs,
+                            const std::vector<std::string>& defined, Prepare&& prepare) {
   const std::string text =
       includes +
       "layout(local_size_x = 1) in;\n"
@@ -43,7 +44,7 @@ std::vector<float> run_glsl(const std::string& includes, const std::string& body
       body + "\n  outputs[gl_GlobalInvocationID.x] = y;\n}\n";
   const ShaderSource source{"test.comp", text};
   const GlProgram program = build_program(
-      std::vector<ShaderStage>{{GL_COMPUTE_SHADER, "test.comp"}}, std::span(&source, 1));
+      std::vector<ShaderStage>{{GL_COMPUTE_SHADER, "test.comp"}}, std::span(&source, 1), defined);
   const auto bytes = static_cast<GLsizeiptr>(inputs.size() * sizeof(float));
   GLuint names[2];
   glCreateBuffers(2, names);
@@ -64,7 +65,7 @@ std::vector<float> run_glsl(const std::string& includes, const std::string& body
 
 inline std::vector<float> run_glsl(const std::string& includes, const std::string& body,
                                    const std::vector<float>& inputs) {
-  return run_glsl(includes, body, inputs, [](GLuint) {});
+  return run_glsl(includes, body, inputs, {}, [](GLuint) {});
 }
 
 }  // namespace skyfit

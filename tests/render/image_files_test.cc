@@ -91,6 +91,44 @@ TEST_F(ImageFiles, ExrKeepsEveryChannelAndTheMetadata) {
   }
 }
 
+TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
+  Frame frame = gradient(16, 4);
+  FrameLayers layers;
+  // Every value of every layer is another one.
+  float next = 1;
+  for (std::vector<float>* layer : {&layers.in_scatter, &layers.reflected, &layers.transmittance,
+                                    &layers.normal, &layers.albedo}) {
+    for (int i = 0; i < 3 * 16 * 4; ++i) layer->push_back(next += 0.5f);
+  }
+  frame.layers = layers;
+  const fs::path file = directory_ / "layers.exr";
+  write_exr_file(frame, file);
+  const auto input = OIIO::ImageInput::open(file.string());
+  ASSERT_TRUE(input);
+  const OIIO::ImageSpec& spec = input->spec();
+  EXPECT_THAT(
+      spec.channelnames,
+      UnorderedElementsAre("R", "G", "B", "luminance.Y", "view.zenith_deg", "view.azimuth_deg",
+                           "Z", "inscatter.R", "inscatter.G", "inscatter.B", "reflected.R",
+                           "reflected.G", "reflected.B", "transmittance.R", "transmittance.G",
+                           "transmittance.B", "normal.X", "normal.Y", "normal.Z", "albedo.R",
+                           "albedo.G", "albedo.B"));
+  std::vector<float> pixels(static_cast<std::size_t>(spec.nchannels) * 16 * 4);
+  ASSERT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
+  const auto expect_equal = [&](const std::vector<float>& values, const std::string& layer,
+                                const std::string& suffixes) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const int channel = spec.channelindex(layer + suffixes[i % 3]);
+      ASSERT_EQ(pixels[i / 3 * spec.nchannels + channel], values[i]) << layer << " value " << i;
+    }
+  };
+  expect_equal(layers.in_scatter, "inscatter.", "RGB");
+  expect_equal(layers.reflected, "reflected.", "RGB");
+  expect_equal(layers.transmittance, "transmittance.", "RGB");
+  expect_equal(layers.normal, "normal.", "XYZ");
+  expect_equal(layers.albedo, "albedo.", "RGB");
+}
+
 TEST_F(ImageFiles, PngIsEightBitWithoutBands) {
   const Frame frame = gradient(256, 64);
   const fs::path file = directory_ / "frame.png";

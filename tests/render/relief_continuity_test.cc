@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relief has no steps and no seams, the materials' mean is the ground albedo, and the mesh
-// follows the relief.
+// The relief has no steps and no seams, and the materials' mean is the ground albedo.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +7,7 @@
 #include <numbers>
 
 #include "render/gl/noise.h"
-#include "render/gl/terrain.h"
+#include "render/gl/relief.h"
 
 namespace skyfit {
 namespace {
@@ -75,7 +74,7 @@ TEST(Relief, IsContinuousAndNeverBelowTheBottomRadius) {
 TEST(Relief, LeavesRoomForACameraOneMetreUp) {
   for (const double radius : {kEarth, 3390e3, 1e9, 1e4}) {
     const Relief relief(radius, 0.2);
-    EXPECT_LT(relief.height_m(relief.site_z(), 0.1), 0.7) << "radius " << radius;
+    EXPECT_LT(relief.height_m(relief.coast().z, 0.1), 0.7) << "radius " << radius;
   }
 }
 
@@ -94,46 +93,6 @@ TEST(Relief, ReflectsTheGroundAlbedoOnAverage) {
       }
     }
     for (const double mean : sum) EXPECT_NEAR(mean, albedo, 0.02 * albedo);
-  }
-}
-
-TEST(Terrain, MeshStandsOnTheReliefAndItsNormalsPointOut) {
-  const Relief relief(kEarth, 0.15);
-  Camera camera;
-  const TerrainMesh mesh = make_terrain(relief, kEarth, camera, 1.6);
-  EXPECT_GE(mesh.indices.size() / 3, 500'000u);
-  for (std::size_t i = 0; i < mesh.vertices.size(); i += 997) {
-    const TerrainVertex& v = mesh.vertices[i];
-    const glm::dvec3 p(v.position_km[0], v.position_km[1], v.position_km[2]);
-    const glm::dvec3 from_centre = p * 1e3 + glm::dvec3(0, 0, kEarth + camera.altitude_m);
-    const glm::dvec3 world = from_centre.x * relief.site_x() + from_centre.y * relief.site_y() +
-                             from_centre.z * relief.site_z();
-    const double height = glm::length(world) - kEarth;
-    const double distance = 1e3 * glm::length(p);
-    EXPECT_GT(height, -0.1 - 1e-6 * distance);
-    EXPECT_LT(height, 9e3);
-    const glm::dvec3 n(v.normal[0], v.normal[1], v.normal[2]);
-    EXPECT_NEAR(glm::length(n), 1, 1e-6);
-    EXPECT_GT(glm::dot(n, glm::normalize(from_centre)), 0.1);
-  }
-}
-
-TEST(Terrain, ClosesWithoutASeam) {
-  const Relief relief(kEarth, 0.15);
-  Camera camera;
-  camera.altitude_m = 5e6;
-  camera.view_zenith = std::numbers::pi;
-  const TerrainMesh mesh = make_terrain(relief, kEarth, camera, 1.6);
-  for (int ring = 0; ring < mesh.rings; ++ring) {
-    const TerrainVertex& first = mesh.vertices[static_cast<std::size_t>(ring) * mesh.sectors];
-    const TerrainVertex& last =
-        mesh.vertices[static_cast<std::size_t>(ring + 1) * mesh.sectors - 1];
-    for (std::size_t k = 0; k < 3; ++k) {
-      ASSERT_NEAR(first.position_km[k], last.position_km[k], 1e-3);
-      ASSERT_NEAR(first.normal[k], last.normal[k], 1e-4) << "ring " << ring;
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-      ASSERT_NEAR(first.reflectance[k], last.reflectance[k], 1e-3);
   }
 }
 

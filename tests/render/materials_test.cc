@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The materials' textures are saved and read back as they are, repeat without a seam and have the
+// mean that leaves the ground's reflectance alone.
+#include "render/gl/materials.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "tests/render/frame_fixture.h"
+
+namespace skyfit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr int kSide = kMaterialSide;
+
+class EveryMaterial : public ::testing::TestWithParam<Material> {};
+
+TEST_P(EveryMaterial, IsReadBackAsItWasSaved) {
+  const TemporaryDirectory directory;
+  const MaterialTexels made = load_material(GetParam(), directory.path());
+  const auto file =
+      directory.path() / (GetParam() == Material::kSoil ? "soil.png" : "rock.png");
+  ASSERT_TRUE(std::filesystem::exists(file));
+  const auto written = std::filesystem::last_write_time(file);
+  EXPECT_EQ(load_material(GetParam(), directory.path()), made);
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);  // not made again
+  EXPECT_EQ(make_material(GetParam()), made);
+  EXPECT_EQ(load_material(GetParam(), {}), made);
+}
+
+TEST_P(EveryMaterial, RepeatsWithoutASeam) {
+  const MaterialTexels texels = make_material(GetParam());
+  // Mean square step between neighbours along each axis: across the wrap as anywhere.
+  for (int axis = 0; axis < 3; ++axis) {
+    double inside = 0, wrapped = 0;
+    for (int a = 0; a < kSide; ++a) {
+      for (int b = 0; b < kSide; ++b) {
+        for (int at = 0; at < kSide; ++at) {
+          const auto texel = [&](int c) {
+            std::array<int, 3> p{};
+            p[static_cast<std::size_t>(axis)] = c % kSide;
+            p[static_cast<std::size_t>((axis + 1) % 3)] = a;
+            p[static_cast<std::size_t>((axis + 2) % 3)] = b;
+            return 4 * ((static_cast<std::size_t>(p[2]) * kSide + p[1]) * kSide + p[0]);
+          };
+          for (std::size_t k = 0; k < 4; ++k) {
+            const double step = double{1} * texels[texel(at) + k] - texels[texel(at + 1) + k];
+            (at == kSide - 1 ? wrapped : inside) += step * step;
+          }
+        }
+      }
+    }
+    inside /= kSide - 1;
+    std::printf("[  steps ] axis %d: %.2f across the wrap, %.2f inside (rms, of 255)\n", axis,
+                std::sqrt(wrapped / (4 * kSide * kSide)), std::sqrt(inside / (4 * kSide * kSide)));
+    constexpr double kOneLayerOf64 = 0.3;  // how much the mean square of one layer may stand out
+    EXPECT_LT(wrapped, (1 + kOneLayerOf64) * inside);
+  }
+}
+
+TEST_P(EveryMaterial, NeitherDarkensNorTiltsTheGround) {
+  const MaterialTexels texels = make_material(GetParam());
+  const double count = static_cast<double>(texels.size()) / 4;
+  glm::dvec4 mean(0);
+  for (std::size_t i = 0; i < texels.size(); i += 4) {
+    for (int k = 0; k < 4; ++k)
+      mean[k] += texels[i + static_cast<std::size_t>(k)] / count;
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(mean[k], 127, 0.1);  // rounding has no direction
+  EXPECT_NEAR(mean[3] / 127.5, 1, 0.01);                       // clamped at three deviations
+}
+
+TEST_P(EveryMaterial, OfAnotherSizeIsRefusedInOneLine) {
+  const TemporaryDirectory directory;
+  const auto file =
+      directory.path() / (GetParam() == Material::kSoil ? "soil.png" : "rock.png");
+  const OIIO::ImageSpec spec(8, 4, 3, OIIO::TypeDesc::UINT8);
+  const std::vector<std::uint8_t> pixels(8 * 4 * 3, 100);
+  const auto output = OIIO::ImageOutput::create(file.string());
+  ASSERT_TRUE(output && output->open(file.string(), spec) &&
+              output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) && output->close());
+  Scene scene;
+  scene.textures = directory.path();
+  try {
+    Renderer made(scene);
+    made.set_atmosphere(earth_clear(), small_tables());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), (file.string() + ": 8 x 4 pixels of 3 channels: a material has 64 x "
+                                                "4096 of 4")
+                                   .c_str());
+  }
+}
+
+TEST_P(EveryMaterial, ThatIsNoPictureIsRefusedInOneLine) {
+  const TemporaryDirectory directory;
+  const auto file =
+      directory.path() / (GetParam() == Material::kSoil ? "soil.png" : "rock.png");
+  std::ofstream(file) << "not a picture";
+  try {
+    load_material(GetParam(), directory.path());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(file.string() + ": cannot read"));
+    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, EveryMaterial,
+                         ::testing::Values(Material::kSoil, Material::kRock));
+
+}  // namespace
+}  // namespace skyfit
