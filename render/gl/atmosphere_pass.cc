@@ -20,6 +20,8 @@ void add(const std::string& name, const Table& table, FrameGraph& graph) {
 
 // Rows and columns of the sky's view for each texel of the scattering table.
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
+// Above it each pixel looks up its own ray.
+constexpr double kAbove = 20e3;  // m
 
 // After those of kAtmosphereReads.
 constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14, kMaterialUnit = 17;
@@ -129,6 +131,10 @@ bool AtmosphereView::volume(const AtmosphereTables& tables) const {
          options.camera.altitude_m < thickness;
 }
 
+bool AtmospherePass::has_sky_view(const FrameOptions& options) {
+  return options.camera.altitude_m <= kAbove;
+}
+
 AtmospherePass::AtmospherePass() : empty_(make_vertex_array()) {}
 
 void AtmospherePass::set_tables(const AtmosphereTables& tables) {
@@ -157,6 +163,7 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
   Defined defined = atmosphere_defines(tables_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
+  if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
   return defined;
 }
 

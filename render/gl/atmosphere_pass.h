@@ -65,11 +65,13 @@ class AtmospherePass {
   void set_tables(const AtmosphereTables& tables);
   const AtmosphereTables& tables() const { return tables_; }  // without values
 
+  // Whether whole rays are looked up once a frame: not from high above the air.
+  static bool has_sky_view(const FrameOptions& options);
   void add_sky_view(const FrameOptions& options, FrameGraph& graph) const;
   void draw_sky_view(const AtmosphereView& view);
   void fill_volume(const AtmosphereView& view);
 
-  // After draw_sky_view() and, where there is a volume, fill_volume() of the same view. Compiles the
+  // After draw_sky_view() and fill_volume() of the same view where it has them. Compiles the
   // variants that the options need, when they are new. The depth target holds the G-buffer's depth.
   void draw(const AtmosphereView& view, const ShadowPass& shadow_maps);
 

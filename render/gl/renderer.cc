@@ -213,18 +213,25 @@ class GlRenderer final : public FrameDrawer {
   void set_atmosphere(const AtmosphereTables& tables) override {
     context_->make_current();
     const double bottom = tables.atmosphere.bottom_radius_m;
-    if (!ground_) {
-      radius_m_ = bottom;
+    if (ground_ && bottom != radius_m_) {
+      throw std::invalid_argument(
+          fmt::format("render.bottom_radius = {:.9g} m: must stay {:.9g} m from frame to frame",
+                      bottom, radius_m_));
+    }
+    radius_m_ = bottom;
+    // The made-up planet's colours have the preset's ground albedo as their mean.
+    const double albedo = tables.atmosphere.ground_albedo;
+    if (!ground_ || (scene_.height_map.empty() && albedo != albedo_)) {
+      albedo_ = albedo;
+      terrain_.reset();
       make_ground(tables);
       terrain_.emplace(*ground_, radius_m_);
+    }
+    if (meshes_.size() < scene_.meshes.size()) {
       for (const PlacedMesh& mesh : scene_.meshes) {
         meshes_.push_back(ObjectPass::upload_mesh(
             read_object_mesh(mesh.file, mesh.reflectance, tables.color)));
       }
-    } else if (bottom != radius_m_) {
-      throw std::invalid_argument(
-          fmt::format("render.bottom_radius = {:.9g} m: must stay {:.9g} m from frame to frame",
-                      bottom, radius_m_));
     }
     add_tables(tables, graph_);
     atmosphere_.set_tables(tables);
@@ -265,7 +272,7 @@ class GlRenderer final : public FrameDrawer {
  private:
   void make_ground(const AtmosphereTables& tables) {
     if (scene_.height_map.empty()) {
-      auto relief = std::make_unique<Relief>(radius_m_, tables.atmosphere.ground_albedo);
+      auto relief = std::make_unique<Relief>(radius_m_, albedo_);
       home_ = relief->coast();
       ground_ = std::move(relief);
     } else {
@@ -371,9 +378,11 @@ class GlRenderer final : public FrameDrawer {
     }
     // A texture is not read by the pass that tests against it.
     list.push_back({"copy of the depth", {}, {}, [this] { graph_.copy("depth", "depth_copy"); }});
-    list.push_back({"sky view", kTableReads, kSkyViewWrites, [this, view] {
-                      atmosphere_.draw_sky_view(view);
-                    }});
+    if (AtmospherePass::has_sky_view(options)) {
+      list.push_back({"sky view", kTableReads, kSkyViewWrites, [this, view] {
+                        atmosphere_.draw_sky_view(view);
+                      }});
+    }
     if (view.volume(atmosphere_.tables())) {
       list.push_back({"aerial volume", kTableReads, {}, [this, view] {
                         atmosphere_.fill_volume(view);
@@ -415,7 +424,7 @@ class GlRenderer final : public FrameDrawer {
   Scene scene_;
   std::unique_ptr<GlContext> context_;
   FrameGraph graph_;
-  double radius_m_ = 0;
+  double radius_m_ = 0, albedo_ = 0;
   std::unique_ptr<Ground> ground_;
   SiteAxes home_;  // where the camera stands without a site
   std::optional<TerrainPass> terrain_;

@@ -75,12 +75,12 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   path.transmittance = light.transmittance;
 #else
   if (ray.air && surface.d > ray.entry) {
-    vec2 place = place_in_view(ray, sun, i);
+    WholeRay whole = whole_ray(ray, start, sun, nu, i);
     float toward = ray.hits_ground ? -1.0 : 1.0;
-    vec4 depth_between = toward * (texture(view_depth, place) - optical_depth_to_top(end.h, toward * end.mu));
+    vec4 depth_between = toward * (whole.depth - optical_depth_to_top(end.h, toward * end.mu));
     path.transmittance = exp(-max(depth_between, 0.0));
-    Scattering all = view_scattering(place), rest = scattering(end, nu, ray.hits_ground);
-    path.in_scatter = radiance(scattering_before(all, path.transmittance, rest), nu);
+    Scattering rest = scattering(end, nu, ray.hits_ground);
+    path.in_scatter = radiance(scattering_before(whole.scattering, path.transmittance, rest), nu);
   }
 #endif
   float lit = 1.0;
@@ -97,19 +97,17 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
 PathLight light_of(int i, ViewRay ray, float clear) {
   vec3 sun = suns[i].xyz;
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
+  Place start = place_of(ray, sun, nu);
   PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
   if (ray.air) {
-    vec2 place = place_in_view(ray, sun, i);
-    path.in_scatter = radiance(view_scattering(place), nu);
-    path.transmittance = exp(-texture(view_depth, place));
+    WholeRay whole = whole_ray(ray, start, sun, nu, i);
+    path.in_scatter = radiance(whole.scattering, nu);
+    path.transmittance = exp(-whole.depth);
   }
   path.reflected = clear * path.transmittance * (disc(ray.direction, sun) / kSunSolidAngle);
 #endif
-#if defined(SHADOWS) || defined(CLOUDS)
 #ifndef SURFACE
-  Place start = place_of(ray, sun, nu);
   const float in_air = kInfinity;
-#endif
 #endif
 #ifdef SHADOWS
   if (i == 0 && ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air), 0.0);

@@ -61,6 +61,12 @@ Frame gradient(int width, int height) {
   return frame;
 }
 
+ToneOptions exposed(const Frame& frame) {
+  ToneOptions tone;
+  tone.exposure = metered_exposure(frame);
+  return tone;
+}
+
 TEST_F(ImageFiles, ExrKeepsEveryChannelAndTheMetadata) {
   const Frame frame = gradient(32, 8);
   const fs::path file = directory_ / "frame.exr";
@@ -132,7 +138,7 @@ TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
 TEST_F(ImageFiles, PngIsEightBitWithoutBands) {
   const Frame frame = gradient(256, 64);
   const fs::path file = directory_ / "frame.png";
-  write_png_file(frame, file, {});
+  write_png_file(frame, file, exposed(frame));
   EXPECT_THAT(files(), UnorderedElementsAre("frame.png"));
   const auto input = OIIO::ImageInput::open(file.string());
   ASSERT_TRUE(input);
@@ -140,7 +146,7 @@ TEST_F(ImageFiles, PngIsEightBitWithoutBands) {
   EXPECT_EQ(input->spec().height, 64);
   EXPECT_EQ(input->spec().format, OIIO::TypeDesc::UINT8);
   // The mean of a column follows the gradient between the steps of 8 bits.
-  const std::vector<std::uint8_t> bytes = tone_mapped(frame, {});
+  const std::vector<std::uint8_t> bytes = tone_mapped(frame, exposed(frame));
   std::vector<double> mean(256, 0);
   for (std::size_t i = 0; i < 256 * 64; ++i) mean[i % 256] += bytes[3 * i + 1] / 64.0;
   EXPECT_GT(mean[255] - mean[0], 8);
@@ -152,11 +158,11 @@ TEST_F(ImageFiles, PngIsEightBitWithoutBands) {
 
 TEST_F(ImageFiles, ToneCurveIsMonotoneAndExposureScales) {
   const Frame frame = gradient(64, 1);
-  const double exposure = automatic_exposure(frame);
+  const double exposure = metered_exposure(frame);
   Frame brighter = frame;
   for (float& value : brighter.rgb) value *= 4;
   for (float& value : brighter.luminance) value *= 4;
-  EXPECT_NEAR(automatic_exposure(brighter) / exposure, 0.25, 1e-6);
+  EXPECT_NEAR(metered_exposure(brighter) / exposure, 0.25, 1e-6);
 }
 
 TEST_F(ImageFiles, AFailureNamesTheFileAndLeavesNothing) {
@@ -170,7 +176,7 @@ TEST_F(ImageFiles, AFailureNamesTheFileAndLeavesNothing) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
   fs::create_directory(directory_ / "frame.png");  // a directory stands in the way
-  EXPECT_THROW(write_png_file(frame, directory_ / "frame.png", {}), std::runtime_error);
+  EXPECT_THROW(write_png_file(frame, directory_ / "frame.png", exposed(frame)), std::runtime_error);
   EXPECT_THAT(files(), UnorderedElementsAre("frame.png"));
 }
 

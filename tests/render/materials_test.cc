@@ -20,23 +20,23 @@ using ::testing::Not;
 
 constexpr int kSide = kMaterialSide;
 
-class EveryMaterial : public ::testing::TestWithParam<Material> {};
+class EveryMaterial : public ::testing::TestWithParam<Texture> {};
 
 TEST_P(EveryMaterial, IsReadBackAsItWasSaved) {
   const TemporaryDirectory directory;
-  const MaterialTexels made = load_material(GetParam(), directory.path());
+  const MaterialTexels made = load_texture(GetParam(), directory.path());
   const auto file =
-      directory.path() / (GetParam() == Material::kSoil ? "soil.png" : "rock.png");
+      directory.path() / (GetParam() == Texture::kGrains ? "grains.png" : "crags.png");
   ASSERT_TRUE(std::filesystem::exists(file));
   const auto written = std::filesystem::last_write_time(file);
-  EXPECT_EQ(load_material(GetParam(), directory.path()), made);
+  EXPECT_EQ(load_texture(GetParam(), directory.path()), made);
   EXPECT_EQ(std::filesystem::last_write_time(file), written);  // not made again
-  EXPECT_EQ(make_material(GetParam()), made);
-  EXPECT_EQ(load_material(GetParam(), {}), made);
+  EXPECT_EQ(make_texture(GetParam()), made);
+  EXPECT_EQ(load_texture(GetParam(), {}), made);
 }
 
 TEST_P(EveryMaterial, RepeatsWithoutASeam) {
-  const MaterialTexels texels = make_material(GetParam());
+  const MaterialTexels texels = make_texture(GetParam());
   // Mean square step between neighbours along each axis: across the wrap as anywhere.
   for (int axis = 0; axis < 3; ++axis) {
     double inside = 0, wrapped = 0;
@@ -66,7 +66,7 @@ TEST_P(EveryMaterial, RepeatsWithoutASeam) {
 }
 
 TEST_P(EveryMaterial, NeitherDarkensNorTiltsTheGround) {
-  const MaterialTexels texels = make_material(GetParam());
+  const MaterialTexels texels = make_texture(GetParam());
   const double count = static_cast<double>(texels.size()) / 4;
   glm::dvec4 mean(0);
   for (std::size_t i = 0; i < texels.size(); i += 4) {
@@ -80,7 +80,7 @@ TEST_P(EveryMaterial, NeitherDarkensNorTiltsTheGround) {
 TEST_P(EveryMaterial, OfAnotherSizeIsRefusedInOneLine) {
   const TemporaryDirectory directory;
   const auto file =
-      directory.path() / (GetParam() == Material::kSoil ? "soil.png" : "rock.png");
+      directory.path() / (GetParam() == Texture::kGrains ? "grains.png" : "crags.png");
   const OIIO::ImageSpec spec(8, 4, 3, OIIO::TypeDesc::UINT8);
   const std::vector<std::uint8_t> pixels(8 * 4 * 3, 100);
   const auto output = OIIO::ImageOutput::create(file.string());
@@ -93,7 +93,7 @@ TEST_P(EveryMaterial, OfAnotherSizeIsRefusedInOneLine) {
     made.set_atmosphere(earth_clear(), small_tables());
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), (file.string() + ": 8 x 4 pixels of 3 channels: a material has 64 x "
+    EXPECT_STREQ(error.what(), (file.string() + ": 8 x 4 pixels of 3 channels: a texture has 64 x "
                                                 "4096 of 4")
                                    .c_str());
   }
@@ -102,10 +102,10 @@ TEST_P(EveryMaterial, OfAnotherSizeIsRefusedInOneLine) {
 TEST_P(EveryMaterial, ThatIsNoPictureIsRefusedInOneLine) {
   const TemporaryDirectory directory;
   const auto file =
-      directory.path() / (GetParam() == Material::kSoil ? "soil.png" : "rock.png");
+      directory.path() / (GetParam() == Texture::kGrains ? "grains.png" : "crags.png");
   std::ofstream(file) << "not a picture";
   try {
-    load_material(GetParam(), directory.path());
+    load_texture(GetParam(), directory.path());
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr(file.string() + ": cannot read"));
@@ -114,7 +114,7 @@ TEST_P(EveryMaterial, ThatIsNoPictureIsRefusedInOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Materials, EveryMaterial,
-                         ::testing::Values(Material::kSoil, Material::kRock));
+                         ::testing::Values(Texture::kGrains, Texture::kCrags));
 
 }  // namespace
 }  // namespace skyfit

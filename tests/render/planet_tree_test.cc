@@ -131,7 +131,11 @@ TEST(Selection, IsSortedFromNearToFar) {
       // With the heights that a finer level could reach.
       const double margin = 0.5 * block_arc_m(block.level, kEarth) / kBlockQuads;
       const HeightRange own = stored_block(block).heights;
-      const double distance = distance_to(block, {own.low - margin, own.high + margin}, view);
+      const Box box = block_box(block, {own.low - margin, own.high + margin},
+                                view.axes.site_from_planet(), kEarth);
+      const glm::dvec3 camera(0, 0, kEarth + view.altitude_m);
+      const double distance =
+          glm::length(glm::max(glm::max(box.low - camera, camera - box.high), glm::dvec3(0)));
       EXPECT_GE(distance, before - kRounding);
       before = distance;
     }
