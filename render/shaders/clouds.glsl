@@ -26,7 +26,7 @@ float cloud_opacity_at(vec3 from_centre) {
 }
 
 // Of a sheet that a ray crosses at a slant.
-float slanted(float opacity, float cosine) { return 1.0 - pow(1.0 - min(opacity, 0.999), 1.0 / max(abs(cosine), 0.1)); }
+float slanted(float opacity, float cosine) { return 1.0 - pow(max(1.0 - opacity, 0.0), 1.0 / max(abs(cosine), 0.1)); }
 
 // To where a ray meets the sheet first; infinite where it does not.
 float cloud_distance(ViewRay ray) {

@@ -1,2 +1,466 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
+// What everyone knows of light in the air holds in a frame: distance fades monotonically and turns
+// blue, low suns are red, the horizon is bright, the zenith darkens with altitude, the earth casts
+// its shadow; suns add up, clouds cover what they should, shadows take the direct light alone.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/table_lookup.h"
+#include "tests/render/mesh_fixture.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kTables = 0.01;      // of small tables, between two ways through them
+constexpr double kFloatSum = 2e-6;    // sums of floats in another order
+constexpr double kColorMatrix = 1e-5; // relative to the largest component, which may cancel
+
+Frame draw_layers(FrameOptions options, Renderer& with = renderer()) {
+  options.layers = true;
+  return with.draw(options);
+}
+
+std::size_t middle_of(const Frame& frame) {
+  return static_cast<std::size_t>(frame.height / 2) * frame.width + frame.width / 2;
+}
+
+// Luminance of the sky in a direction.
+double sky_luminance(double altitude, double sun_deg, double zenith_deg, double azimuth_deg) {
+  const Frame frame = renderer().draw(options_at(
+      {altitude, zenith_deg * kDegree, azimuth_deg * kDegree, 1 * kDegree}, sun_deg * kDegree, 9, 9));
+  EXPECT_TRUE(is_sky(frame, middle_of(frame)));
+  return frame.luminance[middle_of(frame)];
+}
+
+TEST(Distance, AddsLightAndTakesTransmittance) {
+  // The same ray, ever more of it, by a sphere that fills the middle of the picture.
+  for (const double zenith : {60.0, 88.0, 100.0}) {
+    for (const double sun : {40.0, 85.0}) {
+      double scattered = 0, passed = 1.0000001;
+      for (double d = 30; d < (zenith > 90 ? 40e3 : 1e6); d *= 2) {
+        FrameOptions options = options_at({10e3, zenith * kDegree, 1, 0.1}, sun * kDegree, 16, 16);
+        options.moon = Moon{options.camera.view_zenith, 1, d, 0.1 * d, 0.1};
+        const Frame frame = draw_layers(options);
+        const std::size_t i = middle_of(frame);
+        ASSERT_LT(frame.depth_m[i], d);
+        const double now = luminance_of(frame.layers->in_scatter, i);
+        // Where there is no air left, nothing more is added or taken.
+        const bool air = 10e3 + d * std::cos(options.camera.view_zenith) < 60e3;
+        EXPECT_GT(now, scattered * (air ? 1 : 1 - kFloatSum))
+            << "zenith " << zenith << ", distance " << d;
+        scattered = now;
+        for (std::size_t k = 0; k < 3; ++k)
+          EXPECT_LE(frame.layers->transmittance[3 * i + k], 1 + kColorMatrix);
+        const double t = luminance_of(frame.layers->transmittance, i);
+        EXPECT_LE(t, passed + kFloatSum) << "zenith " << zenith << ", distance " << d;
+        EXPECT_GT(t, 0);
+        passed = t;
+      }
+      EXPECT_LT(passed, 0.99);
+    }
+  }
+}
+
+TEST(Distance, AddsLightAndTakesTransmittanceOverThePlain) {
+  const Frame frame = draw_layers(options_of("ground", 96, 60));
+  int compared = 0;
+  for (int x = 0; x < frame.width; x += 5) {
+    for (int y = frame.height - 2; y >= 0; --y) {
+      const auto above = static_cast<std::size_t>(y * frame.width + x), below = above + frame.width;
+      if (is_sky(frame, above)) break;
+      ASSERT_GT(frame.depth_m[above], frame.depth_m[below]);
+      EXPECT_GT(luminance_of(frame.layers->in_scatter, above),
+                luminance_of(frame.layers->in_scatter, below));
+      EXPECT_LT(luminance_of(frame.layers->transmittance, above),
+                luminance_of(frame.layers->transmittance, below) + kFloatSum);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 200);
+}
+
+TEST(Distance, TurnsADarkThingBlueByDay) {
+  // Above the haze, which whitens.
+  const auto color_at = [](double d) {
+    FrameOptions options = options_at({4e3, 89 * kDegree, 180 * kDegree, 0.1}, 40 * kDegree, 16, 16);
+    options.moon = Moon{options.camera.view_zenith, options.camera.azimuth, d, 0.1 * d, 0.02};
+    const Frame frame = renderer().draw(options);
+    EXPECT_LT(frame.depth_m[middle_of(frame)], d);
+    return color_of(frame.rgb, middle_of(frame));
+  };
+  const glm::dvec3 near = color_at(10), far = color_at(30e3);
+  std::printf("[   blue ] blue / red %.2f at 10 m, %.2f at 30 km\n", near.b / near.r, far.b / far.r);
+  EXPECT_GT(far.b, far.r);
+  EXPECT_GT(far.b / far.r, 1.3 * near.b / near.r);
+  EXPECT_GT(far.g, near.g);  // and brighter: it is dark
+}
+
+TEST(Sun, IsRedderAtSunsetThanAtNoon) {
+  const auto color_at = [](double zenith) {
+    const Frame frame = renderer().draw(
+        options_at({100, zenith * kDegree, 0, 1 * kDegree}, zenith * kDegree, 17, 17));
+    return color_of(frame.rgb, middle_of(frame));
+  };
+  const glm::dvec3 noon = color_at(20), low = color_at(80), sunset = color_at(88);
+  std::printf("[    red ] blue / red %.3f, %.3f, %.3f and %.3g, %.3g, %.3g cd/m^2 of green with the "
+              "sun at 20, 80, 88 deg\n",
+              noon.b / noon.r, low.b / low.r, sunset.b / sunset.r, noon.g, low.g, sunset.g);
+  EXPECT_LT(low.b / low.r, 0.7 * noon.b / noon.r);
+  EXPECT_LT(sunset.b / sunset.r, 0.3 * low.b / low.r);  // blue is out of the gamut by then
+  EXPECT_LT(sunset.g / sunset.r, 0.7 * low.g / low.r);
+  EXPECT_LT(sunset.g, 0.3 * noon.g);
+  EXPECT_GT(sunset.r, sunset.g);
+}
+
+TEST(Sky, IsBrighterAtTheHorizonThanAtTheZenith) {
+  for (const double sun : {50.0, 60.0, 70.0}) {
+    for (const double azimuth : {-90.0, -45.0, 0.0}) {  // over the water
+      const double horizon = sky_luminance(2, sun, 82, azimuth), zenith = sky_luminance(2, sun, 0, 0);
+      EXPECT_GT(horizon, 1.3 * zenith) << "sun " << sun << ", azimuth " << azimuth;
+    }
+  }
+}
+
+TEST(Sky, DarkensAtTheZenithWithAltitude) {
+  for (const double sun : {40.0, 75.0}) {
+    const double ground = sky_luminance(2, sun, 0, 0), flight = sky_luminance(10e3, sun, 0, 0),
+                 balloon = sky_luminance(40e3, sun, 0, 0);
+    std::printf("[ zenith ] sun %g: %.4g, %.4g, %.4g cd/m^2 at 2 m, 10 km, 40 km\n", sun, ground,
+                flight, balloon);
+    EXPECT_LT(flight, 0.6 * ground);
+    EXPECT_LT(balloon, 0.1 * flight);
+    EXPECT_GT(balloon, 0);
+  }
+}
+
+TEST(Sky, ShowsTheEarthsShadowOppositeTheSunAfterSunset) {
+  // From above the haze: the shadow's edge rises as the sun sinks.
+  double before = 0;
+  for (const double down : {1.0, 2.0, 3.0, 4.0}) {
+    const auto luminance = [&](double elevation) {
+      return sky_luminance(5e3, 90 + down, 90 - elevation, 180);
+    };
+    double brightest = 0, belt = 0;
+    for (double elevation = 0.5; elevation < 30; elevation += 0.5) {
+      const double l = luminance(elevation);
+      if (l > brightest) brightest = l, belt = elevation;
+    }
+    const double low = luminance(0.5), part = luminance(0.8 * down) / brightest;
+    std::printf("[ shadow ] sun at -%g deg: %.3g cd/m^2 at 0.5 deg, %.3g in the shadow at %.1f, "
+                "brightest %.3g at %.1f deg\n",
+                down, low, part * brightest, 0.8 * down, brightest, belt);
+    EXPECT_LT(low, 0.7 * brightest);
+    EXPECT_GT(belt, down);  // the shadow's edge stands about as high as the sun is low
+    EXPECT_GT(belt, before);
+    before = belt;
+  }
+}
+
+TEST(Moon, OutsideTheAirHasAllOfItsLightInFront) {
+  FrameOptions options = options_at({2, 60 * kDegree, 90 * kDegree, 2 * kDegree}, 1, 32, 32);
+  const Frame without = draw_layers(options);
+  options.moon = Moon{60 * kDegree, 90 * kDegree};
+  const Frame with = draw_layers(options);
+  WorstPixel worst;
+  int covered = 0;
+  for (std::size_t i = 0; i < with.luminance.size(); ++i) {
+    worst.add(with, i, luminance_of(with.layers->in_scatter, i) /
+                           luminance_of(without.layers->in_scatter, i) - 1);
+    if (is_sky(with, i)) continue;
+    ++covered;
+    EXPECT_GE(with.luminance[i], without.luminance[i] * (1 - kTables));
+  }
+  worst.print("in-scatter with and without the moon");
+  EXPECT_GT(covered, 30);
+  EXPECT_LT(worst.error(), 1e-3);  // of an empty path from the top to the moon
+}
+
+TEST(Moon, InsideTheAirHasLessLightInFrontThanTheSky) {
+  FrameOptions options = options_at({2, 80 * kDegree, 90 * kDegree, 10 * kDegree}, 1, 32, 32);
+  const Frame without = draw_layers(options);
+  options.moon = Moon{80 * kDegree, 90 * kDegree, 29e3, 1e3, 0.5};  // 5 km high
+  const Frame with = draw_layers(options);
+  int covered = 0;
+  for (std::size_t i = 0; i < with.luminance.size(); ++i) {
+    if (is_sky(with, i) || !is_sky(without, i)) continue;
+    ++covered;
+    const double part = luminance_of(with.layers->in_scatter, i) /
+                        luminance_of(without.layers->in_scatter, i);
+    EXPECT_GT(part, 0.2);
+    EXPECT_LT(part, 0.95);
+    EXPECT_GT(luminance_of(with.layers->reflected, i), 0);
+  }
+  EXPECT_GT(covered, 100);
+}
+
+TEST(Moon, ShowsNoSeamWhereItCrossesTheAtmospheresEdge) {
+  const double bottom = earth_clear().atmosphere.bottom_radius_m,
+               thickness = earth_clear().atmosphere.top_radius_m - bottom;
+  for (const double altitude : {2.0, 99e3, 130e3}) {
+    // A sphere beside the eye whose front reaches from below the edge to above it.
+    FrameOptions options =
+        options_at({altitude, altitude > 1e4 ? 95 * kDegree : 50 * kDegree, 180 * kDegree, 0.7},
+                   40 * kDegree, 64, 64);
+    options.moon = Moon{options.camera.view_zenith, 180 * kDegree, 200e3, 70e3, 0.5};
+    const Frame frame = draw_layers(options);
+    // Second differences down the columns, of light per albedo: a seam is one that stands out.
+    double at_edge = 0, elsewhere = 0;
+    int crossings = 0;
+    for (int x = 12; x < 52; ++x) {
+      std::vector<double> light, height;
+      for (int y = 8; y < 56; ++y) {
+        const auto i = static_cast<std::size_t>(y * 64 + x);
+        if (is_sky(frame, i) || frame.layers->albedo[3 * i] <= 0) {
+          light.clear(), height.clear();
+          continue;
+        }
+        const glm::dvec3 p =
+            double{frame.depth_m[i]} * ray_of(frame, i) + glm::dvec3(0, 0, bottom + altitude);
+        height.push_back(glm::length(p) - bottom);
+        light.push_back(luminance_of(frame.layers->reflected, i) /
+                            luminance_of(frame.layers->albedo, i) +
+                        luminance_of(frame.layers->in_scatter, i));
+        const std::size_t n = light.size();
+        if (n < 3) continue;
+        const double bend = std::abs(light[n - 1] - 2 * light[n - 2] + light[n - 3]) / light[n - 2];
+        const bool crosses = (height[n - 1] - thickness) * (height[n - 3] - thickness) <= 0;
+        crossings += crosses ? 1 : 0;
+        double& largest = crosses ? at_edge : elsewhere;
+        largest = std::max(largest, bend);
+      }
+    }
+    std::printf("[   seam ] eye at %g m: second differences %.2g at the edge, %.2g elsewhere, %d "
+                "crossings\n",
+                altitude, at_edge, elsewhere, crossings);
+    EXPECT_GT(crossings, 20);
+    EXPECT_LT(at_edge, 2 * elsewhere + 1e-3);
+  }
+}
+
+TEST(SecondSun, AddsItsLight) {
+  const FrameOptions first = options_at({2, 60 * kDegree, 0.3, 1}, 70 * kDegree, 64, 40);
+  const SecondSun other{50 * kDegree, 75 * kDegree, 0.3};
+  FrameOptions both = first, second = first;
+  both.second_sun = other;
+  second.sun_zenith = other.zenith;
+  second.camera.azimuth -= other.azimuth;
+  const Frame sum = renderer().draw(both), a = renderer().draw(first), b = renderer().draw(second);
+  WorstPixel worst;
+  for (std::size_t i = 0; i < sum.luminance.size(); ++i) {
+    if (!is_sky(sum, i) || !is_sky(a, i) || !is_sky(b, i)) continue;
+    worst.add(sum, i, sum.luminance[i] / (a.luminance[i] + other.irradiance * b.luminance[i]) - 1);
+  }
+  worst.print("both suns against their sum");
+  EXPECT_GT(worst.count(), 1000);
+  EXPECT_LT(worst.error(), kTables);
+}
+
+TEST(Clouds, OfNoCoverAreNone) {
+  for (const char* view : {"ground", "orbit"}) {
+    FrameOptions options = options_of(view, 64, 40);
+    const Frame without = renderer().draw(options);
+    options.clouds = CloudLayer{3000, 0, 1};
+    const Frame with = renderer().draw(options);
+    EXPECT_EQ(with.rgb, without.rgb) << view;
+    options.clouds = CloudLayer{3000, 1, 0};
+    EXPECT_EQ(renderer().draw(options).rgb, without.rgb) << view;
+  }
+}
+
+TEST(Clouds, ThatCoverAllHideTheSun) {
+  FrameOptions options = options_at({2, 50 * kDegree, 0, 2 * kDegree}, 50 * kDegree, 33, 33);
+  const double sun = renderer().draw(options).luminance[16 * 33 + 16];
+  options.clouds = CloudLayer{3000, 1, 1};
+  const Frame covered = renderer().draw(options);
+  const double behind = covered.luminance[16 * 33 + 16], beside = covered.luminance[0];
+  std::printf("[ clouds ] sun %.3g cd/m^2, behind the clouds %.3g, beside it %.3g\n", sun, behind,
+              beside);
+  EXPECT_NEAR(behind / beside, 1, 0.05);
+}
+
+TEST(Clouds, CoverTheirShareOfThePlanet) {
+  for (const double cover : {0.3, 0.5, 0.7}) {
+    FrameOptions options = options_at({11e6, 180 * kDegree, 0, 38 * kDegree}, 30 * kDegree, 120, 120);
+    const Frame without = draw_layers(options);
+    options.clouds = CloudLayer{3000, cover, 0.9};
+    const Frame with = draw_layers(options);
+    int all = 0, covered = 0;
+    for (std::size_t i = 0; i < with.luminance.size(); ++i) {
+      if (is_sky(without, i)) continue;
+      ++all;
+      if (luminance_of(with.layers->transmittance, i) <
+          0.55 * luminance_of(without.layers->transmittance, i))
+        ++covered;
+    }
+    const double share = static_cast<double>(covered) / all;
+    std::printf("[ clouds ] cover %.1f: %.3f of %d pixels\n", cover, share, all);
+    EXPECT_NEAR(share, cover, 0.12);
+  }
+}
+
+TEST(Layers, AddUpToThePicture) {
+  const TemporaryDirectory directory;
+  for (const char* view : {"valley", "sunset", "10km", "limb", "space"}) {
+    FrameOptions options = options_of(view, 64, 40);
+    options.shadows = true;
+    options.clouds = CloudLayer{};
+    options.second_sun = SecondSun{};
+    options.moon = Moon{options.camera.view_zenith - 0.1, options.camera.azimuth, 50e3, 2e3, 0.3};
+    const Frame frame = draw_layers(options);
+    WorstPixel worst;
+    for (std::size_t i = 0; i < frame.luminance.size(); ++i) {
+      const glm::dvec3 sum =
+          color_of(frame.layers->in_scatter, i) + color_of(frame.layers->reflected, i);
+      const glm::dvec3 off = sum - color_of(frame.rgb, i);
+      const double scale = std::max({std::abs(sum.r), std::abs(sum.g), std::abs(sum.b), 1e-6});
+      worst.add(frame, i, glm::length(off) / scale);
+    }
+    worst.print(view);
+    EXPECT_LT(worst.error(), kColorMatrix) << view;
+  }
+}
+
+TEST(Gpu, DrawsTheSamePicture) {
+  std::optional<Renderer> gpu;
+  try {
+    gpu.emplace(make_renderer({}, GraphicsDevice::kGpu));
+  } catch (const std::runtime_error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  for (const char* view : {"valley", "sunset", "limb"}) {
+    const FrameOptions options = options_of(view, 96, 60);
+    const Frame a = renderer().draw(options), b = gpu->draw(options);
+    double mean = 0, difference = 0;
+    for (std::size_t i = 0; i < a.luminance.size(); ++i) {
+      if (a.luminance[i] > 1e6f) continue;  // the sun's disc
+      mean += a.luminance[i];
+      difference += std::abs(a.luminance[i] - b.luminance[i]);
+    }
+    std::printf("[    gpu ] %s: %.3f %% of the mean\n", view, 100 * difference / mean);
+    EXPECT_LT(difference / mean, 0.01) << view;
+  }
+}
+
+// A grey floor, a wall across the sun's azimuth on it; metres about the origin of the floor.
+class Wall : public ::testing::Test {
+ protected:
+  static constexpr double kHigh = 50, kHalfWide = 150, kNear = 90, kFar = 95, kFloor = 20;
+  static constexpr double kEye = 45;  // above the floor
+  static constexpr double kReflectance = 0.3;
+
+  Wall() {
+    const auto file = directory_.path() / "wall.obj";
+    ObjWriter obj(file);
+    obj.box({-300, -300, -2}, {300, 300, 0});
+    obj.box({kNear, -kHalfWide, 0}, {kFar, kHalfWide, kHigh});
+    scene_.meshes.push_back(at_the_coast(file, kFloor));
+    scene_.meshes.front().reflectance = kReflectance;
+  }
+
+  // How far a point above the floor is inside the wall's shadow, metres; negative: outside. Its beam
+  // enters the wall at the near side, below the top.
+  double depth_in_shadow(const glm::dvec3& p) const {
+    const double longest = (kHigh - p.z) * std::tan(sun_);
+    return std::min({longest - (kNear - p.x), kHalfWide - std::abs(p.y), kNear - p.x});
+  }
+
+  double sun_ = 55 * kDegree;
+  TemporaryDirectory directory_;
+  Scene scene_;
+};
+
+TEST_F(Wall, ShadesTheFloorBehindItAndNothingElse) {
+  Renderer drawn = make_renderer(scene_);
+  FrameOptions options = options_at({kFloor + kEye, 140 * kDegree, 0.2, 80 * kDegree}, sun_, 128, 96);
+  const Frame lit = draw_layers(options, drawn);
+  options.shadows = true;
+  const Frame shaded = draw_layers(options, drawn);
+
+  // Light of the sky and of the sun on a horizontal surface.
+  const AtmosphereTables& tables = small_tables();
+  const double mu_s = std::cos(sun_);
+  const NodeValues sky = lookup_irradiance(tables, kFloor, mu_s),
+                   sun = lookup_sun_transmittance(tables, kFloor, mu_s);
+  double diffuse = 0, direct = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    diffuse += tables.color.xyz_from_nodes[1][k] * sky[k];
+    direct += tables.color.xyz_from_nodes[1][k] * sun[k] * mu_s;
+  }
+  const double expected = diffuse / (diffuse + direct);
+  constexpr double kSoftEdge = 3;  // m: texels of the map, and the offset off the surface
+  WorstPixel dark, bright;
+  for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
+    if (is_sky(lit, i)) continue;
+    const double ratio =
+        luminance_of(shaded.layers->reflected, i) / luminance_of(lit.layers->reflected, i);
+    EXPECT_LT(ratio, 1 + kFloatSum) << "pixel " << i;
+    const glm::dvec3 p = double{lit.depth_m[i]} * ray_of(lit, i) + glm::dvec3(0, 0, kEye);
+    const bool floor = std::abs(p.z) < 0.05 && std::abs(p.x) < 290 && std::abs(p.y) < 290;
+    if (!floor) continue;
+    const double inside = depth_in_shadow(p);
+    if (inside > kSoftEdge) dark.add(lit, i, ratio / expected - 1);
+    if (inside < -kSoftEdge && p.x < kNear) bright.add(lit, i, ratio - 1);
+  }
+  std::printf("[ shadow ] the sky's part is %.3f\n", expected);
+  dark.print("in the shadow, of the sky's part");
+  bright.print("in the light");
+  EXPECT_GT(dark.count(), 500);
+  EXPECT_GT(bright.count(), 500);
+  EXPECT_LT(dark.error(), 2 * kTables);
+  EXPECT_LT(bright.error(), kFloatSum);
+}
+
+TEST_F(Wall, TakesLightFromTheAirInItsShadow) {
+  Renderer drawn = make_renderer(scene_);
+  FrameOptions options = options_at({kFloor + kEye, 120 * kDegree, 0, 70 * kDegree}, sun_, 96, 64);
+  const Frame lit = draw_layers(options, drawn);
+  options.shadows = true;
+  const Frame shaded = draw_layers(options, drawn);
+  // What a path loses is about the shaded part of it, where the sun's part of the light is about
+  // the same everywhere.
+  int clear = 0, dark = 0;
+  double share = 0, least = 1, most = 0;
+  WorstPixel untouched;
+  for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
+    const double before = luminance_of(lit.layers->in_scatter, i),
+                 after = luminance_of(shaded.layers->in_scatter, i);
+    EXPECT_GE(after, 0) << "pixel " << i;
+    EXPECT_LE(after, before * (1 + kFloatSum)) << "pixel " << i;
+    const glm::dvec3 end = double{lit.depth_m[i]} * ray_of(lit, i);
+    if (is_sky(lit, i) || end.x > kNear + 0.1) continue;
+    constexpr int kSteps = 400;
+    int inside = 0, near = 0;
+    for (int k = 0; k < kSteps; ++k) {
+      const double depth = depth_in_shadow((k + 0.5) / kSteps * end + glm::dvec3(0, 0, kEye));
+      inside += depth > 0 ? 1 : 0;
+      near += depth > -3 ? 1 : 0;  // texels of the map
+    }
+    const double part = static_cast<double>(inside) / kSteps;
+    if (near == 0) untouched.add(lit, i, after / before - 1), ++clear;
+    if (part > 0.4) {
+      const double taken = (1 - after / before) / part;
+      share += taken;
+      least = std::min(least, taken);
+      most = std::max(most, taken);
+      ++dark;
+    }
+  }
+  share /= std::max(dark, 1);
+  std::printf("[ shadow ] of %d shaded paths the sun's part of the light is %.3f (%.3f to %.3f)\n",
+              dark, share, least, most);
+  untouched.print("paths in the light");
+  ASSERT_GT(dark, 300);
+  ASSERT_GT(clear, 100);
+  EXPECT_EQ(untouched.error(), 0);
+  constexpr double kStep = 1 / 24.0 / 0.4;  // of the shader's march, of the shortest of these
+  EXPECT_GT(share, 0.4);
+  EXPECT_LT(most, 1);
+  EXPECT_LT(most, share * (1 + kStep) + 0.1);
+  EXPECT_GT(least, share * (1 - kStep) - 0.1);
+}
+
+}  // namespace
+}  // namespace skyfit
