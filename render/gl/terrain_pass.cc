@@ -40,7 +40,7 @@ GlProgram terrain_program(const char* vertex, const char* fragment) {
 std::pair<double, double> morph_range(const CubeBlock& block, const TerrainView& view) {
   if (block.level == 0) return {1e30, 2e30};
   const double end = view.split_ratio * block_arc_m(block.level - 1, view.radius_m);
-  const double diagonals = 0.5 * (1 + 1.6 / view.split_ratio);
+  const double diagonals = 0.5 * (1 + 1.45 / view.split_ratio);  // sqrt(2) of an arc
   return {std::max(0.75, diagonals) * end, end};
 }
 

@@ -76,9 +76,8 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
 #else
   if (ray.air && surface.d > ray.entry) {
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
-    float toward = ray.hits_ground ? -1.0 : 1.0;
-    vec4 depth_between = toward * (whole.depth - optical_depth_to_top(end.h, toward * end.mu));
-    path.transmittance = exp(-max(depth_between, 0.0));
+    // Both ends from the same table: nothing is left of its errors where they are near each other.
+    path.transmittance = transmittance_between(start, end, ray.hits_ground);
     Scattering rest = scattering(end, nu, ray.hits_ground);
     path.in_scatter = radiance(scattering_before(whole.scattering, path.transmittance, rest), nu);
   }

@@ -34,5 +34,5 @@ void main() {
   Scattering all = scattering(start, nu, hits_ground);
   air = log(max(all.rayleigh_like, 1e-30));
   aerosol = log(max(all.single_mie, 1e-30));
-  depth = optical_depth_to_top(h, hits_ground ? -ray.mu : ray.mu);
+  depth = optical_depth_to_top(h, hits_ground ? 1.0 : ray.mu);
 }

@@ -8,7 +8,7 @@
 #ifndef SKY_VIEW_WRITE
 layout(binding = 8) uniform sampler2D view_air;      // logarithm of the amplitude
 layout(binding = 9) uniform sampler2D view_aerosol;  // the same of single scattering by the aerosol
-layout(binding = 10) uniform sampler2D view_depth;    // optical depth to the top; of rays to the ground: backward
+layout(binding = 10) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
 
 struct WholeRay {
   Scattering scattering;
@@ -18,7 +18,7 @@ struct WholeRay {
 WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
 #ifdef FROM_ABOVE
   return WholeRay(scattering(start, nu, ray.hits_ground),
-                  optical_depth_to_top(ray.h, ray.hits_ground ? -ray.mu : ray.mu));
+                  optical_depth_to_top(ray.h, ray.mu));
 #else
   float across = length(ray.direction.xy) * length(sun.xy);
   float cosine = clamp(dot(ray.direction.xy, sun.xy) / max(across, 1e-9), -1.0, 1.0);

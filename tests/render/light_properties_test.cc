@@ -117,7 +117,7 @@ TEST(Sun, IsRedderAtSunsetThanAtNoon) {
 
 TEST(Sky, IsBrighterAtTheHorizonThanAtTheZenith) {
   for (const double sun : {50.0, 60.0, 70.0}) {
-    for (const double azimuth : {-90.0, -45.0, 0.0}) {  // over the water
+    for (const double azimuth : {0.0, 25.0, 50.0}) {  // over the water
       const double horizon = sky_luminance(2, sun, 82, azimuth), zenith = sky_luminance(2, sun, 0, 0);
       EXPECT_GT(horizon, 1.3 * zenith) << "sun " << sun << ", azimuth " << azimuth;
     }
