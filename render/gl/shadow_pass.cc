@@ -81,14 +81,18 @@ GlBuffer ShadowPass::bind(const std::array<ShadowView, kShadowMaps>& views, GLui
   texture_from_clip[0][0] = texture_from_clip[1][1] = 0.5;
   texture_from_clip[3] = glm::dvec4(0.5, 0.5, 0, 1);
   std::array<glm::mat4, kShadowMaps> matrices;
-  glm::vec4 texels(0);
+  glm::vec4 texels(0), depth_per_km(0);
   for (std::size_t i = 0; i < kShadowMaps; ++i) {
     matrices[i] = glm::mat4(texture_from_clip * views[i].clip_from_site);
-    texels[static_cast<int>(i)] = static_cast<float>(2 * views[i].half_km / kSide);
+    const int map = static_cast<int>(i);
+    texels[map] = static_cast<float>(2 * views[i].half_km / kSide);
+    const glm::dmat4& clip = views[i].clip_from_site;
+    depth_per_km[map] = static_cast<float>(glm::length(glm::dvec3(clip[0][2], clip[1][2], clip[2][2])));
   }
   UniformBlock block(program, "Shadows");
   block.set("map_from_site", std::span<const glm::mat4>(matrices));
   block.set("shadow_texel_km", texels);
+  block.set("shadow_depth_per_km", depth_per_km);
   block.set("shadow_reach_km", views.back().half_km);
   return block.bind();
 }

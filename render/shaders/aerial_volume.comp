@@ -10,15 +10,11 @@ layout(rgba32f, binding = 2) writeonly uniform image3D extinction_means;
 
 void main() {
   ivec3 texel = ivec3(gl_GlobalInvocationID);
-  vec2 screen = 2.0 * vec2(texel.xy) / (kVolumeSize.xy - 1.0) - 1.0;
-  float stretch;
-  ViewRay ray = view_ray(direction_at(screen, stretch));
   vec3 sun = suns[0].xyz;
+  ViewRay ray = ray_in_view(vec2(texel.xy), sun, kVolumeView);
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Place start = place_of(ray, sun, nu);
-  float length_km = ray.hits_ground ? distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0)
-                                    : distance_to_outer_sphere(bottom_km, ray.h, ray.mu, thickness_km);
-  float d = min(slice_distance(float(texel.z)), length_km);
+  float d = slice_share(float(texel.z)) * longest_path(ray);
   Place end = place_along(start, nu, d);
   vec4 depth_between = optical_depth_between(start, end, ray.hits_ground);
   Scattering path = scattering_before(scattering(start, nu, ray.hits_ground), exp(-depth_between),

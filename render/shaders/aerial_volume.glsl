@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light scattered into paths and their transmittance in a volume over the view frustum (Bodare & Sandberg 2014, 6.4.2):
-// directions at the texels of x and y, distances along z, more densely near the eye. Deviation: the volume holds the
-// logarithms of means per kilometre, which are smooth where a path begins and across the horizon's exponentials, and the
-// two kinds of scattering apart, so that the phase functions stay those of the pixel.
-#include "render/shaders/view_ray.glsl"
+// Light scattered into paths from the eye and their transmittance in a volume of 32 x 32 x 16 (Bodare & Sandberg 2014,
+// 6.4.2). Deviations: the directions are those of sky_view.glsl, by the azimuth from the sun and apart above and below the
+// horizon, which a volume over the frustum would mix (half of the light of a pixel beside it); the volume holds the
+// logarithms of means per kilometre, smooth where a path begins, and the two kinds of scattering apart, so that the phase
+// functions stay those of the pixel.
+#include "render/shaders/sky_view.glsl"
 
 const vec3 kVolumeSize = vec3(32.0, 32.0, 16.0);
+const vec3 kVolumeView = vec3(32.0, 18.0, 14.0);  // columns, rows of rays to the ground, rows of rays to the sky
 
-// Distance of a slice and its inverse, as a texture coordinate.
-float slice_distance(float slice) {
+// The slices lie at the same shares of a ray's way to the ground, so that rays that go deep are not mixed with rays that
+// end before; of a ray that misses it, of the way to the farthest that is seen.
+float longest_path(ViewRay ray) {
+  return ray.hits_ground ? distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0)
+                         : min(distance_to_outer_sphere(bottom_km, ray.h, ray.mu, thickness_km), volume_km);
+}
+
+// Distance of a slice as a share of that way, and its inverse as a texture coordinate.
+float slice_share(float slice) {
   float x = (slice + 0.5) / (kVolumeSize.z - 0.5);
-  return volume_km * x * x;
+  return x * x;
 }
-float slice_coordinate(float d) {
-  return sqrt(d / volume_km) * (kVolumeSize.z - 0.5) / kVolumeSize.z;
-}
+float slice_coordinate(float share) { return sqrt(share) * (kVolumeSize.z - 0.5) / kVolumeSize.z; }
 
 #ifndef VOLUME_WRITE
 layout(binding = 14) uniform sampler3D air_volume;
@@ -26,9 +33,8 @@ struct VolumeLight {
   vec4 transmittance;
 };
 
-VolumeLight volume_light(vec2 screen, float d) {
-  vec2 across = (0.5 + (0.5 * screen + 0.5) * (kVolumeSize.xy - 1.0)) / kVolumeSize.xy;
-  vec3 place = vec3(across, slice_coordinate(min(d, volume_km)));
+VolumeLight volume_light(ViewRay ray, float d) {
+  vec3 place = vec3(place_in_view(ray, suns[0].xyz, kVolumeView), slice_coordinate(min(d / longest_path(ray), 1.0)));
   return VolumeLight(Scattering(d * exp(texture(air_volume, place)), d * exp(texture(aerosol_volume, place))),
                    exp(-d * exp(texture(extinction_volume, place))));
 }

@@ -70,7 +70,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   Place end = place_along(start, nu, in_air);
   PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
 #ifdef VOLUME
-  VolumeLight light = volume_light(screen, in_air);
+  VolumeLight light = volume_light(ray, in_air);
   path.in_scatter = radiance(light.scattering, nu);
   path.transmittance = light.transmittance;
 #else

@@ -10,6 +10,7 @@ const int kShadowMaps = 3;
 layout(std140, binding = 3) uniform Shadows {
   mat4 map_from_site[kShadowMaps];  // of positions relative to the camera; x, y, depth in 0..1
   vec4 shadow_texel_km;             // side of a texel of each map
+  vec4 shadow_depth_per_km;         // of each map's depth, along the beam
   float shadow_reach_km;            // half a side of the largest
 };
 
@@ -54,7 +55,10 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
   for (int i = 0; i < kSteps; ++i) {
     float t = (float(i) + begin) * step_km;
     vec4 place = place_in_maps((ray.entry + t) * ray.direction);
-    float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, vec4(place.xy, max(place.z, 0.0), place.w));
+    // Nearer to the sun by more than a texel's slope, as on surfaces.
+    int map = int(max(place.z, 0.0));
+    float depth_in_map = place.w - 2.0 * shadow_texel_km[map] * shadow_depth_per_km[map];
+    float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, vec4(place.xy, float(map), depth_in_map));
     Place at = place_along(start, nu, t);
     vec2 density = texture(densities, vec2(height_coordinate(at.h, float(textureSize(densities, 0).x)), 0.5)).xy;
     vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);

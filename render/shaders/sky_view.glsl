@@ -5,7 +5,27 @@
 // high above, FROM_ABOVE: there the sun's height at the far end of a ray changes too fast with the azimuth.
 #include "render/shaders/view_ray.glsl"
 
-#ifndef SKY_VIEW_WRITE
+// Where a direction lies in a picture of such columns and rows (ground, sky), 0..1.
+vec2 place_in_view(ViewRay ray, vec3 sun, vec3 size) {
+  float across = length(ray.direction.xy) * length(sun.xy);
+  float cosine = clamp(dot(ray.direction.xy, sun.xy) / max(across, 1e-9), -1.0, 1.0);
+  return vec2(texture_from_unit(unit_from_azimuth(cosine), size.x),
+              texture_from_view(ray.h, ray.mu, ray.hits_ground, size.y, size.z, bottom_km, thickness_km));
+}
+
+// The ray of a column and a row, counted from 0.
+ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
+  float turn = texel.x / (size.x - 1.0) * kPi;
+  bool hits_ground = texel.y < size.y - 0.5;
+  float h = min(camera_km, thickness_km);
+  float mu = mu_from_texture((texel.y + 0.5) / (size.y + size.z), h, size.y, size.z, bottom_km, thickness_km);
+  float sine = sqrt(max(1.0 - mu * mu, 0.0));
+  vec2 sunward = length(sun.xy) > 1e-9 ? normalize(sun.xy) : vec2(1.0, 0.0);
+  vec2 across = cos(turn) * sunward + sin(turn) * vec2(-sunward.y, sunward.x);
+  return ViewRay(vec3(sine * across, mu), true, hits_ground, 0.0, h, mu);
+}
+
+#if !defined(SKY_VIEW_WRITE) && !defined(VOLUME_WRITE)
 layout(binding = 8) uniform sampler2D view_air;      // logarithm of the amplitude
 layout(binding = 9) uniform sampler2D view_aerosol;  // the same of single scattering by the aerosol
 layout(binding = 10) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
@@ -20,11 +40,8 @@ WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
   return WholeRay(scattering(start, nu, ray.hits_ground),
                   optical_depth_to_top(ray.h, ray.mu));
 #else
-  float across = length(ray.direction.xy) * length(sun.xy);
-  float cosine = clamp(dot(ray.direction.xy, sun.xy) / max(across, 1e-9), -1.0, 1.0);
-  float x = texture_from_unit(unit_from_azimuth(cosine), sky_view_size.x);
-  vec2 place = vec2((float(i) + x) / float(kSuns), texture_from_view(ray.h, ray.mu, ray.hits_ground, sky_view_size.y,
-                                                                     sky_view_size.z, bottom_km, thickness_km));
+  vec2 place = place_in_view(ray, sun, sky_view_size.xyz);
+  place.x = (float(i) + place.x) / float(kSuns);
   return WholeRay(Scattering(exp(texture(view_air, place)), exp(texture(view_aerosol, place))),
                   texture(view_depth, place));
 #endif

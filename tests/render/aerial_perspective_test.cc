@@ -1,2 +1,108 @@
 // SPDX-License-Identifier: Apache-2.0
+// The light that the air scatters into the paths to the ground, looked up for each pixel and from
+// the volume over the frustum, is that of the reference.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "data_refs/spectra.h"
+#include "model/sky_model.h"
+#include "model/table_lookup.h"
+#include "tests/render/frame_fixture.h"
+#include "tests/render/gl_fixture.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kAgreement = 0.03;
+constexpr double kNearest = 3e3;  // m: nearer paths are the small difference of two whole rays
+
+const AtmosphereTables& tables() {
+  static const AtmosphereTables made = tables_of(earth_clear(), TableSizes{});
+  return made;
+}
+
+Renderer& with_full_tables() {
+  static Renderer made = [] {
+    Renderer renderer;
+    renderer.set_atmosphere(earth_clear(), tables());
+    return renderer;
+  }();
+  return made;
+}
+
+double luminance(const NodeValues& nodes) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) sum += tables().color.xyz_from_nodes[1][k] * nodes[k];
+  return sum;
+}
+
+class AerialPerspectiveOf : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
+  FrameOptions options = options_of(GetParam(), 96, 54);
+  if (options.site) options.camera.altitude_m = find_view(GetParam()).camera.altitude_m +
+                                                with_full_tables().ground_height_m(options.site);
+  options.layers = true;
+  const Frame by_pixel = with_full_tables().draw(options);
+  options.aerial = AerialPerspective::kVolume;
+  const Frame by_volume = with_full_tables().draw(options);
+
+  const double bottom = tables().atmosphere.bottom_radius_m;
+  const glm::dvec3 eye(0, 0, bottom + options.camera.altitude_m);
+  const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
+  const auto point_at = [&](const glm::dvec3& p, const glm::dvec3& ray) {
+    const glm::dvec3 up = glm::normalize(p);
+    const double mu = glm::dot(ray, up), mu_s = glm::dot(sun, up);
+    const double cosine = (glm::dot(ray, sun) - mu * mu_s) / std::sqrt((1 - mu * mu) * (1 - mu_s * mu_s));
+    return SkyPoint{std::max(glm::length(p) - bottom, 0.0), std::acos(mu_s), std::acos(mu),
+                    std::acos(std::clamp(cosine, -1.0, 1.0))};
+  };
+  std::vector<std::size_t> pixels;
+  std::vector<SkyPoint> points;
+  for (std::size_t i = 0; i < by_pixel.depth_m.size(); i += 4) {
+    if (is_sky(by_pixel, i) || by_pixel.depth_m[i] < kNearest) continue;
+    const glm::dvec3 ray = ray_of(by_pixel, i);
+    pixels.push_back(i);
+    points.push_back(point_at(eye, ray));
+    points.push_back(point_at(eye + double{by_pixel.depth_m[i]} * ray, ray));
+  }
+  ASSERT_GT(pixels.size(), 80u);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  // Light straight from the ground is in both ends' rays and falls out of the difference.
+  const SkyValues light =
+      model->radiance(tables().atmosphere, tables().color.nodes, points, {});
+  double worst_pixel = 0, worst_volume = 0, squares = 0;
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    const SkyPoint &start = points[2 * n], &end = points[2 * n + 1];
+    const double mu = std::cos(start.view_zenith);
+    const NodeValues t = lookup_transmittance(
+        tables(), {start.altitude_m, mu, std::cos(start.sun_zenith)},
+        {end.altitude_m, std::cos(end.view_zenith), std::cos(end.sun_zenith)},
+        mu < horizon_cosine(bottom, start.altitude_m));
+    NodeValues finite;
+    const int ray = static_cast<int>(2 * n);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int node = static_cast<int>(k);
+      finite[k] = light.at(ray, node) - t[k] * light.at(ray + 1, node);
+    }
+    const double truth = luminance(finite);
+    const double pixel = luminance_of(by_pixel.layers->in_scatter, pixels[n]) / truth - 1,
+                 volume = luminance_of(by_volume.layers->in_scatter, pixels[n]) / truth - 1;
+    worst_pixel = std::max(worst_pixel, std::abs(pixel));
+    worst_volume = std::max(worst_volume, std::abs(volume));
+    squares += volume * volume;
+  }
+  std::printf("[ aerial ] %zu paths: worst %.2f %% by pixel; %.2f %%, rms %.2f %% from the volume\n",
+              pixels.size(), 100 * worst_pixel, 100 * worst_volume,
+              100 * std::sqrt(squares / static_cast<double>(pixels.size())));
+  EXPECT_LT(worst_pixel, kAgreement);
+  EXPECT_LT(worst_volume, kAgreement);
+}
+
+INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf, ::testing::Values("valley", "10km"));
+
+}  // namespace
+}  // namespace skyfit

@@ -415,7 +415,7 @@ TEST_F(Wall, ShadesTheFloorBehindItAndNothingElse) {
 
 TEST_F(Wall, TakesLightFromTheAirInItsShadow) {
   Renderer drawn = make_renderer(scene_);
-  FrameOptions options = options_at({kFloor + kEye, 120 * kDegree, 0, 70 * kDegree}, sun_, 96, 64);
+  FrameOptions options = options_at({kFloor + kEye, 135 * kDegree, 0, 80 * kDegree}, sun_, 96, 64);
   const Frame lit = draw_layers(options, drawn);
   options.shadows = true;
   const Frame shaded = draw_layers(options, drawn);
