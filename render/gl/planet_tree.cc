@@ -170,8 +170,8 @@ class Selector {
     for (const Node& node : nodes) {
       const CubeBlock& block = node.block;
       const double arc = block_arc_m(block.level, view_.radius_m);
-      // Finer details stand up to half a quad out of these heights.
-      const double margin = 0.5 * arc / kBlockQuads;
+      // Finer details stand up to a quad out of these heights.
+      const double margin = arc / kBlockQuads;
       const HeightRange allowed{node.heights.low - margin, node.heights.high + margin};
       const double distance = distance_between(
           box_of(node.points, block.level, allowed, view_.radius_m), frustum_.camera());

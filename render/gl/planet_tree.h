@@ -4,7 +4,7 @@
 //
 // A block is split while its distance from the camera is less than `split_ratio` times its arc
 // length. The distance is that to the block's axis-aligned box, so no vertex of a block is nearer,
-// and with a ratio of at least 1.6 neighbours differ by one level at most: a vertex that has become
+// and with a ratio of at least 1.8 neighbours differ by one level at most: a vertex that has become
 // one of the coarser level at split_ratio times that level's arc length meets its neighbour's.
 #pragma once
 
@@ -60,7 +60,7 @@ struct TerrainView {
   ViewBasis basis;
   glm::dvec2 tangent;  // of half the field of view, horizontal and vertical
   double radius_m = 6360e3, highest_m = 9e3;
-  double split_ratio = 50;  // >= 1.6
+  double split_ratio = 50;  // >= 1.8
   int levels = 9;           // >= 1
   bool cull = true;
   // What is seen instead of the picture's frustum, when there are any: normals that point inward and

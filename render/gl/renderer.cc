@@ -141,7 +141,7 @@ void add_directions(const Camera& camera, Frame& frame) {
 // How finely the planet is drawn: near the ground a quad spans options.samples_per_quad samples of
 // the picture, but no block is split beyond 50 times its size (Sperlhofer 2011, C = 50); 9 levels
 // and, near the camera, as many more as show details of a third of a metre.
-constexpr double kLargestRatio = 50, kSmallestRatio = 1.6;
+constexpr double kLargestRatio = 50, kSmallestRatio = 1.8;
 // A view from above holds fewer levels of the tree, so that each can be finer for the same number of
 // blocks; that from 2 m holds this many.
 constexpr double kLevelsFromGround = 19;

@@ -35,12 +35,15 @@ GlProgram terrain_program(const char* vertex, const char* fragment) {
       std::array{ShaderStage{GL_VERTEX_SHADER, vertex}, ShaderStage{GL_FRAGMENT_SHADER, fragment}});
 }
 
+// Of a block, in arcs: sqrt(2), and more where it is steep.
+constexpr double kDiagonal = 1.75;
+
 // The distances between which a block becomes the coarser one: at the end the coarser one may be
 // drawn, before the beginning the finer ones may.
 std::pair<double, double> morph_range(const CubeBlock& block, const TerrainView& view) {
   if (block.level == 0) return {1e30, 2e30};
   const double end = view.split_ratio * block_arc_m(block.level - 1, view.radius_m);
-  const double diagonals = 0.5 * (1 + 1.45 / view.split_ratio);  // sqrt(2) of an arc
+  const double diagonals = 0.5 * (1 + kDiagonal / view.split_ratio);
   return {std::max(0.75, diagonals) * end, end};
 }
 

@@ -20,10 +20,9 @@ const vec2 kGrainContrast = vec2(1.0, 0.8), kCragContrast = vec2(0.4, 0.5);
 // Tilts the normal and returns the factor of the reflectance. `position` is relative to the camera, km, in the camera
 // frame; rock < 0: neither material.
 float add_material(vec3 position, float d, vec3 ray, float rock, inout vec3 normal) {
-  // Of the mipmaps the one whose texel is a pixel, seen at a slant, chosen at random between two.
-  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  // Between the two mipmaps whose texels are about a pixel, seen at a slant.
   float texels = 64.0 * d * pixel_angle * inversesqrt(max(abs(dot(ray, normal)), 0.1));
-  float level = log2(texels * crags_per_km) + noise - 0.5;
+  float level = log2(texels * crags_per_km);
   vec3 place = planet_from_site * position;
   vec4 grain = textureLod(grains, grain_phase + grains_per_km * place, level + log2(grains_per_km / crags_per_km));
   vec4 crag = textureLod(crags, crag_phase + crags_per_km * place, level);

@@ -129,7 +129,7 @@ TEST(Selection, IsSortedFromNearToFar) {
     double before = 0;
     for (const CubeBlock& block : select_blocks(view, stored_heights).blocks) {
       // With the heights that a finer level could reach.
-      const double margin = 0.5 * block_arc_m(block.level, kEarth) / kBlockQuads;
+      const double margin = block_arc_m(block.level, kEarth) / kBlockQuads;
       const HeightRange own = stored_block(block).heights;
       const Box box = block_box(block, {own.low - margin, own.high + margin},
                                 view.axes.site_from_planet(), kEarth);
