@@ -75,6 +75,13 @@ void View(benchmark::State& state, const char* view, int width, int height) {
   run(state, options_of(view, width, height));
 }
 
+// The atmosphere's pass does not depend on the scene: the same view with few and with many triangles.
+void Triangles(benchmark::State& state, double samples_per_quad) {
+  FrameOptions options = options_of("space", 1280, 720);
+  options.samples_per_quad = samples_per_quad;
+  run(state, options);
+}
+
 void EightFetches(benchmark::State& state) {
   const auto context = make_osmesa_context();
   FrameGraph graph;
@@ -116,6 +123,15 @@ BENCHMARK(EightFetches)->UseManualTime()->Iterations(kFrames)->Unit(benchmark::k
       ->UseManualTime()                              \
       ->Iterations(kFrames)                          \
       ->Unit(benchmark::kMillisecond)
+
+BENCHMARK_CAPTURE(Triangles, few, 64)
+    ->UseManualTime()
+    ->Iterations(kFrames)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Triangles, many, 3)
+    ->UseManualTime()
+    ->Iterations(kFrames)
+    ->Unit(benchmark::kMillisecond);
 
 SKYFIT_VIEW(valley_1280x720, "valley", 1280, 720);
 SKYFIT_VIEW(valley_640x360, "valley", 640, 360);
