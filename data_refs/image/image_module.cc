@@ -21,8 +21,11 @@ Image read(const std::filesystem::path& file) {
   if (spec.depth > 1 || spec.deep) fail(file, "expected a flat image");
   Image image{spec.width, spec.height, spec.channelnames, {}};
   image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()))
-    fail(file, input->geterror());
+  const bool whole =
+      input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data());
+  // Of a truncated TIFF or JPEG the reader only leaves a message.
+  const std::string error = input->geterror();
+  if (!whole || !error.empty()) fail(file, error);
   return image;
 }
 
