@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -22,6 +23,9 @@ void add(const std::string& name, const Table& table, FrameGraph& graph) {
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
 // Above it each pixel looks up its own ray.
 constexpr double kAbove = 20e3;  // m
+
+// What atmosphere.frag is drawn for.
+constexpr std::string_view kSky = "SKY", kDisc = "DISC", kSurface = "SURFACE";
 
 // After those of kAtmosphereReads.
 constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14, kMaterialUnit = 17;
@@ -154,8 +158,10 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
   const auto key = std::pair(path, defined);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second.id();
-  std::vector<ShaderStage> stages = {{GL_VERTEX_SHADER, "render/shaders/fullscreen.vert"},
-                                     {GL_FRAGMENT_SHADER, path}};
+  const bool disc = std::ranges::find(defined, kDisc) != defined.end();
+  std::vector<ShaderStage> stages = {
+      {GL_VERTEX_SHADER, disc ? "render/shaders/sun.vert" : "render/shaders/fullscreen.vert"},
+      {GL_FRAGMENT_SHADER, path}};
   if (path.ends_with(".comp")) stages = {{GL_COMPUTE_SHADER, path}};
   return programs_.emplace(key, build_program(stages, {}, defined)).first->second.id();
 }
@@ -219,10 +225,10 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
   volume_->fill(id);
 }
 
-GLuint AtmospherePass::variant(bool surface, const AtmosphereView& view) {
+GLuint AtmospherePass::variant(std::string_view what, const AtmosphereView& view) {
   Defined defined = defined_by(view.options);
-  if (surface) defined.push_back("SURFACE");
-  if (surface && view.volume(tables_)) defined.push_back("VOLUME");
+  defined.emplace_back(what);
+  if (what == kSurface && view.volume(tables_)) defined.push_back("VOLUME");
   if (view.options.layers) defined.push_back("LAYERS");
   if (view.options.clouds) defined.push_back("CLOUDS");
   if (view.shadows != nullptr) defined.push_back("SHADOWS");
@@ -230,7 +236,8 @@ GLuint AtmospherePass::variant(bool surface, const AtmosphereView& view) {
 }
 
 void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_maps) {
-  const GLuint sky = variant(false, view), surface = variant(true, view);
+  const GLuint sky = variant(kSky, view), disc = variant(kDisc, view);
+  const GLuint surface = variant(kSurface, view);
   bind_blocks(sky, view);
   blocks_.push_back(color_block(tables_.color, sky));
   if (view.shadows != nullptr) {
@@ -245,11 +252,13 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
   const glm::dvec3 camera =
       (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
   blocks_.push_back(view.materials.bind(camera, surface, kMaterialUnit));
-  // The triangle lies at depth 0, as the sky does.
+  // The triangle and the squares about the suns lie at depth 0, as the sky does.
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_EQUAL);
   draw_triangle(sky);
+  glUseProgram(disc);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
   glDepthFunc(GL_LESS);
   draw_triangle(surface);
   glDepthMask(GL_TRUE);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere over the G-buffer. Reads the tables and the G-buffer in the order of
 // kAtmosphereReads; writes light (linear sRGB and luminance, cd/m^2), the distance from the camera
-// (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites. Where there is a
-// surface and where there is sky are drawn apart, each by a shader that does no more than it must:
-// the depth test tells them apart. Before it, the light of whole rays from the eye is looked up once
+// (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites. Surfaces, the sky
+// and the suns' discs are drawn apart, each by a shader that does no more than it must: the depth
+// test tells them apart. Before it, the light of whole rays from the eye is looked up once
 // for all pixels, into the targets kSkyViewWrites.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/gl/aerial_volume.h"
@@ -79,7 +80,7 @@ class AtmospherePass {
   using Defined = std::vector<std::string>;
   GLuint program(const std::string& path, const Defined& defined);
   Defined defined_by(const FrameOptions& options) const;
-  GLuint variant(bool surface, const AtmosphereView& view);
+  GLuint variant(std::string_view what, const AtmosphereView& view);
   glm::ivec3 sky_view_size() const;  // columns of a sun, rows to the ground, rows to the sky
   void bind_blocks(GLuint program, const AtmosphereView& view);
   void draw_triangle(GLuint program) const;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kSide = kBlockQuads + 1;
 constexpr int kSkirt = 4 * kBlockQuads;
+constexpr int kPatchQuads = kBlockQuads / kPatchesPerSide;
 
 // Column and row of the border's vertices, counterclockwise.
 std::pair<int, int> border(int i) {
@@ -123,18 +124,27 @@ void pack(const Point& point, std::array<float, 3>& position, std::array<std::in
   }
 }
 
-}  // namespace
+void widen(HeightRange& range, const HeightRange& other) {
+  range.low = std::min(range.low, other.low);
+  range.high = std::max(range.high, other.high);
+}
 
-std::vector<std::uint16_t> block_indices() {
-  std::vector<std::uint16_t> indices;
-  const auto triangle = [&](int a, int b, int c) {
-    for (const int i : {a, b, c}) indices.push_back(static_cast<std::uint16_t>(i));
+// A quad's patch.
+int patch_at(int column, int row) {
+  return row / kPatchQuads * kPatchesPerSide + column / kPatchQuads;
+}
+
+BlockIndices make_indices() {
+  std::array<std::vector<std::uint16_t>, kPatches> patches;
+  const auto triangle = [&](int patch, int a, int b, int c) {
+    for (const int i : {a, b, c})
+      patches[static_cast<std::size_t>(patch)].push_back(static_cast<std::uint16_t>(i));
   };
   for (int row = 0; row < kBlockQuads; ++row) {
     for (int column = 0; column < kBlockQuads; ++column) {
       const int a = row * kSide + column, b = a + 1, c = a + kSide, d = c + 1;
-      triangle(a, b, c);
-      triangle(b, d, c);
+      triangle(patch_at(column, row), a, b, c);
+      triangle(patch_at(column, row), b, d, c);
     }
   }
   for (int i = 0; i < kSkirt; ++i) {
@@ -142,25 +152,41 @@ std::vector<std::uint16_t> block_indices() {
     const auto [next_column, next_row] = border((i + 1) % kSkirt);
     const int a = row * kSide + column, b = next_row * kSide + next_column;
     const int below_a = kSide * kSide + i, below_b = kSide * kSide + (i + 1) % kSkirt;
-    triangle(a, below_a, b);
-    triangle(b, below_a, below_b);
+    const int patch = patch_at(std::min({column, next_column, kBlockQuads - 1}),
+                               std::min({row, next_row, kBlockQuads - 1}));
+    triangle(patch, a, below_a, b);
+    triangle(patch, b, below_a, below_b);
   }
-  return indices;
+  BlockIndices made;
+  for (std::size_t patch = 0; patch < kPatches; ++patch) {
+    made.patches[patch] = static_cast<std::uint32_t>(made.indices.size());
+    made.indices.insert(made.indices.end(), patches[patch].begin(), patches[patch].end());
+  }
+  made.patches[kPatches] = static_cast<std::uint32_t>(made.indices.size());
+  return made;
+}
+
+}  // namespace
+
+const BlockIndices& block_indices() {
+  static const BlockIndices made = make_indices();
+  return made;
 }
 
 glm::dvec3 block_centre(const CubeBlock& block, double radius_m) {
   return radius_m * block_direction(block, 0.5, 0.5);
 }
 
-HeightRange make_block(const CubeBlock& block, const Ground& ground, double radius_m,
-                std::span<BlockVertex> out) {
+BlockHeights make_block(const CubeBlock& block, const Ground& ground, double radius_m,
+                        std::span<BlockVertex> out) {
   const double spacing = block_arc_m(block.level, radius_m) / kBlockQuads;
   const glm::dvec3 centre = block_centre(block, radius_m);
   const Grid fine(block, kBlockQuads, spacing, ground, radius_m, centre);
   // The part of the parent that the block covers, as the parent shows it.
   const bool has_parent = block.level > 0;
   const Grid coarse(block, has_parent ? kBlockQuads / 2 : 1, 2 * spacing, ground, radius_m, centre);
-  HeightRange heights{1e300, -1e300};
+  BlockHeights heights;
+  heights.patches.fill({1e300, -1e300});
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
       BlockVertex& vertex = out[static_cast<std::size_t>(row) * kSide + column];
@@ -168,8 +194,12 @@ HeightRange make_block(const CubeBlock& block, const Ground& ground, double radi
       pack(own, vertex.fine_km, vertex.fine_normal, vertex.fine_reflectance);
       const Point parents = has_parent ? on_coarse(coarse, column, row) : own;
       pack(parents, vertex.coarse_km, vertex.coarse_normal, vertex.coarse_reflectance);
-      heights.low = std::min({heights.low, own.height, parents.height});
-      heights.high = std::max({heights.high, own.height, parents.height});
+      const auto [low, high] = std::minmax(own.height, parents.height);
+      // On a border it belongs to the patches on both sides.
+      for (const int c : {std::max(column - 1, 0), std::min(column, kBlockQuads - 1)}) {
+        for (const int r : {std::max(row - 1, 0), std::min(row, kBlockQuads - 1)})
+          widen(heights.patches[static_cast<std::size_t>(patch_at(c, r))], {low, high});
+      }
     }
   }
   // Deep enough for the cracks that rounding leaves along the border.
@@ -186,7 +216,9 @@ HeightRange make_block(const CubeBlock& block, const Ground& ground, double radi
     }
     out[static_cast<std::size_t>(kSide * kSide + i)] = vertex;
   }
-  heights.low -= 1e3 * depth_km;
+  heights.whole = heights.patches[0];
+  for (const HeightRange& patch : heights.patches) widen(heights.whole, patch);
+  heights.whole.low -= 1e3 * depth_km;
   return heights;
 }
 

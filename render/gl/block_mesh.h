@@ -26,15 +26,29 @@ struct BlockVertex {
 inline constexpr int kBlockVertices =
     (kBlockQuads + 1) * (kBlockQuads + 1) + 4 * kBlockQuads;
 
-// Triangles of every block, counterclockwise from outside; the skirt comes last.
-std::vector<std::uint16_t> block_indices();
+// What is drawn or left out of a block: 4 x 4 quads and what hangs from them of the skirt. Patches are numbered in
+// rows of growing u; their outlines are those of the blocks three levels below.
+inline constexpr int kPatchesPerSide = 8;
+inline constexpr int kPatches = kPatchesPerSide * kPatchesPerSide;
+
+// Triangles of every block, counterclockwise from outside, patch by patch.
+struct BlockIndices {
+  std::vector<std::uint16_t> indices;
+  std::array<std::uint32_t, kPatches + 1> patches;  // where each begins; the last is the end
+};
+const BlockIndices& block_indices();
 
 // The middle of the block on the sphere of the bottom radius, planet coordinates, metres.
 glm::dvec3 block_centre(const CubeBlock& block, double radius_m);
 
-// `out` has kBlockVertices. A block of level 0 has no coarser shape: both are the same. Returns the
-// heights of both shapes and the skirt.
-HeightRange make_block(const CubeBlock& block, const Ground& ground, double radius_m,
-                std::span<BlockVertex> out);
+// Of the vertices of both shapes.
+struct BlockHeights {
+  HeightRange whole;                          // with the skirt
+  std::array<HeightRange, kPatches> patches;  // without it
+};
+
+// `out` has kBlockVertices. A block of level 0 has no coarser shape: both are the same.
+BlockHeights make_block(const CubeBlock& block, const Ground& ground, double radius_m,
+                        std::span<BlockVertex> out);
 
 }  // namespace skyfit

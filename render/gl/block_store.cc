@@ -51,9 +51,10 @@ void BlockStore::provide(std::span<const CubeBlock> blocks) {
       missing.push_back(block);
     }
   }
+  if (missing.empty()) return;
   reserve(std::min(static_cast<int>(slots_.size() + missing.size()), kMostBlocks));
   std::vector<BlockVertex> made(static_cast<std::size_t>(kBatch) * kBlockVertices);
-  std::array<HeightRange, kBatch> heights{};
+  std::array<BlockHeights, kBatch> heights{};
   for (std::size_t first = 0; first < missing.size(); first += kBatch) {
     const std::size_t count = std::min<std::size_t>(kBatch, missing.size() - first);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {

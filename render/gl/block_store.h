@@ -30,14 +30,14 @@ class BlockStore {
   // Of a block of this frame: where its vertices begin, in vertices.
   GLint first_vertex(const CubeBlock& block) const { return slots_.at(block).slot * kBlockVertices; }
 
-  const HeightRange& heights(const CubeBlock& block) const { return slots_.at(block).heights; }
+  const BlockHeights& heights(const CubeBlock& block) const { return slots_.at(block).heights; }
 
   GLuint vertices() const { return vertices_.id(); }
 
  private:
   struct Slot {
     int slot;
-    HeightRange heights;
+    BlockHeights heights;
     std::int64_t used;  // by which frame
   };
   void reserve(int blocks);

@@ -34,10 +34,8 @@ using BlockPoints = std::array<glm::dvec3, 9>;
 
 BlockPoints block_points(const CubeBlock& block, const glm::dmat3& frame_from_planet) {
   BlockPoints points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = frame_from_planet * block_direction(block, 0.5 * static_cast<double>(i % 3),
-                                                    0.5 * static_cast<double>(i / 3));
-  }
+  block_directions(block, 2, points);
+  for (glm::dvec3& point : points) point = frame_from_planet * point;
   return points;
 }
 
@@ -65,16 +63,8 @@ class Frustum {
       : view_(view),
         frame_from_planet_(view.axes.site_from_planet()),
         camera_(0, 0, view.radius_m + view.altitude_m),
-        own_horizon_(horizon(view.altitude_m)) {
-    const auto& [right, up, forward] = view.basis;
-    const double w = view.tangent.x, h = view.tangent.y;
-    planes_ = view.planes;
-    if (!planes_.empty()) return;
-    for (const glm::dvec3& inward : {forward * w + right, forward * w - right, forward * h + up,
-                                     forward * h - up, forward}) {
-      planes_.emplace_back(inward, 0);
-    }
-  }
+        own_horizon_(horizon(view.altitude_m)),
+        planes_(view.bounds()) {}
 
   const glm::dvec3& camera() const { return camera_; }
 
@@ -215,8 +205,38 @@ glm::dvec3 block_direction(const CubeBlock& block, double u, double v) {
                         (static_cast<double>(block.row) + v) * size - 1);
 }
 
+void block_directions(const CubeBlock& block, int parts, std::span<glm::dvec3> out) {
+  const FaceAxes& axes = kFaces[static_cast<std::size_t>(block.face)];
+  const double side = std::ldexp(2.0, -block.level);
+  const auto tangent = [&](std::int64_t place, int part) {
+    const double along = static_cast<double>(place) + static_cast<double>(part) / parts;
+    return std::tan(0.25 * kPi * (along * side - 1));
+  };
+  const auto columns = static_cast<std::size_t>(parts + 1);
+  // The first row holds the columns' directions until it is its turn.
+  for (int column = 0; column <= parts; ++column)
+    out[static_cast<std::size_t>(column)] = axes.out + tangent(block.column, column) * axes.along;
+  for (int row = parts; row >= 0; --row) {
+    const glm::dvec3 across = tangent(block.row, row) * axes.across;
+    for (std::size_t column = 0; column < columns; ++column)
+      out[static_cast<std::size_t>(row) * columns + column] = glm::normalize(out[column] + across);
+  }
+}
+
 double block_arc_m(int level, double radius_m) {
   return std::ldexp(0.5 * kPi * radius_m, -level);
+}
+
+std::vector<glm::dvec4> TerrainView::bounds() const {
+  if (!planes.empty()) return planes;
+  const auto& [right, up, forward] = basis;
+  const double w = tangent.x, h = tangent.y;
+  std::vector<glm::dvec4> frustum;
+  for (const glm::dvec3& inward : {forward * w + right, forward * w - right, forward * h + up,
+                                   forward * h - up, forward}) {
+    frustum.emplace_back(glm::normalize(inward), 0);
+  }
+  return frustum;
 }
 
 Box block_box(const CubeBlock& block, const HeightRange& heights,

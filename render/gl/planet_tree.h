@@ -37,6 +37,10 @@ glm::dvec3 cube_direction(int face, double s, double t);
 // The same of a block; u and v run from 0 to 1.
 glm::dvec3 block_direction(const CubeBlock& block, double u, double v);
 
+// The same at the corners of parts x parts equal parts of a block, rows of growing u first; `out` has
+// (parts + 1)^2.
+void block_directions(const CubeBlock& block, int parts, std::span<glm::dvec3> out);
+
 // Length of the arc that a block's middle line spans.
 double block_arc_m(int level, double radius_m);
 
@@ -68,6 +72,9 @@ struct TerrainView {
   std::vector<glm::dvec4> planes;
 
   glm::dvec3 camera() const { return (radius_m + altitude_m) * axes.z; }  // planet coordinates
+
+  // What bounds it: `planes` or those of the picture's frustum, in the same form.
+  std::vector<glm::dvec4> bounds() const;
 };
 
 struct BlockSelection {

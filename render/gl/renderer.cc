@@ -186,7 +186,7 @@ BlockSelection affordable_blocks(TerrainView& view, BlockStore& store) {
   const HeightsOf heights_of = [&](std::span<const CubeBlock> blocks) {
     store.provide(blocks);
     std::vector<HeightRange> heights;
-    for (const CubeBlock& block : blocks) heights.push_back(store.heights(block));
+    for (const CubeBlock& block : blocks) heights.push_back(store.heights(block).whole);
     return heights;
   };
   for (;;) {
@@ -321,13 +321,14 @@ class GlRenderer final : public FrameDrawer {
     BlockStore& store = terrain_->store();
     store.begin_frame();
     const BlockSelection selection = affordable_blocks(view, store);
-    statistics.blocks_drawn = static_cast<int>(selection.blocks.size());
     statistics.blocks_outside = selection.outside;
     statistics.blocks_behind = selection.behind;
     if (options.shadows) prepare_shadows(options, view, ground_distance);
     statistics.blocks_made = store.made();
     current_.blocks = terrain_->prepare(selection.blocks, view);
-    statistics.triangles = TerrainPass::triangles(current_.blocks);
+    statistics.triangles = current_.blocks.triangles;
+    statistics.blocks_drawn = current_.blocks.blocks;
+    statistics.blocks_hidden = current_.blocks.hidden;
     place_objects(options, statistics);
     current_.farthest_km = 1e-3 * (horizon_m(radius_m_, options.camera.altitude_m) +
                                    horizon_m(radius_m_, ground_->highest_m()));

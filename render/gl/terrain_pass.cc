@@ -25,11 +25,6 @@ struct DrawCommand {
   GLuint base_instance;
 };
 
-const std::vector<std::uint16_t>& indices() {
-  static const std::vector<std::uint16_t> made = block_indices();
-  return made;
-}
-
 GlProgram terrain_program(const char* vertex, const char* fragment) {
   return build_program(
       std::array{ShaderStage{GL_VERTEX_SHADER, vertex}, ShaderStage{GL_FRAGMENT_SHADER, fragment}});
@@ -55,7 +50,7 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m)
       program_(terrain_program("render/shaders/terrain.vert", "render/shaders/terrain.frag")),
       depth_program_(
           terrain_program("render/shaders/terrain_depth.vert", "render/shaders/depth_only.frag")),
-      indices_(upload(std::span(indices()))),
+      indices_(upload(std::span(block_indices().indices))),
       layout_(make_vertex_array()) {
   const GLuint id = layout_.id();
   glVertexArrayElementBuffer(id, indices_.id());
@@ -78,32 +73,46 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m)
 
 TerrainDraw TerrainPass::prepare(std::span<const CubeBlock> blocks,
                                  const TerrainView& view) const {
+  std::vector<MeasuredBlock> measured;
+  for (const CubeBlock& block : blocks) measured.push_back({block, store_.heights(block)});
+  const std::vector<PatchSet> visible = visible_patches(view, measured);
+  const auto& ends = block_indices().patches;
+  TerrainDraw draw;
   std::vector<BlockInstance> instances;
   std::vector<DrawCommand> commands;
-  for (const CubeBlock& block : blocks) {
-    const glm::dvec3 centre = block_centre(block, radius_m_);
-    const auto [begin, end] = morph_range(block, view);
-    commands.push_back({static_cast<GLuint>(indices().size()), 1, 0, store_.first_vertex(block),
-                        static_cast<GLuint>(instances.size())});
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (visible[i].none()) {
+      ++draw.hidden;
+      continue;
+    }
+    for (std::size_t patch = 0; patch < kPatches; ++patch) {
+      if (!visible[i][patch]) continue;
+      if (patch == 0 || !visible[i][patch - 1])
+        commands.push_back({0, 1, ends[patch], store_.first_vertex(blocks[i]),
+                            static_cast<GLuint>(instances.size())});
+      commands.back().count += ends[patch + 1] - ends[patch];
+      draw.triangles += (ends[patch + 1] - ends[patch]) / 3;
+    }
+    const glm::dvec3 centre = block_centre(blocks[i], radius_m_);
+    const auto [begin, end] = morph_range(blocks[i], view);
     instances.push_back({glm::vec3(1e-3 * (centre - view.camera())), static_cast<float>(1e-3 * begin),
                          static_cast<float>(1e-3 * end)});
   }
-  return {upload(std::span<const BlockInstance>(instances)),
-          upload(std::span<const DrawCommand>(commands)), static_cast<int>(commands.size())};
-}
-
-std::int64_t TerrainPass::triangles(const TerrainDraw& draw) {
-  return draw.blocks * static_cast<std::int64_t>(indices().size() / 3);
+  draw.instances = upload(std::span<const BlockInstance>(instances));
+  draw.commands = upload(std::span<const DrawCommand>(commands));
+  draw.runs = static_cast<int>(commands.size());
+  draw.blocks = static_cast<int>(instances.size());
+  return draw;
 }
 
 void TerrainPass::submit(const TerrainDraw& draw) const {
-  if (draw.blocks == 0) return;
+  if (draw.runs == 0) return;
   glVertexArrayVertexBuffer(layout_.id(), 0, store_.vertices(), 0, sizeof(BlockVertex));
   glVertexArrayVertexBuffer(layout_.id(), 1, draw.instances.id(), 0, sizeof(BlockInstance));
   glBindVertexArray(layout_.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draw.commands.id());
   glEnable(GL_CULL_FACE);
-  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, nullptr, draw.blocks, 0);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, nullptr, draw.runs, 0);
   glDisable(GL_CULL_FACE);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }

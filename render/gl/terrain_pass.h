@@ -3,11 +3,12 @@
 // alone, as a light sees it.
 #pragma once
 
-#include <functional>
-#include <vector>
+#include <cstdint>
+#include <span>
 
 #include "render/gl/block_store.h"
 #include "render/gl/objects.h"
+#include "render/gl/patches.h"
 #include "render/gl/planet_tree.h"
 #include "render/gl/projection.h"
 #include "render/gl/site_axes.h"
@@ -17,7 +18,9 @@ namespace skyfit {
 // Blocks ready to be drawn, relative to a camera.
 struct TerrainDraw {
   GlBuffer instances, commands;
-  int blocks = 0;
+  int runs = 0;               // of patches that follow each other: a command each
+  int blocks = 0, hidden = 0;  // in part or as a whole; with no patch that is seen
+  std::int64_t triangles = 0;
 };
 
 class TerrainPass {
@@ -27,15 +30,13 @@ class TerrainPass {
 
   BlockStore& store() { return store_; }
 
-  // Of blocks in the store.
+  // The visible patches of blocks in the store.
   TerrainDraw prepare(std::span<const CubeBlock> blocks, const TerrainView& view) const;
 
   void draw(const TerrainDraw& draw, const Projection& projection, const SiteAxes& axes) const;
 
   // `clip_from_planet`: of positions relative to the camera, planet axes, km.
   void draw_depth(const TerrainDraw& draw, const glm::mat4& clip_from_planet) const;
-
-  static std::int64_t triangles(const TerrainDraw& draw);
 
  private:
   void submit(const TerrainDraw& draw) const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere as one pass over the G-buffer (Sperlhofer 2011, 4.6.2): light reflected by what is seen, dimmed on the
-// way, plus the light that the air scatters into the path; drawn once where there is something (SURFACE) and once for the
-// sky and the suns. See atmosphere_pass.h for the other variants.
+// way, plus the light that the air scatters into the path; drawn where there is something (SURFACE), for the sky, and for the
+// suns in it (DISC). See atmosphere_pass.h for the other variants.
 #include "render/shaders/sky_view.glsl"
 #include "render/shaders/gbuffer.glsl"
 #include "render/shaders/surface_light.glsl"
@@ -27,7 +27,7 @@ layout(std140, binding = 2) uniform Colors {
   mat3 srgb_from_xyz;
 };
 
-in vec2 screen;
+noperspective in vec2 screen;
 layout(location = 0) out vec4 light;  // linear sRGB and luminance, cd/m^2
 layout(location = 1) out float distance_km;
 #ifdef LAYERS
@@ -42,6 +42,7 @@ const float kInfinity = uintBitsToFloat(0x7f800000u);
 
 vec3 srgb(vec4 nodes) { return srgb_from_xyz * (xyz_from_nodes * nodes); }
 
+#ifdef DISC
 // A sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel; its mean is 1.
 float disc(vec3 ray, vec3 sun) {
   float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
@@ -49,6 +50,7 @@ float disc(vec3 ray, vec3 sun) {
   float inside = min(away / kSunRadius, 1.0);
   return cover * (1.0 - 0.6 * (1.0 - sqrt(1.0 - inside * inside))) / 0.8;
 }
+#endif
 
 struct PathLight {
   vec4 in_scatter, reflected, transmittance;
@@ -103,7 +105,9 @@ PathLight light_of(int i, ViewRay ray, float clear) {
     path.in_scatter = radiance(whole.scattering, nu);
     path.transmittance = exp(-whole.depth);
   }
+#ifdef DISC
   path.reflected = clear * path.transmittance * (disc(ray.direction, sun) / kSunSolidAngle);
+#endif
 #endif
 #ifndef SURFACE
   const float in_air = kInfinity;

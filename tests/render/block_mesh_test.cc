@@ -230,7 +230,7 @@ TEST(Skirt, HangsBelowTheBorder) {
 }
 
 TEST(Triangles, FaceOutwardAndTheSkirtClosesTheBorder) {
-  const std::vector<std::uint16_t> indices = block_indices();
+  const std::vector<std::uint16_t>& indices = block_indices().indices;
   ASSERT_EQ(indices.size() % 3, 0u);
   const MadeBlock& made = stored_block({2, 0, 0, 0});
   std::map<std::pair<int, int>, int> edges;

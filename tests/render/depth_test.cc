@@ -127,7 +127,7 @@ TEST(Levels, ReplaceEachOtherWithoutAStep) {
   // Nodes of the tree that are leaves or not seen; a block that only leaves the picture stays one.
   const auto leaves = [](const Frame& frame) {
     const FrameStatistics& s = frame.statistics;
-    return s.blocks_drawn + s.blocks_outside + s.blocks_behind;
+    return s.blocks_drawn + s.blocks_hidden + s.blocks_outside + s.blocks_behind;
   };
   int changes = 0, popped = 0, usual = 0;
   WorstPixel worst, quiet;

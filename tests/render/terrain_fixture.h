@@ -45,7 +45,7 @@ struct MadeBlock {
 inline MadeBlock made_block(const CubeBlock& block) {
   MadeBlock made;
   made.vertices.resize(kBlockVertices);
-  made.heights = make_block(block, relief(), kEarth, made.vertices);
+  made.heights = make_block(block, relief(), kEarth, made.vertices).whole;
   made.centre = block_centre(block, kEarth);
   return made;
 }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// A square that faces the camera, at the depth of the sky and as large as a sun's disc; an instance for each sun.
+#include "render/shaders/view_ray.glsl"
+
+noperspective out vec2 screen;
+
+void main() {
+  vec3 sun = suns[gl_InstanceID].xyz;
+  vec3 right = normalize(cross(sun, abs(sun.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  // The disc's edge is softened over a pixel.
+  vec2 offset = tan(kSunRadius + pixel_angle) * corner;
+  vec3 view = (sun + offset.x * right + offset.y * cross(right, sun)) * site_from_view;
+  screen = view.xy / (tangent * -view.z);
+  gl_Position = vec4(view.xy / tangent, 0.0, -view.z);
+}

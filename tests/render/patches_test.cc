@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// The patches that are left out change no pixel: of the blocks of a view the visible patches give the
+// same depth and colour as all of them.
+#include "render/gl/patches.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "render/gl/terrain_pass.h"
+#include "tests/render/gl_fixture.h"
+#include "tests/render/terrain_fixture.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kWidth = 320, kHeight = 180;
+
+struct Eye {
+  const char* name;
+  double latitude, longitude, above_ground_m, zenith, azimuth, fov;  // degrees
+};
+
+struct Shot {
+  TerrainView view;
+  Projection projection;
+};
+
+Shot shot_of(const Eye& eye) {
+  TerrainView view;
+  view.axes = site_axes(Site{eye.latitude * kDegree, eye.longitude * kDegree, 0});
+  view.altitude_m = eye.above_ground_m + std::max(relief().height_m(view.axes.z, 0.3), 0.0);
+  const Camera camera{view.altitude_m, eye.zenith * kDegree, eye.azimuth * kDegree,
+                      eye.fov * kDegree};
+  view.basis = view_basis(camera);
+  const Projection projection = make_projection(camera, 1.0 * kWidth / kHeight);
+  view.tangent = projection.tangent;
+  view.radius_m = kEarth;
+  view.highest_m = relief().highest_m();
+  view.split_ratio = 2;
+  view.levels = 15;
+  return {view, projection};
+}
+
+struct Picture {
+  std::vector<float> depth, color, surface;
+  TerrainDraw draw;
+};
+
+class Patches : public ::testing::Test {
+ protected:
+  Picture picture(const Shot& shot, bool cull) {
+    TerrainView view = shot.view;
+    store().begin_frame();
+    const BlockSelection selection = select_blocks(view, [&](std::span<const CubeBlock> blocks) {
+      store().provide(blocks);
+      std::vector<HeightRange> heights;
+      for (const CubeBlock& block : blocks) heights.push_back(store().heights(block).whole);
+      return heights;
+    });
+    view.cull = cull;
+    Picture made;
+    made.draw = terrain_.prepare(selection.blocks, view);
+    graph_.add_target("color", GL_RGBA8, kWidth, kHeight);
+    graph_.add_target("surface", GL_RGBA16F, kWidth, kHeight);
+    graph_.add_target("depth", GL_DEPTH_COMPONENT32F, kWidth, kHeight);
+    graph_.run(std::array{Pass{"terrain", {}, {"color", "surface", "depth"}, [&] {
+                                 const std::array<float, 4> nothing{};
+                                 const float far_depth = 0;
+                                 glClearBufferfv(GL_COLOR, 0, nothing.data());
+                                 glClearBufferfv(GL_COLOR, 1, nothing.data());
+                                 glClearBufferfv(GL_DEPTH, 0, &far_depth);
+                                 glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+                                 glEnable(GL_DEPTH_TEST);
+                                 glDepthFunc(GL_GREATER);
+                                 terrain_.draw(made.draw, shot.projection, view.axes);
+                               }}});
+    made.depth = graph_.read_back("depth", GL_DEPTH_COMPONENT, 1);
+    made.color = graph_.read_back("color", GL_RGBA, 4);
+    made.surface = graph_.read_back("surface", GL_RGBA, 4);
+    return made;
+  }
+
+ private:
+  BlockStore& store() { return terrain_.store(); }
+
+  std::unique_ptr<GlContext> context_ = make_osmesa_context();
+  TerrainPass terrain_{relief(), kEarth};
+  FrameGraph graph_;
+};
+
+// Places in and near the valley; eyes in, over and far above the ground.
+const std::vector<Eye>& eyes() {
+  static const std::vector<Eye> made = [] {
+    std::vector<Eye> list;
+    for (const double azimuth : {0.0, 70.0, 140.0, 210.0, 280.0}) {
+      for (const double above : {1.0, 20.0, 300.0, 3e3, 40e3})
+        list.push_back({"about the valley", -71.6, -76.8, above, 90, azimuth, 50});
+      list.push_back({"down a slope", -71.5, -76.7, 1500, 120, azimuth, 90});
+      list.push_back({"a narrow view", -71.62, -76.82, 10, 91, azimuth, 5});
+    }
+    list.push_back({"from orbit", 12, 41, 400e3, 110, 0, 60});
+    list.push_back({"the whole disc", 12, 41, 20e6, 180, 0, 40});
+    list.push_back({"straight down", 12, 41, 500, 180, 0, 60});
+    return list;
+  }();
+  return made;
+}
+
+TEST_F(Patches, ThatAreLeftOutChangeNoPixel) {
+  std::int64_t drawn = 0, whole = 0;
+  int seen = 0;
+  for (const Eye& eye : eyes()) {
+    const Shot shot = shot_of(eye);
+    const Picture some = picture(shot, true), all = picture(shot, false);
+    EXPECT_LE(some.draw.triangles, all.draw.triangles);
+    drawn += some.draw.triangles;
+    whole += all.draw.triangles;
+    int different = 0;
+    for (std::size_t i = 0; i < all.depth.size(); ++i) {
+      bool same = some.depth[i] == all.depth[i];
+      for (std::size_t k = 0; k < 4; ++k) {
+        same = same && some.color[4 * i + k] == all.color[4 * i + k] &&
+               some.surface[4 * i + k] == all.surface[4 * i + k];
+      }
+      different += same ? 0 : 1;
+      seen += all.depth[i] > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(different, 0) << eye.name << ", " << eye.above_ground_m << " m, azimuth "
+                            << eye.azimuth;
+  }
+  std::printf("[ drawn  ] %.1f %% of the triangles of the blocks, in %zu views\n",
+              100.0 * static_cast<double>(drawn) / static_cast<double>(whole), eyes().size());
+  EXPECT_GT(seen, 1000000);
+  EXPECT_LT(drawn, whole / 2);
+}
+
+// Ground behind a ridge is hidden from its foot and seen from above it.
+TEST(Horizon, HidesWhatLiesBehindARidge) {
+  TerrainView view;
+  view.axes = site_axes({});
+  view.altitude_m = 2;
+  view.basis = view_basis({2, 0.5 * std::numbers::pi, 0, 1});
+  view.tangent = {2, 2};
+  view.radius_m = kEarth;
+  constexpr int kLevel = 12;
+  const double arc = block_arc_m(kLevel, kEarth) / kEarth;
+  // The blocks about a place as many arcs ahead and to the left; all of one height.
+  const auto blocks_at = [&](double ahead, double half_width, double height) {
+    std::set<CubeBlock> found;
+    for (double left = -half_width; left <= half_width; left += 0.5) {
+      for (const double further : {-0.5, 0.0, 0.5}) {
+        found.insert(block_at(glm::normalize(view.axes.z + std::tan((ahead + further) * arc) * view.axes.x +
+                                             std::tan(left * arc) * view.axes.y),
+                              kLevel));
+      }
+    }
+    std::vector<MeasuredBlock> measured;
+    for (const CubeBlock& block : found) {
+      measured.push_back({block, {{height, height}, {}}});
+      measured.back().heights.patches.fill({height, height});
+    }
+    return measured;
+  };
+  const std::vector<MeasuredBlock> ridge = blocks_at(4, 8, 500);
+  const auto share_seen = [&](const std::vector<MeasuredBlock>& behind) {
+    std::vector<MeasuredBlock> blocks = behind;
+    blocks.insert(blocks.end(), ridge.begin(), ridge.end());
+    const std::vector<PatchSet> visible = visible_patches(view, blocks);
+    std::size_t patches = 0;
+    for (std::size_t i = 0; i < behind.size(); ++i) patches += visible[i].count();
+    return static_cast<double>(patches) / static_cast<double>(behind.size() * kPatches);
+  };
+  const std::vector<MeasuredBlock> plain = blocks_at(9, 3, 0), summit = blocks_at(9, 3, 3000);
+  // Where the borders between patches of the ridge run toward the camera, none fills a whole sector.
+  EXPECT_LT(share_seen(plain), 0.05);
+  EXPECT_GT(share_seen(summit), 0.1);  // the side toward the camera: level ground hides itself
+  view.altitude_m = 1500;
+  EXPECT_EQ(share_seen(plain), 1);
+  view.altitude_m = 2;
+  view.planes = view.bounds();  // no camera's
+  EXPECT_EQ(share_seen(plain), 1);
+}
+
+}  // namespace
+}  // namespace skyfit
