@@ -2,6 +2,7 @@
 #include "render/gl/atmosphere_pass.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include "model/shared/shared.h"
 #include "render/gl/shader.h"
 #include "render/gl/uniform_block.h"
+#include "render/gl/uniforms.h"
 
 namespace skyfit {
 namespace {
@@ -21,11 +23,24 @@ void add(const std::string& name, const Table& table, FrameGraph& graph) {
 
 // Rows and columns of the sky's view for each texel of the scattering table.
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
+glm::ivec3 sky_view_size(const TableSizes& sizes) {  // columns of a sun, rows to the ground, rows to the sky
+  return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
+          (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
+          (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
+}
+
 // Above it each pixel looks up its own ray.
 constexpr double kAbove = 20e3;  // m
 
-// What atmosphere.frag is drawn for.
-constexpr std::string_view kSky = "SKY", kDisc = "DISC", kSurface = "SURFACE";
+const std::string kSkyView = "render/shaders/sky_view.frag",
+                  kFillVolume = "render/shaders/aerial_volume.comp",
+                  kAtmosphere = "render/shaders/atmosphere.frag";
+
+// What the last may be drawn for besides the sky.
+const std::string kDisc = "DISC", kSurface = "SURFACE", kGrains = "GRAINS";
+
+// Depths that stand for the classes of pixels; exact in single precision.
+constexpr double kSkyClass = 0, kGrainlessClass = 0.5, kGrainyClass = 1;
 
 // After those of kAtmosphereReads.
 constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14, kMaterialUnit = 17;
@@ -54,6 +69,10 @@ GlTexture density_texture(const Atmosphere<double>& a) {
   return texture;
 }
 
+double pixel_rad(const FrameOptions& options) {
+  return options.camera.vertical_fov / (options.height * options.samples_per_side);
+}
+
 glm::vec4 second_sun(const SecondSun& sun) {
   const double s = std::sin(sun.zenith);
   return {s * std::cos(sun.azimuth), -s * std::sin(sun.azimuth), std::cos(sun.zenith),
@@ -80,24 +99,26 @@ glm::vec4 scattering_per_km(const AtmosphereTables& tables, const PowerLaw<doubl
   return values;
 }
 
-GlBuffer color_block(const ColorRule& color, GLuint program) {
-  glm::mat4x3 xyz_from_nodes;
-  glm::mat3 srgb_from_xyz;
-  for (int row = 0; row < 3; ++row) {
-    const auto r = static_cast<std::size_t>(row);
-    for (int node = 0; node < 4; ++node) {
-      xyz_from_nodes[node][row] =
-          static_cast<float>(color.xyz_from_nodes[r][static_cast<std::size_t>(node)]);
+// Columns: a node each.
+std::array<double, 16> light_from_nodes(const ColorRule& color) {
+  std::array<double, 16> columns{};
+  for (std::size_t node = 0; node < 4; ++node) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t k = 0; k < 3; ++k)
+        columns[4 * node + row] += kLinearSrgbFromXyz[row][k] * color.xyz_from_nodes[k][node];
     }
-    for (int k = 0; k < 3; ++k) {
-      srgb_from_xyz[k][row] =
-          static_cast<float>(kLinearSrgbFromXyz[r][static_cast<std::size_t>(k)]);
-    }
+    columns[4 * node + 3] = color.xyz_from_nodes[1][node];
   }
-  UniformBlock block(program, "Colors");
-  block.set("xyz_from_nodes", xyz_from_nodes);
-  block.set("srgb_from_xyz", srgb_from_xyz);
-  return block.bind();
+  return columns;
+}
+
+std::vector<ShaderStage> stages_of(const std::string& path, const std::vector<std::string>& defined) {
+  if (path == kFillVolume) return {{GL_COMPUTE_SHADER, path}};
+  const bool disc = std::ranges::find(defined, kDisc) != defined.end();
+  const char* const vertex = path != kAtmosphere ? "render/shaders/fullscreen.vert"
+                             : disc              ? "render/shaders/sun.vert"
+                                                 : "render/shaders/atmosphere.vert";
+  return {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, path}};
 }
 
 }  // namespace
@@ -113,14 +134,8 @@ void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
 GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program) {
   const Atmosphere<double>& a = tables.atmosphere;
   const AerosolPhase<double>& phase = a.mie.phase;
-  const TableSizes& sizes = tables.sizes;
   UniformBlock block(program, "Atmosphere");
-  block.set("bottom_km", 1e-3 * a.bottom_radius_m);
-  block.set("thickness_km", 1e-3 * (a.top_radius_m - a.bottom_radius_m));
-  block.set("mu_s_min", kTableLowestSun);
   block.set("depolarisation", a.rayleigh.depolarisation);
-  block.set("scattering_size", glm::vec4(sizes.scattering_mu_s, sizes.scattering_azimuth,
-                                         sizes.scattering_ground, sizes.scattering_sky));
   block.set("phase_parameters", glm::vec4(phase.g, phase.g1, phase.g2, phase.weight));
   block.set("ground_albedo", ground_albedo(tables));
   block.set("air_scattering", scattering_per_km(tables, a.rayleigh.scattering_per_m,
@@ -139,7 +154,15 @@ bool AtmospherePass::has_sky_view(const FrameOptions& options) {
   return options.camera.altitude_m <= kAbove;
 }
 
-AtmospherePass::AtmospherePass() : empty_(make_vertex_array()) {}
+AtmospherePass::AtmospherePass()
+    : classes_(build_program(
+          std::array{ShaderStage{GL_VERTEX_SHADER, "render/shaders/fullscreen.vert"},
+                     ShaderStage{GL_FRAGMENT_SHADER, "render/shaders/pixel_class.frag"}},
+          {},
+          std::array{fmt::format("SKY_CLASS {:.1f}", kSkyClass),
+                     fmt::format("GRAINLESS_CLASS {:.1f}", kGrainlessClass),
+                     fmt::format("GRAINY_CLASS {:.1f}", kGrainyClass)})),
+      empty_(make_vertex_array()) {}
 
 void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   tables_.atmosphere = tables.atmosphere;
@@ -149,35 +172,37 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables) {
 }
 
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
-  const AerosolPhase<double>& phase = tables.atmosphere.mie.phase;
+  const Atmosphere<double>& a = tables.atmosphere;
+  const AerosolPhase<double>& phase = a.mie.phase;
+  const TableSizes& s = tables.sizes;
+  const glm::ivec3 sky_view = sky_view_size(s);
   return {fmt::format("PHASE_TYPE {}", static_cast<int>(phase.type)),
-          fmt::format("LOBE_TYPE {}", static_cast<int>(phase.lobe))};
+          fmt::format("LOBE_TYPE {}", static_cast<int>(phase.lobe)),
+          fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
+          fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
+          fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
+          fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
+          fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
+          fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
+                      s.scattering_ground, s.scattering_sky),
+          fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
+          fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
+          fmt::format("LIGHT_FROM_NODES {:.9g}", fmt::join(light_from_nodes(tables.color), ", "))};
 }
 
 GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
   const auto key = std::pair(path, defined);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second.id();
-  const bool disc = std::ranges::find(defined, kDisc) != defined.end();
-  std::vector<ShaderStage> stages = {
-      {GL_VERTEX_SHADER, disc ? "render/shaders/sun.vert" : "render/shaders/fullscreen.vert"},
-      {GL_FRAGMENT_SHADER, path}};
-  if (path.ends_with(".comp")) stages = {{GL_COMPUTE_SHADER, path}};
-  return programs_.emplace(key, build_program(stages, {}, defined)).first->second.id();
+  return programs_.emplace(key, build_program(stages_of(path, defined), {}, defined)).first->second.id();
 }
 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
   Defined defined = atmosphere_defines(tables_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
+
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
   return defined;
-}
-
-glm::ivec3 AtmospherePass::sky_view_size() const {
-  const TableSizes& sizes = tables_.sizes;
-  return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
-          (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
-          (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
 }
 
 void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
@@ -188,10 +213,8 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   block.set("tangent", view.projection.tangent);
   block.set("camera_km", 1e-3 * options.camera.altitude_m);
   block.set("near_km", view.projection.near_km);
-  block.set("pixel_angle",
-            options.camera.vertical_fov / (options.height * options.samples_per_side));
+  block.set("pixel_angle", pixel_rad(options));
   block.set("volume_km", view.farthest_km);
-  block.set("sky_view_size", glm::vec4(sky_view_size(), 0));
   std::vector<glm::vec4> suns = {{std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
   block.set("suns", std::span<const glm::vec4>(suns));
@@ -201,7 +224,7 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
 }
 
 void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {
-  const glm::ivec3 size = sky_view_size();
+  const glm::ivec3 size = sky_view_size(tables_.sizes);
   for (const std::string& target : kSkyViewWrites)
     graph.add_target(target, GL_RGBA32F, size.x * (options.second_sun ? 2 : 1), size.y + size.z);
 }
@@ -213,35 +236,45 @@ void AtmospherePass::draw_triangle(GLuint program) const {
 }
 
 void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
-  const GLuint id = program("render/shaders/sky_view.frag", defined_by(view.options));
+  const GLuint id = program(kSkyView, defined_by(view.options));
   bind_blocks(id, view);
   draw_triangle(id);
 }
 
 void AtmospherePass::fill_volume(const AtmosphereView& view) {
   if (!volume_) volume_.emplace();
-  const GLuint id = program("render/shaders/aerial_volume.comp", defined_by(view.options));
+  const GLuint id = program(kFillVolume, defined_by(view.options));
   bind_blocks(id, view);
   volume_->fill(id);
 }
 
-GLuint AtmospherePass::variant(std::string_view what, const AtmosphereView& view) {
+GLuint AtmospherePass::variant(const Defined& what, const AtmosphereView& view) {
   Defined defined = defined_by(view.options);
-  defined.emplace_back(what);
-  if (what == kSurface && view.volume(tables_)) defined.push_back("VOLUME");
+  defined.insert(defined.end(), what.begin(), what.end());
+  if (!what.empty() && what.front() == kSurface && view.volume(tables_))
+    defined.push_back("VOLUME");
   if (view.options.layers) defined.push_back("LAYERS");
   if (view.options.clouds) defined.push_back("CLOUDS");
   if (view.shadows != nullptr) defined.push_back("SHADOWS");
-  return program("render/shaders/atmosphere.frag", defined);
+  return program(kAtmosphere, defined);
+}
+
+void AtmospherePass::classify(const AtmosphereView& view) const {
+  const double grainless_km = 1e-3 * Materials::grainless_distance_m(pixel_rad(view.options));
+  Uniforms(classes_.id()).set("grainless_depth", view.projection.near_km / grainless_km);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  draw_triangle(classes_.id());
+  glDisable(GL_DEPTH_TEST);
 }
 
 void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_maps) {
-  const GLuint sky = variant(kSky, view), disc = variant(kDisc, view);
-  const GLuint surface = variant(kSurface, view);
+  const GLuint sky = variant({}, view), disc = variant({kDisc}, view);
+  const GLuint grainless = variant({kSurface}, view);
+  const GLuint grainy = variant({kSurface, kGrains}, view);
   bind_blocks(sky, view);
-  blocks_.push_back(color_block(tables_.color, sky));
   if (view.shadows != nullptr) {
-    blocks_.push_back(shadow_maps.bind(*view.shadows, surface, kShadowUnit));
+    blocks_.push_back(shadow_maps.bind(*view.shadows, grainy, kShadowUnit));
     glBindTextureUnit(kShadowUnit + 1, densities_.id());
   }
   if (view.options.clouds) {
@@ -251,16 +284,20 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
   if (view.volume(tables_)) volume_->bind(kVolumeUnit);
   const glm::dvec3 camera =
       (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
-  blocks_.push_back(view.materials.bind(camera, surface, kMaterialUnit));
-  // The triangle and the squares about the suns lie at depth 0, as the sky does.
+  blocks_.push_back(view.materials.bind(camera, grainy, kMaterialUnit));
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
+  // The triangle and the squares about the suns lie at the near end of the range of depths.
   glDepthFunc(GL_EQUAL);
+  glDepthRange(kSkyClass, 1);
   draw_triangle(sky);
   glUseProgram(disc);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
-  glDepthFunc(GL_LESS);
-  draw_triangle(surface);
+  glDepthRange(kGrainlessClass, 1);
+  draw_triangle(grainless);
+  glDepthRange(kGrainyClass, 1);
+  draw_triangle(grainy);
+  glDepthRange(0, 1);
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
 }

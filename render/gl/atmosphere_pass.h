@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere over the G-buffer. Reads the tables and the G-buffer in the order of
 // kAtmosphereReads; writes light (linear sRGB and luminance, cd/m^2), the distance from the camera
-// (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites. Surfaces, the sky
-// and the suns' discs are drawn apart, each by a shader that does no more than it must: the depth
-// test tells them apart. Before it, the light of whole rays from the eye is looked up once
+// (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites. The sky, the
+// suns' discs, surfaces and those near enough to show their grains are drawn apart, each by a shader
+// that does no more than it must: the pixels are sorted into classes before, which the depth test
+// tells apart. Before it, the light of whole rays from the eye is looked up once
 // for all pixels, into the targets kSkyViewWrites.
 #pragma once
 
@@ -11,7 +12,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "render/gl/aerial_volume.h"
@@ -30,7 +30,7 @@ inline const std::vector<std::string> kTableReads = {"optical_depth", "irradianc
                                                      "rayleigh_like", "single_mie", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
     "optical_depth", "irradiance", "rayleigh_like",      "single_mie",
-    "phase",         "color",      "surface", "depth_copy",
+    "phase",         "color",      "surface", "depth",
     "view_air",      "view_aerosol", "view_depth"};
 
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",
@@ -41,7 +41,8 @@ void add_tables(const AtmosphereTables& tables, FrameGraph& graph);
 
 inline const std::vector<std::string> kSkyViewWrites = {"view_air", "view_aerosol", "view_depth"};
 
-// What render/shaders/atmosphere.glsl needs to know of the tables.
+// What render/shaders/atmosphere.glsl needs to know of the tables: what no blend of two atmospheres
+// changes, as text to #define, and the rest.
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables);
 GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program);
 
@@ -72,21 +73,24 @@ class AtmospherePass {
   void draw_sky_view(const AtmosphereView& view);
   void fill_volume(const AtmosphereView& view);
 
-  // After draw_sky_view() and fill_volume() of the same view where it has them. Compiles the
-  // variants that the options need, when they are new. The depth target holds the G-buffer's depth.
+  // Sorts the pixels by the G-buffer's depth; what it writes is the depth target of draw().
+  void classify(const AtmosphereView& view) const;
+
+  // After the passes above of the same view, as far as it has them.
+  // Compiles the variants that the options need, when they are new.
   void draw(const AtmosphereView& view, const ShadowPass& shadow_maps);
 
  private:
   using Defined = std::vector<std::string>;
   GLuint program(const std::string& path, const Defined& defined);
   Defined defined_by(const FrameOptions& options) const;
-  GLuint variant(std::string_view what, const AtmosphereView& view);
-  glm::ivec3 sky_view_size() const;  // columns of a sun, rows to the ground, rows to the sky
+  GLuint variant(const Defined& what, const AtmosphereView& view);
   void bind_blocks(GLuint program, const AtmosphereView& view);
   void draw_triangle(GLuint program) const;
 
   AtmosphereTables tables_;  // without the tables' values
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
+  GlProgram classes_;
   GlVertexArray empty_;
   GlTexture densities_;                   // over height
   std::optional<AerialVolume> volume_;    // made when first used

@@ -20,6 +20,8 @@ namespace {
 
 constexpr int kSide = kMaterialSide;
 constexpr double kGrainPeriod = 1.5, kCragPeriod = 190;  // m: a unit of each texture
+constexpr int kLastLevel = 6;                        // mipmap of one texel
+static_assert(1 << kLastLevel == kSide);
 constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
 
 std::size_t texel(int x, int y, int z) {
@@ -43,8 +45,7 @@ GlTexture solid_texture(const MaterialTexels& texels) {
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_3D, 1, &id);
   GlTexture texture(id);
-  const int levels = static_cast<int>(std::lround(std::log2(kSide))) + 1;
-  glTextureStorage3D(id, levels, GL_RGBA8, kSide, kSide, kSide);
+  glTextureStorage3D(id, kLastLevel + 1, GL_RGBA8, kSide, kSide, kSide);
   glTextureSubImage3D(id, 0, 0, 0, 0, kSide, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE,
                       texels.data());
   glGenerateTextureMipmap(id);
@@ -128,7 +129,11 @@ MaterialTexels load_texture(Texture texture, const std::filesystem::path& direct
 
 Materials::Materials(const std::filesystem::path& directory)
     : grains_(solid_texture(load_texture(Texture::kGrains, directory))),
-      crags_(solid_texture(load_texture(Texture::kCrags, directory))) {}
+      crags_(solid_texture(load_texture(Texture::kCrags, directory))) {
+  glGetTextureImage(grains_.id(), kLastLevel, GL_RGBA, GL_FLOAT, sizeof grain_mean_, &grain_mean_);
+}
+
+double Materials::grainless_distance_m(double pixel_rad) { return kGrainPeriod / pixel_rad; }
 
 GlBuffer Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit) const {
   glBindTextureUnit(unit, grains_.id());
@@ -138,6 +143,8 @@ GlBuffer Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit) 
   block.set("grains_per_km", 1e3 / kGrainPeriod);
   block.set("crag_phase", glm::vec3(glm::fract(camera / kCragPeriod)));
   block.set("crags_per_km", 1e3 / kCragPeriod);
+  block.set("grain_mean", grain_mean_);
+  block.set("finer_grain_levels", std::log2(kCragPeriod / kGrainPeriod));
   return block.bind();
 }
 

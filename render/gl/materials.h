@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 #include "render/gl/objects.h"
@@ -30,12 +31,16 @@ class Materials {
  public:
   explicit Materials(const std::filesystem::path& directory);
 
+  // Beyond it the grains are smaller than a pixel of that angle.
+  static double grainless_distance_m(double pixel_rad);
+
   // As two textures from `unit` on, and what the shader needs, which is bound while the buffer lives.
   // `camera`: planet coordinates, m.
   GlBuffer bind(const glm::dvec3& camera, GLuint program, GLuint unit) const;
 
  private:
   GlTexture grains_, crags_;
+  glm::vec4 grain_mean_;
 };
 
 }  // namespace skyfit

@@ -111,12 +111,6 @@ std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
   return times;
 }
 
-void FrameGraph::copy(const std::string& from, const std::string& to) const {
-  const Texture& source = texture(from);
-  glCopyImageSubData(source.object.id(), GL_TEXTURE_2D, 0, 0, 0, 0, texture(to).object.id(),
-                     GL_TEXTURE_2D, 0, 0, 0, 0, source.width, source.height, 1);
-}
-
 void FrameGraph::bind(const std::string& name, GLuint unit) const {
   glBindTextureUnit(unit, texture(name).object.id());
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame is a list of passes over named textures. The list is the renderer's documentation: what a
 // pass reads is bound to texture units 0, 1, ... in the order of `reads`; what it writes are the
-// colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target. A texture
-// that a pass both reads and writes must be a depth texture that it does not change.
+// colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target.
 #pragma once
 
 #include <functional>
@@ -33,9 +32,6 @@ class FrameGraph {
   // Runs the passes in order and returns the time that each took by the device's timers. Throws std::runtime_error that names the pass: an unknown texture, an
   // incomplete framebuffer, an OpenGL error.
   std::vector<PassTime> run(std::span<const Pass> passes) const;
-
-  // Between targets of the same format and size.
-  void copy(const std::string& from, const std::string& to) const;
 
   void bind(const std::string& name, GLuint unit) const;
 

@@ -50,7 +50,7 @@ void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   graph.add_target("depth", GL_DEPTH_COMPONENT32F, width, height);
   graph.add_target("light", GL_RGBA32F, width, height);
   graph.add_target("distance", GL_R32F, width, height);
-  graph.add_target("depth_copy", GL_DEPTH_COMPONENT32F, width, height);
+  graph.add_target("class", GL_DEPTH_COMPONENT32F, width, height);
   if (!layers) return;
   for (const std::string& layer : kLayerWrites)
     graph.add_target(layer, GL_RGBA32F, width, height);
@@ -377,8 +377,7 @@ class GlRenderer final : public FrameDrawer {
                         draw_objects();
                       }});
     }
-    // A texture is not read by the pass that tests against it.
-    list.push_back({"copy of the depth", {}, {}, [this] { graph_.copy("depth", "depth_copy"); }});
+    list.push_back({"classes", {"depth"}, {"class"}, [this, view] { atmosphere_.classify(view); }});
     if (AtmospherePass::has_sky_view(options)) {
       list.push_back({"sky view", kTableReads, kSkyViewWrites, [this, view] {
                         atmosphere_.draw_sky_view(view);
@@ -391,7 +390,7 @@ class GlRenderer final : public FrameDrawer {
     }
     std::vector<std::string> lights = {"light", "distance"};
     if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
-    lights.emplace_back("depth");
+    lights.emplace_back("class");
     list.push_back({"atmosphere", kAtmosphereReads, lights, [this, view] {
                       atmosphere_.draw(view, shadow_maps());
                     }});

@@ -22,12 +22,9 @@ layout(binding = 5) uniform sampler2D color;
 layout(binding = 6) uniform sampler2D surface_target;
 layout(binding = 7) uniform sampler2D depth;
 
-layout(std140, binding = 2) uniform Colors {
-  mat4x3 xyz_from_nodes;
-  mat3 srgb_from_xyz;
-};
+const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // linear sRGB and luminance, cd/m^2
 
-noperspective in vec2 screen;
+noperspective in vec3 site_ray, planet_ray;  // pixel_ray.glsl
 layout(location = 0) out vec4 light;  // linear sRGB and luminance, cd/m^2
 layout(location = 1) out float distance_km;
 #ifdef LAYERS
@@ -40,7 +37,7 @@ layout(location = 6) out vec4 normal_layer;
 
 const float kInfinity = uintBitsToFloat(0x7f800000u);
 
-vec3 srgb(vec4 nodes) { return srgb_from_xyz * (xyz_from_nodes * nodes); }
+vec3 srgb(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
 
 #ifdef DISC
 // A sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel; its mean is 1.
@@ -131,14 +128,15 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 }
 
 void main() {
-  float stretch;
-  ViewRay ray = view_ray(direction_at(screen, stretch));
+  float stretch = length(site_ray);
+  ViewRay ray = view_ray(site_ray / stretch);
 #ifdef SURFACE
   Surface surface;
-  surface.d = near_km / texelFetch(depth, ivec2(gl_FragCoord.xy), 0).x * stretch;
+  float along_axis = near_km / texelFetch(depth, ivec2(gl_FragCoord.xy), 0).x;
+  surface.d = along_axis * stretch;
   vec4 shape = texelFetch(surface_target, ivec2(gl_FragCoord.xy), 0);
   surface.normal = from_octahedral(shape.xy);
-  float light_or_dark = add_material(surface.d * ray.direction, surface.d, ray.direction, shape.z, surface.normal);
+  float light_or_dark = add_material(along_axis * planet_ray, surface.d, ray.direction, shape.z, surface.normal);
   surface.reflectance = min(texelFetch(color, ivec2(gl_FragCoord.xy), 0) * (shape.w * kPi * light_or_dark), 1.0);
   surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
   if (ray.hits_ground) surface.d = min(surface.d, ray.entry + distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0));
@@ -168,8 +166,7 @@ void main() {
   path.in_scatter += other.in_scatter;
   path.reflected += other.reflected;
 #endif
-  vec3 xyz = xyz_from_nodes * (path.in_scatter + path.reflected);
-  light = vec4(srgb_from_xyz * xyz, xyz.y);
+  light = light_from_nodes * (path.in_scatter + path.reflected);
   distance_km = d;
 #ifdef LAYERS
   vec3 white = srgb(vec4(1.0));

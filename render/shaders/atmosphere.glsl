@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere's tables as functions. Lengths in kilometres, values at the four wavelengths of the colour rule, per
 // unit solar irradiance. A point is its height above the bottom radius; see model/tables.h for what each table holds.
-// PHASE_TYPE and LOBE_TYPE (of two lobes) are defined as the atmosphere's PhaseType, model/atmosphere.h.
+// What stays the same for a renderer's life is defined, which saves the software renderer much of its time (it loads a uniform
+// anew at each use): see atmosphere_defines(), render/gl/atmosphere_pass.h.
 #include "model/shared/geometry.glsl"
 #include "model/shared/phase.glsl"
 #include "model/shared/mapping.glsl"
@@ -13,16 +14,19 @@ layout(binding = 3) uniform sampler3D single_mie_table;
 layout(binding = 4) uniform sampler2D phase_table;  // logarithm of a tabulated phase function
 
 layout(std140, binding = 0) uniform Atmosphere {
-  float bottom_km;
-  float thickness_km;
-  float mu_s_min;
   float depolarisation;     // of the air
-  vec4 scattering_size;     // mu_s, azimuth, rays to the ground, rays to the sky
   vec4 phase_parameters;    // g, g1, g2, weight; not of a tabulated phase function
   vec4 ground_albedo;
   vec4 air_scattering;      // 1/km at h = 0
   vec4 aerosol_scattering;
 };
+
+const float bottom_km = BOTTOM_KM;
+const float thickness_km = THICKNESS_KM;
+const vec2 optical_depth_size = vec2(OPTICAL_DEPTH_SIZE);
+const vec2 irradiance_size = vec2(IRRADIANCE_SIZE);
+const vec4 scattering_size = vec4(SCATTERING_SIZE);  // mu_s, azimuth, rays to the ground, rays to the sky
+const float scattering_heights = float(SCATTERING_HEIGHTS);
 
 const float kPi = 3.14159265358979;
 const float kSunRadius = 0.004654793;       // rad, at 1 au
@@ -45,9 +49,8 @@ float height_coordinate(float h, float size) {
 
 // From the point to the top, for rays that miss the ground.
 vec4 optical_depth_to_top(float h, float mu) {
-  vec2 size = vec2(textureSize(optical_depth_table, 0));
-  float x = texture_from_unit(unit_from_upward_ray(h, mu, bottom_km, thickness_km), size.x);
-  return texture(optical_depth_table, vec2(x, height_coordinate(h, size.y)));
+  float x = texture_from_unit(unit_from_upward_ray(h, mu, bottom_km, thickness_km), optical_depth_size.x);
+  return texture(optical_depth_table, vec2(x, height_coordinate(h, optical_depth_size.y)));
 }
 
 // Of the sun's beam; the disc sinks behind the horizon over its diameter.
@@ -61,14 +64,13 @@ vec4 sun_transmittance(float h, float mu_s) {
 }
 
 // Below the lowest sun of the tables the twilight falls by e per degree of the sun's height.
-float deep_twilight(float sun) { return exp(min((sun - mu_s_min) * 57.3, 0.0)); }
+float deep_twilight(float sun) { return exp(min((sun - LOWEST_SUN) * 57.3, 0.0)); }
 
 // Diffuse, on a horizontal surface that faces up.
 vec4 sky_irradiance(float h, float mu_s) {
-  vec2 size = vec2(textureSize(irradiance_table, 0));
   float sun = sun_height(h, mu_s, bottom_km);
-  float x = texture_from_unit(unit_from_sun(sun, mu_s_min), size.x);
-  return deep_twilight(sun) * texture(irradiance_table, vec2(x, height_coordinate(h, size.y)));
+  float x = texture_from_unit(unit_from_sun(sun, LOWEST_SUN), irradiance_size.x);
+  return deep_twilight(sun) * texture(irradiance_table, vec2(x, height_coordinate(h, irradiance_size.y)));
 }
 
 // A point on the view ray, as the tables see it.
@@ -94,11 +96,11 @@ Scattering scattering(Place from, float nu, bool hits_ground) {
   float turn = unit_from_azimuth(cosine_of_azimuth(at.mu, at.mu_s, nu)) * (scattering_size.y - 1.0);
   float first = min(floor(turn), scattering_size.y - 2.0);
   float sun = sun_height(at.h, at.mu_s, bottom_km);
-  float u_sun = texture_from_unit(unit_from_sun(sun, mu_s_min), scattering_size.x);
+  float u_sun = texture_from_unit(unit_from_sun(sun, LOWEST_SUN), scattering_size.x);
   vec3 near = vec3((first + u_sun) / scattering_size.y,
                    texture_from_view(from.h, from.mu, hits_ground, scattering_size.z, scattering_size.w, bottom_km,
                                      thickness_km),
-                   height_coordinate(from.h, float(textureSize(rayleigh_like_table, 0).z)));
+                   height_coordinate(from.h, scattering_heights));
   vec3 far = near + vec3(1.0 / scattering_size.y, 0.0, 0.0);
   vec4 rayleigh_like = mix(texture(rayleigh_like_table, near), texture(rayleigh_like_table, far), turn - first);
   vec4 single_mie = mix(texture(single_mie_table, near), texture(single_mie_table, far), turn - first);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One triangle over the whole picture; screen runs from -1 to 1.
-noperspective out vec2 screen;
+out vec2 screen;
 
 void main() {
   screen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);

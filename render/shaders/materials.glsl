@@ -11,20 +11,25 @@ layout(std140, binding = 5) uniform Materials {
   float grains_per_km;
   vec3 crag_phase;
   float crags_per_km;
+  vec4 grain_mean;           // of the texture: its last mipmap
+  float finer_grain_levels;  // log2(grains_per_km / crags_per_km)
 };
 
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
 const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);
 const vec2 kGrainContrast = vec2(1.0, 0.8), kCragContrast = vec2(0.4, 0.5);
 
-// Tilts the normal and returns the factor of the reflectance. `position` is relative to the camera, km, in the camera
-// frame; rock < 0: neither material.
-float add_material(vec3 position, float d, vec3 ray, float rock, inout vec3 normal) {
+// Tilts the normal and returns the factor of the reflectance. `place` is relative to the camera, km, in the planet's axes,
+// `ray` and `normal` are in the camera frame; rock < 0: neither material.
+float add_material(vec3 place, float d, vec3 ray, float rock, inout vec3 normal) {
   // Between the two mipmaps whose texels are about a pixel, seen at a slant.
   float texels = 64.0 * d * pixel_angle * inversesqrt(max(abs(dot(ray, normal)), 0.1));
   float level = log2(texels * crags_per_km);
-  vec3 place = planet_from_site * position;
-  vec4 grain = textureLod(grains, grain_phase + grains_per_km * place, level + log2(grains_per_km / crags_per_km));
+#ifdef GRAINS
+  vec4 grain = textureLod(grains, grain_phase + grains_per_km * place, level + finer_grain_levels);
+#else
+  vec4 grain = grain_mean;
+#endif
   vec4 crag = textureLod(crags, crag_phase + crags_per_km * place, level);
   float rocky = max(rock, 0.0), land = rock < 0.0 ? 0.0 : 1.0;
   vec3 gradient = (255.0 / 127.0) * (mix(kGrainSlope.x, kGrainSlope.y, rocky) * (grain.xyz - 127.0 / 255.0) +

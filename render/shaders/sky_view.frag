@@ -11,7 +11,7 @@ void main() {
   vec2 texel = gl_FragCoord.xy - 0.5;
   int i = texel.x < sky_view_size.x ? 0 : kSuns - 1;
   vec3 sun = suns[i].xyz;
-  ViewRay ray = ray_in_view(texel - vec2(float(i) * sky_view_size.x, 0.0), sun, sky_view_size.xyz);
+  ViewRay ray = ray_in_view(texel - vec2(float(i) * sky_view_size.x, 0.0), sun, sky_view_size);
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Scattering all = scattering(place_of(ray, sun, nu), nu, ray.hits_ground);
   air = log(max(all.rayleigh_like, 1e-30));

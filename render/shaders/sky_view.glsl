@@ -5,6 +5,8 @@
 // high above, FROM_ABOVE: there the sun's height at the far end of a ray changes too fast with the azimuth.
 #include "render/shaders/view_ray.glsl"
 
+const vec3 sky_view_size = vec3(SKY_VIEW_SIZE);  // columns of a sun, rows of rays to the ground, rows of rays to the sky
+
 // Where a direction lies in a picture of such columns and rows (ground, sky), 0..1.
 vec2 place_in_view(ViewRay ray, vec3 sun, vec3 size) {
   float across = length(ray.direction.xy) * length(sun.xy);
@@ -40,7 +42,7 @@ WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
   return WholeRay(scattering(start, nu, ray.hits_ground),
                   optical_depth_to_top(ray.h, ray.mu));
 #else
-  vec2 place = place_in_view(ray, sun, sky_view_size.xyz);
+  vec2 place = place_in_view(ray, sun, sky_view_size);
   place.x = (float(i) + place.x) / float(kSuns);
   return WholeRay(Scattering(exp(texture(view_air, place)), exp(texture(view_aerosol, place))),
                   texture(view_depth, place));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A square that faces the camera, at the depth of the sky and as large as a sun's disc; an instance for each sun.
-#include "render/shaders/view_ray.glsl"
-
-noperspective out vec2 screen;
+#include "render/shaders/pixel_ray.glsl"
 
 void main() {
   vec3 sun = suns[gl_InstanceID].xyz;
@@ -11,6 +9,6 @@ void main() {
   // The disc's edge is softened over a pixel.
   vec2 offset = tan(kSunRadius + pixel_angle) * corner;
   vec3 view = (sun + offset.x * right + offset.y * cross(right, sun)) * site_from_view;
-  screen = view.xy / (tangent * -view.z);
+  pass_ray(view.xy / (tangent * -view.z));
   gl_Position = vec4(view.xy / tangent, 0.0, -view.z);
 }

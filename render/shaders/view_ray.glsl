@@ -12,13 +12,12 @@ const int kSuns = 1;
 layout(std140, binding = 1) uniform View {
   mat3 site_from_view;
   mat3 planet_from_site;
-  vec2 tangent;        // of half the field of view
-  float camera_km;     // height of the camera
+  vec2 tangent;      // of half the field of view
+  float camera_km;   // height of the camera
   float near_km;
-  float pixel_angle;   // rad
-  float volume_km;     // the farthest distance of the volume over the frustum
-  vec4 sky_view_size;  // columns of a sun, rows of rays to the ground, rows of rays to the sky
-  vec4 suns[kSuns];    // unit vector in the camera frame; irradiance as a share of the first sun's
+  float pixel_angle;  // rad
+  float volume_km;   // the farthest distance of the volume over the frustum
+  vec4 suns[kSuns];  // unit vector in the camera frame; irradiance as a share of the first sun's
 };
 
 struct ViewRay {
@@ -43,12 +42,6 @@ ViewRay view_ray(vec3 direction) {
     ray.mu = -half_chord / top;
   }
   return ray;
-}
-
-vec3 direction_at(vec2 screen, out float stretch) {
-  vec3 view = vec3(screen * tangent, -1.0);
-  stretch = length(view);
-  return site_from_view * (view / stretch);
 }
 
 // Where the ray begins in the air, with the sun's height there.

@@ -88,7 +88,7 @@ void EightFetches(benchmark::State& state) {
   add_tables(tables(), graph);
   graph.add_target("light", GL_RGBA32F, 1280, 720);
   const ShaderSource source{"eight.frag",
-                            "noperspective in vec2 screen;\n"
+                            "in vec2 screen;\n"
                             "layout(binding = 0) uniform sampler3D first;\n"
                             "layout(binding = 1) uniform sampler3D second;\n"
                             "layout(location = 0) out vec4 light;\n"
