@@ -107,7 +107,9 @@ struct CloudLayer {
 // How the air between the eye and what it sees is evaluated.
 enum class AerialPerspective {
   kPerPixel,  // two look-ups of every pixel
-  kVolume,    // a volume of 32 x 32 x 16 over the view frustum, Bodare & Sandberg 2014, 6.4.2
+  // A volume of 32 x 32 x 16 before the ground, Bodare & Sandberg 2014, 6.4.2. With meshes, a moon or a second
+  // sun, and from above 12 km, as above.
+  kVolume,
 };
 
 struct FrameOptions {
@@ -116,7 +118,7 @@ struct FrameOptions {
   std::optional<Site> site;  // without one: the coast
   double sun_zenith = 0.5;
   int samples_per_side = 2;  // each pixel is the mean of samples_per_side^2 samples: 1 to 4
-  AerialPerspective aerial = AerialPerspective::kPerPixel;
+  AerialPerspective aerial = AerialPerspective::kVolume;
   bool shadows = false;  // of the terrain, on the ground and in the air
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;

@@ -29,8 +29,11 @@ glm::ivec3 sky_view_size(const TableSizes& sizes) {  // columns of a sun, rows t
           (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
 }
 
-// Above it each pixel looks up its own ray.
+// Above it each pixel looks up its own ray: the sun's height at the far end changes too fast with the
+// azimuth for pictures of all directions.
 constexpr double kAbove = 20e3;  // m
+// Above it the volume is more than 3 % off.
+constexpr double kVolumeAbove = 12e3;  // m
 
 const std::string kSkyView = "render/shaders/sky_view.frag",
                   kFillVolume = "render/shaders/aerial_volume.comp",
@@ -146,8 +149,8 @@ GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program) {
 
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
-  return options.aerial == AerialPerspective::kVolume && !options.second_sun &&
-         options.camera.altitude_m < thickness;
+  return options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
+         options.camera.altitude_m <= std::min(kVolumeAbove, thickness);
 }
 
 bool AtmospherePass::has_sky_view(const FrameOptions& options) {

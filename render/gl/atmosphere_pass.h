@@ -52,10 +52,11 @@ struct AtmosphereView {
   const Projection& projection;
   const SiteAxes& axes;
   const std::array<ShadowView, kShadowMaps>* shadows;  // null: none
-  double farthest_km;  // of what is seen in the air: the length of the volume
+  double farthest_km;  // of the ground that is seen: the length of the volume
+  bool only_ground;    // is seen: no meshes, no moon
   const Materials& materials;
 
-  // The volume holds one sun's light, for an eye in the air.
+  // The volume holds one sun's light before the ground, for an eye in the lower air.
   bool volume(const AtmosphereTables& tables) const;
 };
 

@@ -2,6 +2,7 @@
 #include "render/gl/renderer.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -126,16 +127,20 @@ void add_directions(const Camera& camera, Frame& frame) {
   const ViewBasis basis = view_basis(camera);
   const double tall = std::tan(0.5 * camera.vertical_fov);
   const double wide = tall * frame.width / frame.height;
-  for (int y = 0; y < frame.height; ++y) {
+  const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
+  frame.view_zenith_deg.resize(pixels);
+  frame.view_azimuth_deg.resize(pixels);
+  tbb::parallel_for(0, frame.height, [&](int y) {
     const double v = tall * (1 - (2 * y + 1.0) / frame.height);
     for (int x = 0; x < frame.width; ++x) {
       const double u = wide * ((2 * x + 1.0) / frame.width - 1);
-      const glm::dvec3 ray = glm::normalize(basis.forward + u * basis.right + v * basis.up);
-      const double zenith = std::atan2(std::hypot(ray.x, ray.y), ray.z);
-      frame.view_zenith_deg.push_back(static_cast<float>(kDegrees * zenith));
-      frame.view_azimuth_deg.push_back(static_cast<float>(kDegrees * std::atan2(-ray.y, ray.x)));
+      const glm::dvec3 ray = basis.forward + u * basis.right + v * basis.up;
+      const double zenith = std::atan2(std::sqrt(ray.x * ray.x + ray.y * ray.y), ray.z);
+      const std::size_t i = static_cast<std::size_t>(y) * frame.width + x;
+      frame.view_zenith_deg[i] = static_cast<float>(kDegrees * zenith);
+      frame.view_azimuth_deg[i] = static_cast<float>(kDegrees * std::atan2(-ray.y, ray.x));
     }
-  }
+  });
 }
 
 // How finely the planet is drawn: near the ground a quad spans options.samples_per_quad samples of
@@ -365,7 +370,7 @@ class GlRenderer final : public FrameDrawer {
   std::vector<Pass> passes(const FrameOptions& options) {
     const AtmosphereView view{options, current_.projection, current_.axes,
                               options.shadows ? &current_.shadows : nullptr, current_.farthest_km,
-                              materials_};
+                              current_.meshes.empty() && !current_.moon, materials_};
     std::vector<Pass> list;
     if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
     list.push_back({"terrain", {}, {"color", "surface", "depth"}, [this] {

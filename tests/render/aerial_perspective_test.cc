@@ -39,13 +39,21 @@ double luminance(const NodeValues& nodes) {
   return sum;
 }
 
-class AerialPerspectiveOf : public ::testing::TestWithParam<std::string> {};
+struct Seen {
+  const char* view;
+  double sun_deg, altitude_m;  // 0: the view's own
+};
+class AerialPerspectiveOf : public ::testing::TestWithParam<Seen> {};
 
 TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
-  FrameOptions options = options_of(GetParam(), 96, 54);
-  if (options.site) options.camera.altitude_m = find_view(GetParam()).camera.altitude_m +
+  const auto& [view, sun_deg, altitude_m] = GetParam();
+  FrameOptions options = options_of(view, 96, 54);
+  if (options.site) options.camera.altitude_m = find_view(view).camera.altitude_m +
                                                 with_full_tables().ground_height_m(options.site);
+  if (sun_deg > 0) options.sun_zenith = sun_deg * kDegree;
+  if (altitude_m > 0) options.camera.altitude_m = altitude_m;
   options.layers = true;
+  options.aerial = AerialPerspective::kPerPixel;
   const Frame by_pixel = with_full_tables().draw(options);
   options.aerial = AerialPerspective::kVolume;
   const Frame by_volume = with_full_tables().draw(options);
@@ -102,7 +110,10 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
   EXPECT_LT(worst_volume, kAgreement);
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf, ::testing::Values("valley", "10km"));
+INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf, 
+                         ::testing::Values(Seen{"valley", 0, 0}, Seen{"10km", 0, 0},
+                                           Seen{"valley", 84, 0}, Seen{"10km", 84, 0},
+                                           Seen{"10km", 0, 12e3}, Seen{"10km", 84, 12e3}));
 
 }  // namespace
 }  // namespace skyfit
