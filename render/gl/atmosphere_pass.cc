@@ -203,7 +203,6 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
   Defined defined = atmosphere_defines(tables_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
-
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
   return defined;
 }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kSide = kMaterialSide;
 constexpr double kGrainPeriod = 1.5, kCragPeriod = 190;  // m: a unit of each texture
-constexpr int kLastLevel = 6;                        // mipmap of one texel
+constexpr int kLastLevel = 6;                            // mipmap of one texel
 static_assert(1 << kLastLevel == kSide);
 constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
 

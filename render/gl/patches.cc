@@ -154,8 +154,8 @@ class Horizon {
   std::vector<double> slopes_;
 };
 
-// A patch that no block is split beyond takes up at least a tenth of a ratio's inverse; some ten
-// sectors.
+// A patch just beyond its block's splitting distance spans an eighth of the ratio's inverse, some
+// twelve sectors.
 constexpr double kSectorsPerRatio = 600;
 
 }  // namespace
