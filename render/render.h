@@ -149,8 +149,9 @@ struct PassTime {
 struct FrameStatistics {
   std::int64_t triangles = 0;  // drawn into the G-buffer
   int blocks_drawn = 0;
-  int blocks_outside = 0, blocks_behind = 0;  // culled nodes of the tree: outside the frustum, behind the planet's horizon
-  int blocks_hidden = 0;                      // by nearer ground, or by none of their patches in the frustum
+  // Culled nodes of the tree: outside the frustum, behind the planet's horizon.
+  int blocks_outside = 0, blocks_behind = 0;
+  int blocks_hidden = 0;  // every patch of theirs outside the frustum or behind nearer ground
   int blocks_made = 0;           // that were not in the store of an earlier frame
   std::vector<PassTime> passes;  // by the device's timers
   double milliseconds = 0;       // of the whole frame, reading back not counted

@@ -253,8 +253,7 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
 GLuint AtmospherePass::variant(const Defined& what, const AtmosphereView& view) {
   Defined defined = defined_by(view.options);
   defined.insert(defined.end(), what.begin(), what.end());
-  if (!what.empty() && what.front() == kSurface && view.volume(tables_))
-    defined.push_back("VOLUME");
+  if (view.volume(tables_)) defined.push_back("VOLUME");
   if (view.options.layers) defined.push_back("LAYERS");
   if (view.options.clouds) defined.push_back("CLOUDS");
   if (view.shadows != nullptr) defined.push_back("SHADOWS");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
+#include <utility>
 
 namespace skyfit {
 namespace {
@@ -79,6 +80,16 @@ double bulge_m(const CubeBlock& block, double radius_m) {
 }
 
 using PatchPoints = std::array<glm::dvec3, 8>;  // the corners at the lowest and the highest height
+
+PatchPoints points_of(std::size_t patch, const Corners& corners, const HeightRange& heights) {
+  PatchPoints points;
+  std::size_t filled = 0;
+  for (const std::size_t corner : corners.of(patch)) {
+    points[filled++] = corners.at(corner, heights.low);
+    points[filled++] = corners.at(corner, heights.high);
+  }
+  return points;
+}
 
 bool outside(std::span<const glm::dvec4> bounds, const PatchPoints& points, double bulge) {
   return std::ranges::any_of(bounds, [&](const glm::dvec4& plane) {
@@ -158,6 +169,21 @@ class Horizon {
 // twelve sectors.
 constexpr double kSectorsPerRatio = 600;
 
+// Drops the patches that nearer ones hide.
+void drop_hidden(std::vector<Outline> patches, double split_ratio, std::span<PatchSet> visible) {
+  std::ranges::sort(patches, {}, &Outline::nearest);
+  std::vector<const Outline*> by_end;
+  for (const Outline& patch : patches) by_end.push_back(&patch);
+  std::ranges::sort(by_end, {}, &Outline::farthest);
+  Horizon horizon(static_cast<int>(kSectorsPerRatio * split_ratio));
+  auto passed = by_end.begin();
+  for (const Outline& patch : patches) {
+    for (; passed != by_end.end() && (*passed)->farthest <= patch.nearest; ++passed)
+      horizon.raise(**passed);
+    if (horizon.hides(patch)) visible[patch.block].reset(patch.patch);
+  }
+}
+
 }  // namespace
 
 std::vector<PatchSet> visible_patches(const TerrainView& view,
@@ -165,39 +191,26 @@ std::vector<PatchSet> visible_patches(const TerrainView& view,
   const glm::dmat3 site_from_planet = view.axes.site_from_planet();
   const std::vector<glm::dvec4> bounds = view.bounds();
   std::vector<PatchSet> visible(blocks.size());
-  std::vector<Outline> outlines;
+  if (!view.cull) {
+    for (PatchSet& patches : visible) patches.set();
+    return visible;
+  }
+  const bool camera = view.planes.empty();
+  std::vector<Outline> outlines;  // of the patches that are not around the camera
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const auto& [block, heights] = blocks[i];
     const Corners corners(view, block, site_from_planet);
     const double bulge = bulge_m(block, view.radius_m);
     for (std::size_t patch = 0; patch < kPatches; ++patch) {
-      const auto [low, high] = heights.patches[patch];
-      PatchPoints points;
-      std::size_t filled = 0;
-      for (const std::size_t corner : corners.of(patch)) {
-        points[filled++] = corners.at(corner, low);
-        points[filled++] = corners.at(corner, high);
-      }
-      if (view.cull && outside(bounds, points, bulge)) continue;
+      const PatchPoints points = points_of(patch, corners, heights.patches[patch]);
+      if (outside(bounds, points, bulge)) continue;
       visible[i].set(patch);
-      outlines.push_back(outline_of(i, patch, corners, points, bulge));
+      if (!camera) continue;
+      const Outline outline = outline_of(i, patch, corners, points, bulge);
+      if (outline.nearest > 0) outlines.push_back(outline);
     }
   }
-  if (!view.cull || !view.planes.empty()) return visible;
-
-  std::ranges::sort(outlines, {}, &Outline::nearest);
-  std::vector<const Outline*> by_end;
-  for (const Outline& outline : outlines) by_end.push_back(&outline);
-  std::ranges::sort(by_end, {}, &Outline::farthest);
-  Horizon horizon(static_cast<int>(kSectorsPerRatio * view.split_ratio));
-  auto passed = by_end.begin();
-  for (const Outline& patch : outlines) {
-    if (patch.nearest <= 0) continue;
-    for (; passed != by_end.end() && (*passed)->farthest <= patch.nearest; ++passed) {
-      if ((*passed)->nearest > 0) horizon.raise(**passed);
-    }
-    if (horizon.hides(patch)) visible[patch.block].reset(patch.patch);
-  }
+  drop_hidden(std::move(outlines), view.split_ratio, visible);
   return visible;
 }
 

@@ -2,30 +2,28 @@
 #include "render/gl/renderer.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "render/gl/atmosphere_pass.h"
 #include "render/gl/context.h"
+#include "render/gl/gbuffer.h"
 #include "render/gl/map_ground.h"
 #include "render/gl/object_pass.h"
 #include "render/gl/passes.h"
 #include "render/gl/relief.h"
+#include "render/gl/resolve.h"
 #include "render/gl/shadow_pass.h"
 #include "render/gl/terrain_pass.h"
 
 namespace skyfit {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::int64_t kMaxSamples = std::int64_t{1} << 25;  // 16 bytes each in the largest texture
 
 // Large pictures have small pixels: fewer samples where the textures would not fit.
@@ -46,101 +44,13 @@ int affordable_samples(const FrameOptions& options) {
 }
 
 void add_targets(int width, int height, bool layers, FrameGraph& graph) {
-  graph.add_target("color", GL_RGBA8, width, height);
-  graph.add_target("surface", GL_RGBA16F, width, height);
-  graph.add_target("depth", GL_DEPTH_COMPONENT32F, width, height);
+  add_gbuffer(width, height, graph);
   graph.add_target("light", GL_RGBA32F, width, height);
   graph.add_target("distance", GL_R32F, width, height);
   graph.add_target("class", GL_DEPTH_COMPONENT32F, width, height);
   if (!layers) return;
   for (const std::string& layer : kLayerWrites)
     graph.add_target(layer, GL_RGBA32F, width, height);
-}
-
-void clear_gbuffer() {
-  const std::array<float, 4> nothing{};
-  const float far_depth = 0;
-  glClearBufferfv(GL_COLOR, 0, nothing.data());
-  glClearBufferfv(GL_COLOR, 1, nothing.data());
-  glClearBufferfv(GL_DEPTH, 0, &far_depth);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-}
-
-// Calls f(pixel, sample) for every sample; OpenGL's rows run upward, a frame's downward.
-template <class F>
-void for_samples(const Frame& frame, int samples, F&& f) {
-  const auto width = static_cast<std::size_t>(frame.width) * samples;
-  for (int y = 0; y < frame.height * samples; ++y) {
-    const auto row = static_cast<std::size_t>(frame.height - 1 - y / samples) * frame.width;
-    for (std::size_t x = 0; x < width; ++x)
-      f(row + x / samples, static_cast<std::size_t>(y) * width + x);
-  }
-}
-
-void resolve_light(const FrameGraph& graph, int samples, Frame& frame) {
-  const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
-  const float part = 1.0f / static_cast<float>(samples * samples);
-  const std::vector<float> light = graph.read_back("light", GL_RGBA, 4);
-  frame.rgb.assign(3 * pixels, 0);
-  frame.luminance.assign(pixels, 0);
-  for_samples(frame, samples, [&](std::size_t pixel, std::size_t sample) {
-    for (std::size_t k = 0; k < 3; ++k) frame.rgb[3 * pixel + k] += part * light[4 * sample + k];
-    frame.luminance[pixel] += part * light[4 * sample + 3];
-  });
-  const std::vector<float> distance = graph.read_back("distance", GL_RED, 1);
-  frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
-  for_samples(frame, samples, [&](std::size_t pixel, std::size_t sample) {
-    frame.depth_m[pixel] = std::min(frame.depth_m[pixel], 1e3f * distance[sample]);
-  });
-}
-
-// [pixel][3], the mean of the samples.
-std::vector<float> resolve_color(const FrameGraph& graph, const std::string& name, int samples,
-                                 const Frame& frame) {
-  const std::vector<float> source = graph.read_back(name, GL_RGB, 3);
-  std::vector<float> values(3 * frame.luminance.size(), 0);
-  const float part = 1.0f / static_cast<float>(samples * samples);
-  for_samples(frame, samples, [&](std::size_t pixel, std::size_t sample) {
-    for (std::size_t k = 0; k < 3; ++k) values[3 * pixel + k] += part * source[3 * sample + k];
-  });
-  return values;
-}
-
-FrameLayers resolve_layers(const FrameGraph& graph, int samples, const Frame& frame) {
-  FrameLayers layers;
-  layers.in_scatter = resolve_color(graph, "in_scatter", samples, frame);
-  layers.reflected = resolve_color(graph, "reflected", samples, frame);
-  layers.transmittance = resolve_color(graph, "transmittance", samples, frame);
-  layers.normal = resolve_color(graph, "normal", samples, frame);
-  layers.albedo = resolve_color(graph, "albedo", samples, frame);
-  for (std::size_t i = 0; i < layers.normal.size(); i += 3) {
-    float* const n = &layers.normal[i];
-    const float length = std::hypot(n[0], n[1], n[2]);
-    for (int k = 0; k < 3; ++k) n[k] = length > 0 ? n[k] / length : 0;
-  }
-  return layers;
-}
-
-void add_directions(const Camera& camera, Frame& frame) {
-  const ViewBasis basis = view_basis(camera);
-  const double tall = std::tan(0.5 * camera.vertical_fov);
-  const double wide = tall * frame.width / frame.height;
-  const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
-  frame.view_zenith_deg.resize(pixels);
-  frame.view_azimuth_deg.resize(pixels);
-  tbb::parallel_for(0, frame.height, [&](int y) {
-    const double v = tall * (1 - (2 * y + 1.0) / frame.height);
-    for (int x = 0; x < frame.width; ++x) {
-      const double u = wide * ((2 * x + 1.0) / frame.width - 1);
-      const glm::dvec3 ray = basis.forward + u * basis.right + v * basis.up;
-      const double zenith = std::atan2(std::sqrt(ray.x * ray.x + ray.y * ray.y), ray.z);
-      const std::size_t i = static_cast<std::size_t>(y) * frame.width + x;
-      frame.view_zenith_deg[i] = static_cast<float>(kDegrees * zenith);
-      frame.view_azimuth_deg[i] = static_cast<float>(kDegrees * std::atan2(-ray.y, ray.x));
-    }
-  });
 }
 
 // How finely the planet is drawn: near the ground a quad spans options.samples_per_quad samples of
@@ -373,12 +283,12 @@ class GlRenderer final : public FrameDrawer {
                               current_.meshes.empty() && !current_.moon, materials_};
     std::vector<Pass> list;
     if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
-    list.push_back({"terrain", {}, {"color", "surface", "depth"}, [this] {
+    list.push_back({"terrain", {}, kGBuffer, [this] {
                       clear_gbuffer();
                       terrain_->draw(current_.blocks, current_.projection, current_.axes);
                     }});
     if (!current_.meshes.empty() || current_.moon) {
-      list.push_back({"objects", {}, {"color", "surface", "depth"}, [this] {
+      list.push_back({"objects", {}, kGBuffer, [this] {
                         draw_objects();
                       }});
     }

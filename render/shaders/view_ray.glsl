@@ -12,12 +12,12 @@ const int kSuns = 1;
 layout(std140, binding = 1) uniform View {
   mat3 site_from_view;
   mat3 planet_from_site;
-  vec2 tangent;      // of half the field of view
-  float camera_km;   // height of the camera
+  vec2 tangent;       // of half the field of view
+  float camera_km;    // height of the camera
   float near_km;
   float pixel_angle;  // rad
-  float volume_km;   // the farthest distance of the volume over the frustum
-  vec4 suns[kSuns];  // unit vector in the camera frame; irradiance as a share of the first sun's
+  float volume_km;    // the farthest distance of the volume
+  vec4 suns[kSuns];   // unit vector in the camera frame; irradiance as a share of the first sun's
 };
 
 struct ViewRay {

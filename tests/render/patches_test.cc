@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <set>
 
+#include "render/gl/gbuffer.h"
 #include "render/gl/terrain_pass.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/terrain_fixture.h"
@@ -65,18 +66,9 @@ class Patches : public ::testing::Test {
     view.cull = cull;
     Picture made;
     made.draw = terrain_.prepare(selection.blocks, view);
-    graph_.add_target("color", GL_RGBA8, kWidth, kHeight);
-    graph_.add_target("surface", GL_RGBA16F, kWidth, kHeight);
-    graph_.add_target("depth", GL_DEPTH_COMPONENT32F, kWidth, kHeight);
-    graph_.run(std::array{Pass{"terrain", {}, {"color", "surface", "depth"}, [&] {
-                                 const std::array<float, 4> nothing{};
-                                 const float far_depth = 0;
-                                 glClearBufferfv(GL_COLOR, 0, nothing.data());
-                                 glClearBufferfv(GL_COLOR, 1, nothing.data());
-                                 glClearBufferfv(GL_DEPTH, 0, &far_depth);
-                                 glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-                                 glEnable(GL_DEPTH_TEST);
-                                 glDepthFunc(GL_GREATER);
+    add_gbuffer(kWidth, kHeight, graph_);
+    graph_.run(std::array{Pass{"terrain", {}, kGBuffer, [&] {
+                                 clear_gbuffer();
                                  terrain_.draw(made.draw, shot.projection, view.axes);
                                }}});
     made.depth = graph_.read_back("depth", GL_DEPTH_COMPONENT, 1);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/gbuffer.h"
+
+#include <array>
+
+namespace skyfit {
+
+void add_gbuffer(int width, int height, FrameGraph& graph) {
+  graph.add_target("color", GL_RGBA8, width, height);
+  graph.add_target("surface", GL_RGBA16F, width, height);
+  graph.add_target("depth", GL_DEPTH_COMPONENT32F, width, height);
+}
+
+void clear_gbuffer() {
+  const std::array<float, 4> nothing{};
+  const float far_depth = 0;
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClearBufferfv(GL_COLOR, 1, nothing.data());
+  glClearBufferfv(GL_DEPTH, 0, &far_depth);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+}
+
+}  // namespace skyfit
