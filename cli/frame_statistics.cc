@@ -9,11 +9,13 @@ namespace skyfit::cli {
 namespace {
 
 constexpr int kCounts = 6;
-constexpr std::string_view kHead = "      frame   triangles  blocks drawn  outside  behind  hidden   made";
+constexpr std::string_view kHead =
+    "      frame   triangles  blocks drawn  outside  behind  hidden   made";
 
 std::string line(const std::string& first, const std::vector<double>& values) {
-  std::string text = fmt::format("{:>11} {:>11.0f} {:>13.0f} {:>8.0f} {:>7.0f} {:>7.0f} {:>6.0f}", first,
-                                 values[0], values[1], values[2], values[3], values[4], values[5]);
+  std::string text =
+      fmt::format("{:>11} {:>11.0f} {:>13.0f} {:>8.0f} {:>7.0f} {:>7.0f} {:>6.0f}", first,
+                  values[0], values[1], values[2], values[3], values[4], values[5]);
   for (std::size_t i = kCounts; i < values.size(); ++i)
     text += fmt::format(" {:>15.3f}", values[i]);
   return text + "\n";
@@ -31,8 +33,10 @@ double median(std::vector<double> values) {
 std::string StatisticsTable::row(int frame, const FrameStatistics& statistics) {
   std::vector<std::string> passes;
   std::vector<double> values = {static_cast<double>(statistics.triangles),
-                                1.0 * statistics.blocks_drawn, 1.0 * statistics.blocks_outside,
-                                1.0 * statistics.blocks_behind, 1.0 * statistics.blocks_hidden,
+                                1.0 * statistics.blocks_drawn,
+                                1.0 * statistics.blocks_outside,
+                                1.0 * statistics.blocks_behind,
+                                1.0 * statistics.blocks_hidden,
                                 1.0 * statistics.blocks_made};
   for (const PassTime& pass : statistics.passes) {
     passes.push_back(pass.pass);

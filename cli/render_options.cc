@@ -98,9 +98,10 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
               "A pixel is the mean of the square of this, 1 to 4")
       ->capture_default_str();
   group
-      .option("--aerial", options.aerial, "pixel|volume",
-              "The air before the ground, by pixel or, faster, from a volume of 32 x 32 x 16; by pixel "
-              "with meshes, a moon or a second sun and from above 12 km")
+      .option(
+          "--aerial", options.aerial, "pixel|volume",
+          "The air before the ground, by pixel or, faster, from a volume of 32 x 32 x 16; by pixel "
+          "with meshes, a moon or a second sun and from above 12 km")
       ->capture_default_str();
   group.flag("--gpu", options.gpu, "Draw through EGL, on a GPU where there is one");
   group.option("--exposure", options.exposure, "K",

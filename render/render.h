@@ -107,8 +107,8 @@ struct CloudLayer {
 // How the air between the eye and what it sees is evaluated.
 enum class AerialPerspective {
   kPerPixel,  // two look-ups of every pixel
-  // A volume of 32 x 32 x 16 before the ground, Bodare & Sandberg 2014, 6.4.2. With meshes, a moon or a second
-  // sun, and from above 12 km, as above.
+  // A volume of 32 x 32 x 16 before the ground, Bodare & Sandberg 2014, 6.4.2. With meshes, a moon
+  // or a second sun, and from above 12 km, as above.
   kVolume,
 };
 
@@ -123,7 +123,7 @@ struct FrameOptions {
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;
   std::optional<CloudLayer> clouds;
-  bool layers = false;        // fill Frame::layers
+  bool layers = false;           // fill Frame::layers
   double samples_per_quad = 16;  // side of a terrain quad in the picture, in samples: 1 to 64
 };
 
@@ -134,8 +134,9 @@ void validate(const Scene& scene);
 
 // What the picture is made of, each [pixel][3]; colours are linear sRGB.
 struct FrameLayers {
-  std::vector<float> in_scatter;     // cd/m^2: of the air between the eye and what it sees, or of the sky
-  std::vector<float> reflected;      // cd/m^2: of ground, objects and clouds, as it arrives at the eye
+  std::vector<float>
+      in_scatter;  // cd/m^2: of the air between the eye and what it sees, or of the sky
+  std::vector<float> reflected;  // cd/m^2: of ground, objects and clouds, as it arrives at the eye
   std::vector<float> transmittance;  // of sunlight, from what is seen to the eye; of sky: to space
   std::vector<float> normal;         // camera frame; 0 for sky
   std::vector<float> albedo;         // of sunlight; 0 for sky
@@ -152,7 +153,7 @@ struct FrameStatistics {
   // Culled nodes of the tree: outside the frustum, behind the planet's horizon.
   int blocks_outside = 0, blocks_behind = 0;
   int blocks_hidden = 0;  // every patch of theirs outside the frustum or behind nearer ground
-  int blocks_made = 0;           // that were not in the store of an earlier frame
+  int blocks_made = 0;    // that were not in the store of an earlier frame
   std::vector<PassTime> passes;  // by the device's timers
   double milliseconds = 0;       // of the whole frame, reading back not counted
 };
@@ -187,16 +188,16 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
-  // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere. Throws
-  // std::invalid_argument when the planet has another radius than before.
+  // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere.
+  // Throws std::invalid_argument when the planet has another radius than before.
   void set_atmosphere(const Preset& preset, const AtmosphereTables& tables);
 
   // Height of the ground above the bottom radius, in metres, at a place or at the coast. Needs an
   // atmosphere, which knows the radius.
   double ground_height_m(const std::optional<Site>& site) const;
 
-  // Progress in 0..1; may be empty. Throws std::invalid_argument for options that validate() refuses
-  // and for a camera below the ground.
+  // Progress in 0..1; may be empty. Throws std::invalid_argument for options that validate()
+  // refuses and for a camera below the ground.
   Frame draw(const FrameOptions& options, const std::function<void(double)>& progress = {});
 
  private:
@@ -211,7 +212,8 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 // OpenEXR, 32-bit float: R, G, B, luminance.Y, view.zenith_deg, view.azimuth_deg, Z (metres,
 // infinite for sky) and, where the frame has layers, inscatter.R, .G, .B, reflected.R, .G, .B,
 // transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with Frame::metadata as attributes
-// `skyfit:...` and the chromaticities of sRGB. The file appears whole or not at all; throws std::runtime_error that names it.
+// `skyfit:...` and the chromaticities of sRGB. The file appears whole or not at all; throws
+// std::runtime_error that names it.
 void write_exr(const Frame& frame, const std::filesystem::path& file);
 
 enum class ToneCurve {

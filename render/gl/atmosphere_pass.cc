@@ -23,14 +23,15 @@ void add(const std::string& name, const Table& table, FrameGraph& graph) {
 
 // Rows and columns of the sky's view for each texel of the scattering table.
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
-glm::ivec3 sky_view_size(const TableSizes& sizes) {  // columns of a sun, rows to the ground, rows to the sky
+glm::ivec3 sky_view_size(
+    const TableSizes& sizes) {  // columns of a sun, rows to the ground, rows to the sky
   return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
           (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
           (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
 }
 
-// Above it each pixel looks up its own ray: the sun's height at the far end changes too fast with the
-// azimuth for pictures of all directions.
+// Above it each pixel looks up its own ray: the sun's height at the far end changes too fast with
+// the azimuth for pictures of all directions.
 constexpr double kAbove = 20e3;  // m
 // Above it the volume is more than 3 % off.
 constexpr double kVolumeAbove = 12e3;  // m
@@ -96,8 +97,8 @@ glm::vec4 scattering_per_km(const AtmosphereTables& tables, const PowerLaw<doubl
   glm::vec4 values;
   for (int node = 0; node < 4; ++node) {
     const double wavelength = tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm;
-    values[node] = static_cast<float>(
-        1e3 * share * law.value * std::pow(wavelength / law.wavelength_nm, -law.exponent));
+    values[node] = static_cast<float>(1e3 * share * law.value *
+                                      std::pow(wavelength / law.wavelength_nm, -law.exponent));
   }
   return values;
 }
@@ -115,7 +116,8 @@ std::array<double, 16> light_from_nodes(const ColorRule& color) {
   return columns;
 }
 
-std::vector<ShaderStage> stages_of(const std::string& path, const std::vector<std::string>& defined) {
+std::vector<ShaderStage> stages_of(const std::string& path,
+                                   const std::vector<std::string>& defined) {
   if (path == kFillVolume) return {{GL_COMPUTE_SHADER, path}};
   const bool disc = std::ranges::find(defined, kDisc) != defined.end();
   const char* const vertex = path != kAtmosphere ? "render/shaders/fullscreen.vert"
@@ -141,8 +143,9 @@ GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program) {
   block.set("depolarisation", a.rayleigh.depolarisation);
   block.set("phase_parameters", glm::vec4(phase.g, phase.g1, phase.g2, phase.weight));
   block.set("ground_albedo", ground_albedo(tables));
-  block.set("air_scattering", scattering_per_km(tables, a.rayleigh.scattering_per_m,
-                                                a.rayleigh.site_pressure_hpa / kStandardPressureHpa));
+  block.set("air_scattering",
+            scattering_per_km(tables, a.rayleigh.scattering_per_m,
+                              a.rayleigh.site_pressure_hpa / kStandardPressureHpa));
   block.set("aerosol_scattering", scattering_per_km(tables, a.mie.scattering_per_m, 1));
   return block.bind();
 }
@@ -197,7 +200,8 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
   const auto key = std::pair(path, defined);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second.id();
-  return programs_.emplace(key, build_program(stages_of(path, defined), {}, defined)).first->second.id();
+  return programs_.emplace(key, build_program(stages_of(path, defined), {}, defined))
+      .first->second.id();
 }
 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
@@ -217,7 +221,8 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   block.set("near_km", view.projection.near_km);
   block.set("pixel_angle", pixel_rad(options));
   block.set("volume_km", view.farthest_km);
-  std::vector<glm::vec4> suns = {{std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
+  std::vector<glm::vec4> suns = {
+      {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
   block.set("suns", std::span<const glm::vec4>(suns));
   blocks_.clear();

@@ -2,10 +2,10 @@
 // The atmosphere over the G-buffer. Reads the tables and the G-buffer in the order of
 // kAtmosphereReads; writes light (linear sRGB and luminance, cd/m^2), the distance from the camera
 // (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites. The sky, the
-// suns' discs, surfaces and those near enough to show their grains are drawn apart, each by a shader
-// that does no more than it must: the pixels are sorted into classes before, which the depth test
-// tells apart. Before it, the light of whole rays from the eye is looked up once
-// for all pixels, into the targets kSkyViewWrites.
+// suns' discs, surfaces and those near enough to show their grains are drawn apart, each by a
+// shader that does no more than it must: the pixels are sorted into classes before, which the depth
+// test tells apart. Before it, the light of whole rays from the eye is looked up once for all
+// pixels, into the targets kSkyViewWrites.
 #pragma once
 
 #include <array>
@@ -26,12 +26,11 @@
 namespace skyfit {
 
 // The texture units of render/shaders/atmosphere.glsl, of atmosphere.frag and of sky_view.glsl.
-inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance",
-                                                     "rayleigh_like", "single_mie", "phase"};
+inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance", "rayleigh_like",
+                                                     "single_mie", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
-    "optical_depth", "irradiance", "rayleigh_like",      "single_mie",
-    "phase",         "color",      "surface", "depth",
-    "view_air",      "view_aerosol", "view_depth"};
+    "optical_depth", "irradiance", "rayleigh_like", "single_mie",   "phase",     "color",
+    "surface",       "depth",      "view_air",      "view_aerosol", "view_depth"};
 
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",
                                                       "albedo", "normal"};
@@ -93,8 +92,8 @@ class AtmospherePass {
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
   GlProgram classes_;
   GlVertexArray empty_;
-  GlTexture densities_;                   // over height
-  std::optional<AerialVolume> volume_;    // made when first used
+  GlTexture densities_;                 // over height
+  std::optional<AerialVolume> volume_;  // made when first used
   std::optional<Clouds> clouds_;
   std::vector<GlBuffer> blocks_;  // of the frame
 };

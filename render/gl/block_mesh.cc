@@ -36,10 +36,13 @@ struct Point {
 };
 
 Point middle(const Point& a, const Point& b) {
-  Point m{0.5 * (a.position + b.position), glm::normalize(a.normal + b.normal),
-          0.5 * (a.height + b.height), 0.5 * (a.rock + b.rock),
+  Point m{0.5 * (a.position + b.position),
+          glm::normalize(a.normal + b.normal),
+          0.5 * (a.height + b.height),
+          0.5 * (a.rock + b.rock),
           {}};
-  for (std::size_t k = 0; k < 4; ++k) m.reflectance[k] = 0.5 * (a.reflectance[k] + b.reflectance[k]);
+  for (std::size_t k = 0; k < 4; ++k)
+    m.reflectance[k] = 0.5 * (a.reflectance[k] + b.reflectance[k]);
   return m;
 }
 
@@ -84,7 +87,8 @@ class Grid {
 
   Point point(int column, int row, const Ground& ground, double resolution) const {
     const std::size_t i = index(column, row);
-    const glm::dvec3 along = positions_[index(column + 1, row)] - positions_[index(column - 1, row)];
+    const glm::dvec3 along =
+        positions_[index(column + 1, row)] - positions_[index(column - 1, row)];
     const glm::dvec3 across =
         positions_[index(column, row + 1)] - positions_[index(column, row - 1)];
     const glm::dvec3 normal = glm::normalize(glm::cross(along, across));
@@ -119,8 +123,8 @@ void pack(const Point& point, std::array<float, 3>& position, std::array<std::in
   }
   normal[3] = static_cast<std::int16_t>(std::lround(32767 * std::clamp(point.rock, -1.0, 1.0)));
   for (std::size_t k = 0; k < 4; ++k) {
-    reflectance[k] = static_cast<std::uint16_t>(
-        std::lround(65535 * std::clamp(point.reflectance[k], 0.0, 1.0)));
+    reflectance[k] =
+        static_cast<std::uint16_t>(std::lround(65535 * std::clamp(point.reflectance[k], 0.0, 1.0)));
   }
 }
 

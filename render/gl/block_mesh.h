@@ -21,13 +21,12 @@ struct BlockVertex {
   std::array<std::uint16_t, 4> fine_reflectance, coarse_reflectance;  // / 65535
 };
 
-// 33 x 33, rows of growing u first, then the skirt: the border once more, let down, counterclockwise
-// from (0, 0).
-inline constexpr int kBlockVertices =
-    (kBlockQuads + 1) * (kBlockQuads + 1) + 4 * kBlockQuads;
+// 33 x 33, rows of growing u first, then the skirt: the border once more, let down,
+// counterclockwise from (0, 0).
+inline constexpr int kBlockVertices = (kBlockQuads + 1) * (kBlockQuads + 1) + 4 * kBlockQuads;
 
-// What is drawn or left out of a block: 4 x 4 quads and what hangs from them of the skirt. Patches are numbered in
-// rows of growing u; their outlines are those of the blocks three levels below.
+// What is drawn or left out of a block: 4 x 4 quads and what hangs from them of the skirt. Patches
+// are numbered in rows of growing u; their outlines are those of the blocks three levels below.
 inline constexpr int kPatchesPerSide = 8;
 inline constexpr int kPatches = kPatchesPerSide * kPatchesPerSide;
 

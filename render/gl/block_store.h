@@ -28,7 +28,9 @@ class BlockStore {
   int made() const { return made_; }  // since begin_frame()
 
   // Of a block of this frame: where its vertices begin, in vertices.
-  GLint first_vertex(const CubeBlock& block) const { return slots_.at(block).slot * kBlockVertices; }
+  GLint first_vertex(const CubeBlock& block) const {
+    return slots_.at(block).slot * kBlockVertices;
+  }
 
   const BlockHeights& heights(const CubeBlock& block) const { return slots_.at(block).heights; }
 

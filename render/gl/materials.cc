@@ -116,9 +116,9 @@ MaterialTexels load_texture(Texture texture, const std::filesystem::path& direct
     throw std::runtime_error(fmt::format("{}: cannot read: {}", file.string(), OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width != kSide || spec.height != kSide * kSide || spec.nchannels != 4) {
-    throw std::runtime_error(fmt::format(
-        "{}: {} x {} pixels of {} channels: a texture has {} x {} of 4", file.string(), spec.width,
-        spec.height, spec.nchannels, kSide, kSide * kSide));
+    throw std::runtime_error(
+        fmt::format("{}: {} x {} pixels of {} channels: a texture has {} x {} of 4", file.string(),
+                    spec.width, spec.height, spec.nchannels, kSide, kSide * kSide));
   }
   MaterialTexels texels(4 * kTexels);
   if (!input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, texels.data())) {

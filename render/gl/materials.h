@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The textures of render/shaders/materials.glsl: solid (three-dimensional) noise, so that no surface
-// has a seam. They repeat after one unit in each direction.
+// The textures of render/shaders/materials.glsl: solid (three-dimensional) noise, so that no
+// surface has a seam. They repeat after one unit in each direction.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ class Materials {
   // Beyond it the grains are smaller than a pixel of that angle.
   static double grainless_distance_m(double pixel_rad);
 
-  // As two textures from `unit` on, and what the shader needs, which is bound while the buffer lives.
-  // `camera`: planet coordinates, m.
+  // As two textures from `unit` on, and what the shader needs, which is bound while the buffer
+  // lives. `camera`: planet coordinates, m.
   GlBuffer bind(const glm::dvec3& camera, GLuint program, GLuint unit) const;
 
  private:

@@ -29,8 +29,9 @@ class FrameGraph {
   void add_table(const std::string& name, int width, int height, int depth,
                  std::span<const float> rgba);
 
-  // Runs the passes in order and returns the time that each took by the device's timers. Throws std::runtime_error that names the pass: an unknown texture, an
-  // incomplete framebuffer, an OpenGL error.
+  // Runs the passes in order and returns the time that each took by the device's timers. Throws
+  // std::runtime_error that names the pass: an unknown texture, an incomplete framebuffer, an
+  // OpenGL error.
   std::vector<PassTime> run(std::span<const Pass> passes) const;
 
   void bind(const std::string& name, GLuint unit) const;

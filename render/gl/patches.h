@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which patches of a view's blocks are worth drawing: those within its bounds that no nearer ground
-// hides. From a camera above it the ground is a surface without holes, so along one azimuth what lies
-// lower, as the camera sees it, than some nearer ground is behind it: the highest slope of the
+// hides. From a camera above it the ground is a surface without holes, so along one azimuth what
+// lies lower, as the camera sees it, than some nearer ground is behind it: the highest slope of the
 // ground so far, azimuth by azimuth, is a horizon that rises from near to far.
 #pragma once
 

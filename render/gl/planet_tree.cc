@@ -74,7 +74,8 @@ class Frustum {
 
   Visibility visibility(const BlockPoints& points, int level, const HeightRange& heights) const {
     if (behind(points, level, heights.high)) return Visibility::kBehind;
-    return outside(box_of(points, level, heights, view_.radius_m)) ? Visibility::kOutside : Visibility::kSeen;
+    return outside(box_of(points, level, heights, view_.radius_m)) ? Visibility::kOutside
+                                                                   : Visibility::kSeen;
   }
 
  private:
@@ -115,7 +116,8 @@ class Selector {
 
   BlockSelection select() {
     std::vector<Node> nodes;
-    for (int face = 0; face < 6; ++face) nodes.push_back(node({face, 0, 0, 0}, {0, view_.highest_m}));
+    for (int face = 0; face < 6; ++face)
+      nodes.push_back(node({face, 0, 0, 0}, {0, view_.highest_m}));
     while (!nodes.empty()) nodes = next_level(std::move(nodes));
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Found& a, const Found& b) { return a.distance < b.distance; });
@@ -170,9 +172,9 @@ class Selector {
         continue;
       }
       for (const auto& [column, row] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
-        children.push_back(
-            this->node({block.face, block.level + 1, 2 * block.column + column, 2 * block.row + row},
-                       allowed));
+        children.push_back(this->node(
+            {block.face, block.level + 1, 2 * block.column + column, 2 * block.row + row},
+            allowed));
       }
     }
     return children;
@@ -223,17 +225,15 @@ void block_directions(const CubeBlock& block, int parts, std::span<glm::dvec3> o
   }
 }
 
-double block_arc_m(int level, double radius_m) {
-  return std::ldexp(0.5 * kPi * radius_m, -level);
-}
+double block_arc_m(int level, double radius_m) { return std::ldexp(0.5 * kPi * radius_m, -level); }
 
 std::vector<glm::dvec4> TerrainView::bounds() const {
   if (!planes.empty()) return planes;
   const auto& [right, up, forward] = basis;
   const double w = tangent.x, h = tangent.y;
   std::vector<glm::dvec4> frustum;
-  for (const glm::dvec3& inward : {forward * w + right, forward * w - right, forward * h + up,
-                                   forward * h - up, forward}) {
+  for (const glm::dvec3& inward :
+       {forward * w + right, forward * w - right, forward * h + up, forward * h - up, forward}) {
     frustum.emplace_back(glm::normalize(inward), 0);
   }
   return frustum;

@@ -25,7 +25,7 @@ namespace skyfit {
 inline constexpr int kBlockQuads = 32;  // along a side: 33 x 33 vertices
 
 struct CubeBlock {
-  int face = 0, level = 0;       // +x, -x, +y, -y, +z, -z; level 0 is the whole face
+  int face = 0, level = 0;           // +x, -x, +y, -y, +z, -z; level 0 is the whole face
   std::int64_t column = 0, row = 0;  // 0 .. 2^level - 1
   auto operator<=>(const CubeBlock&) const = default;
 };
@@ -37,8 +37,8 @@ glm::dvec3 cube_direction(int face, double s, double t);
 // The same of a block; u and v run from 0 to 1.
 glm::dvec3 block_direction(const CubeBlock& block, double u, double v);
 
-// The same at the corners of parts x parts equal parts of a block, rows of growing u first; `out` has
-// (parts + 1)^2.
+// The same at the corners of parts x parts equal parts of a block, rows of growing u first; `out`
+// has (parts + 1)^2.
 void block_directions(const CubeBlock& block, int parts, std::span<glm::dvec3> out);
 
 // Length of the arc that a block's middle line spans.
@@ -67,8 +67,8 @@ struct TerrainView {
   double split_ratio = 50;  // >= 1.8
   int levels = 9;           // >= 1
   bool cull = true;
-  // What is seen instead of the picture's frustum, when there are any: normals that point inward and
-  // distances from the camera, in the axes of the site.
+  // What is seen instead of the picture's frustum, when there are any: normals that point inward
+  // and distances from the camera, in the axes of the site.
   std::vector<glm::dvec4> planes;
 
   glm::dvec3 camera() const { return (radius_m + altitude_m) * axes.z; }  // planet coordinates

@@ -49,16 +49,15 @@ void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   graph.add_target("distance", GL_R32F, width, height);
   graph.add_target("class", GL_DEPTH_COMPONENT32F, width, height);
   if (!layers) return;
-  for (const std::string& layer : kLayerWrites)
-    graph.add_target(layer, GL_RGBA32F, width, height);
+  for (const std::string& layer : kLayerWrites) graph.add_target(layer, GL_RGBA32F, width, height);
 }
 
 // How finely the planet is drawn: near the ground a quad spans options.samples_per_quad samples of
 // the picture, but no block is split beyond 50 times its size (Sperlhofer 2011, C = 50); 9 levels
 // and, near the camera, as many more as show details of a third of a metre.
 constexpr double kLargestRatio = 50, kSmallestRatio = 1.8;
-// A view from above holds fewer levels of the tree, so that each can be finer for the same number of
-// blocks; that from 2 m holds this many.
+// A view from above holds fewer levels of the tree, so that each can be finer for the same number
+// of blocks; that from 2 m holds this many.
 constexpr double kLevelsFromGround = 19;
 constexpr int kFewestLevels = 9;
 constexpr double kFinestQuad = 0.3;  // m
@@ -70,9 +69,7 @@ int levels_of(double radius) {
 }
 
 // To where a view from the height touches the bottom sphere.
-double horizon_m(double radius, double height) {
-  return std::sqrt(height * (2 * radius + height));
-}
+double horizon_m(double radius, double height) { return std::sqrt(height * (2 * radius + height)); }
 
 TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, const Ground& ground,
                          double radius, double ground_distance_m) {
@@ -144,8 +141,8 @@ class GlRenderer final : public FrameDrawer {
     }
     if (meshes_.size() < scene_.meshes.size()) {
       for (const PlacedMesh& mesh : scene_.meshes) {
-        meshes_.push_back(ObjectPass::upload_mesh(
-            read_object_mesh(mesh.file, mesh.reflectance, tables.color)));
+        meshes_.push_back(
+            ObjectPass::upload_mesh(read_object_mesh(mesh.file, mesh.reflectance, tables.color)));
       }
     }
     add_tables(tables, graph_);
@@ -278,9 +275,13 @@ class GlRenderer final : public FrameDrawer {
   }
 
   std::vector<Pass> passes(const FrameOptions& options) {
-    const AtmosphereView view{options, current_.projection, current_.axes,
-                              options.shadows ? &current_.shadows : nullptr, current_.farthest_km,
-                              current_.meshes.empty() && !current_.moon, materials_};
+    const AtmosphereView view{options,
+                              current_.projection,
+                              current_.axes,
+                              options.shadows ? &current_.shadows : nullptr,
+                              current_.farthest_km,
+                              current_.meshes.empty() && !current_.moon,
+                              materials_};
     std::vector<Pass> list;
     if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
     list.push_back({"terrain", {}, kGBuffer, [this] {
@@ -288,27 +289,22 @@ class GlRenderer final : public FrameDrawer {
                       terrain_->draw(current_.blocks, current_.projection, current_.axes);
                     }});
     if (!current_.meshes.empty() || current_.moon) {
-      list.push_back({"objects", {}, kGBuffer, [this] {
-                        draw_objects();
-                      }});
+      list.push_back({"objects", {}, kGBuffer, [this] { draw_objects(); }});
     }
     list.push_back({"classes", {"depth"}, {"class"}, [this, view] { atmosphere_.classify(view); }});
     if (AtmospherePass::has_sky_view(options)) {
-      list.push_back({"sky view", kTableReads, kSkyViewWrites, [this, view] {
-                        atmosphere_.draw_sky_view(view);
-                      }});
+      list.push_back({"sky view", kTableReads, kSkyViewWrites,
+                      [this, view] { atmosphere_.draw_sky_view(view); }});
     }
     if (view.volume(atmosphere_.tables())) {
-      list.push_back({"aerial volume", kTableReads, {}, [this, view] {
-                        atmosphere_.fill_volume(view);
-                      }});
+      list.push_back(
+          {"aerial volume", kTableReads, {}, [this, view] { atmosphere_.fill_volume(view); }});
     }
     std::vector<std::string> lights = {"light", "distance"};
     if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
     lights.emplace_back("class");
-    list.push_back({"atmosphere", kAtmosphereReads, lights, [this, view] {
-                      atmosphere_.draw(view, shadow_maps());
-                    }});
+    list.push_back({"atmosphere", kAtmosphereReads, lights,
+                    [this, view] { atmosphere_.draw(view, shadow_maps()); }});
     return list;
   }
 
@@ -317,7 +313,8 @@ class GlRenderer final : public FrameDrawer {
     glDepthFunc(GL_GREATER);
     for (const Placed& mesh : current_.meshes)
       objects_.draw(*mesh.model, mesh.place, current_.projection);
-    if (current_.moon) objects_.draw(*current_.moon->model, current_.moon->place, current_.projection);
+    if (current_.moon)
+      objects_.draw(*current_.moon->model, current_.moon->place, current_.projection);
   }
 
   const ShadowPass& shadow_maps() {

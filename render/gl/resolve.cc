@@ -23,15 +23,16 @@ template <class F>
 void for_samples(const Frame& frame, int samples_per_side, F&& f) {
   const auto width = static_cast<std::size_t>(frame.width) * samples_per_side;
   for (int y = 0; y < frame.height * samples_per_side; ++y) {
-    const auto row = static_cast<std::size_t>(frame.height - 1 - y / samples_per_side) * frame.width;
+    const auto row =
+        static_cast<std::size_t>(frame.height - 1 - y / samples_per_side) * frame.width;
     for (std::size_t x = 0; x < width; ++x)
       f(row + x / samples_per_side, static_cast<std::size_t>(y) * width + x);
   }
 }
 
 // [pixel][3], the mean of the samples.
-std::vector<float> resolve_color(const FrameGraph& graph, const std::string& name, int samples_per_side,
-                                 const Frame& frame) {
+std::vector<float> resolve_color(const FrameGraph& graph, const std::string& name,
+                                 int samples_per_side, const Frame& frame) {
   const std::vector<float> source = graph.read_back(name, GL_RGB, 3);
   std::vector<float> values(3 * frame.luminance.size(), 0);
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);

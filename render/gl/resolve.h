@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the targets of a frame, samples_per_side^2 samples to a pixel, to the pixels of a Frame: light
-// and layers are the means of the samples, the distance is that of the nearest. The frame has its
-// size before.
+// From the targets of a frame, samples_per_side^2 samples to a pixel, to the pixels of a Frame:
+// light and layers are the means of the samples, the distance is that of the nearest. The frame has
+// its size before.
 #pragma once
 
 #include "render/gl/passes.h"

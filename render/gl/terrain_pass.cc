@@ -71,8 +71,7 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m)
   attribute(7, 1, 2, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, morph_begin_km));
 }
 
-TerrainDraw TerrainPass::prepare(std::span<const CubeBlock> blocks,
-                                 const TerrainView& view) const {
+TerrainDraw TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& view) const {
   std::vector<MeasuredBlock> measured;
   for (const CubeBlock& block : blocks) measured.push_back({block, store_.heights(block)});
   const std::vector<PatchSet> visible = visible_patches(view, measured);
@@ -95,8 +94,8 @@ TerrainDraw TerrainPass::prepare(std::span<const CubeBlock> blocks,
     }
     const glm::dvec3 centre = block_centre(blocks[i], radius_m_);
     const auto [begin, end] = morph_range(blocks[i], view);
-    instances.push_back({glm::vec3(1e-3 * (centre - view.camera())), static_cast<float>(1e-3 * begin),
-                         static_cast<float>(1e-3 * end)});
+    instances.push_back({glm::vec3(1e-3 * (centre - view.camera())),
+                         static_cast<float>(1e-3 * begin), static_cast<float>(1e-3 * end)});
   }
   draw.instances = upload(std::span<const BlockInstance>(instances));
   draw.commands = upload(std::span<const DrawCommand>(commands));

@@ -18,7 +18,7 @@ namespace skyfit {
 // Blocks ready to be drawn, relative to a camera.
 struct TerrainDraw {
   GlBuffer instances, commands;
-  int runs = 0;               // of patches that follow each other: a command each
+  int runs = 0;                // of patches that follow each other: a command each
   int blocks = 0, hidden = 0;  // in part or as a whole; with no patch that is seen
   std::int64_t triangles = 0;
 };

@@ -29,9 +29,8 @@ const Preset& preset() {
 }
 
 const AtmosphereTables& tables() {
-  static const AtmosphereTables made =
-      compute_tables(preset().atmosphere, color_rule(refs::standard_spectral_data()), TableSizes{},
-                     2, {});
+  static const AtmosphereTables made = compute_tables(
+      preset().atmosphere, color_rule(refs::standard_spectral_data()), TableSizes{}, 2, {});
   return made;
 }
 
@@ -76,7 +75,8 @@ void View(benchmark::State& state, const char* view, int width, int height,
   run(state, options);
 }
 
-// The atmosphere's pass does not depend on the scene: the same view with few and with many triangles.
+// The atmosphere's pass does not depend on the scene: the same view with few and with many
+// triangles.
 void Triangles(benchmark::State& state, double samples_per_quad) {
   FrameOptions options = options_of("space", 1280, 720);
   options.samples_per_quad = samples_per_quad;
@@ -110,11 +110,12 @@ void EightFetches(benchmark::State& state) {
                                ShaderStage{GL_FRAGMENT_SHADER, "eight.frag"}},
                     std::span(&source, 1));
   const GlVertexArray empty = make_vertex_array();
-  const std::vector<Pass> passes = {{"eight fetches", {"rayleigh_like", "single_mie"}, {"light"}, [&] {
-                                       glUseProgram(program.id());
-                                       glBindVertexArray(empty.id());
-                                       glDrawArrays(GL_TRIANGLES, 0, 3);
-                                     }}};
+  const std::vector<Pass> passes = {
+      {"eight fetches", {"rayleigh_like", "single_mie"}, {"light"}, [&] {
+         glUseProgram(program.id());
+         glBindVertexArray(empty.id());
+         glDrawArrays(GL_TRIANGLES, 0, 3);
+       }}};
   graph.run(passes);
   for (auto _ : state) state.SetIterationTime(1e-3 * graph.run(passes).front().milliseconds);
 }
@@ -131,12 +132,16 @@ void frames(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK(EightFetches)->Apply(frames);
 BENCHMARK_CAPTURE(Triangles, few, 64)->Apply(frames);
 BENCHMARK_CAPTURE(Triangles, many, 3)->Apply(frames);
-BENCHMARK_CAPTURE(View, valley_1280x720, "valley", 1280, 720, AerialPerspective::kVolume)->Apply(frames);
+BENCHMARK_CAPTURE(View, valley_1280x720, "valley", 1280, 720, AerialPerspective::kVolume)
+    ->Apply(frames);
 BENCHMARK_CAPTURE(View, valley_1280x720_by_pixel, "valley", 1280, 720, AerialPerspective::kPerPixel)
     ->Apply(frames);
-BENCHMARK_CAPTURE(View, valley_640x360, "valley", 640, 360, AerialPerspective::kVolume)->Apply(frames);
-BENCHMARK_CAPTURE(View, ground_1280x720, "ground", 1280, 720, AerialPerspective::kVolume)->Apply(frames);
-BENCHMARK_CAPTURE(View, limb_1280x720, "limb", 1280, 720, AerialPerspective::kVolume)->Apply(frames);
+BENCHMARK_CAPTURE(View, valley_640x360, "valley", 640, 360, AerialPerspective::kVolume)
+    ->Apply(frames);
+BENCHMARK_CAPTURE(View, ground_1280x720, "ground", 1280, 720, AerialPerspective::kVolume)
+    ->Apply(frames);
+BENCHMARK_CAPTURE(View, limb_1280x720, "limb", 1280, 720, AerialPerspective::kVolume)
+    ->Apply(frames);
 
 }  // namespace
 }  // namespace skyfit

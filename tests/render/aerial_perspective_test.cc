@@ -58,8 +58,9 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
   Planet& planet = planet_of(preset);
   const AtmosphereTables& tables = planet.tables;
   FrameOptions options = options_of(view, 96, 54);
-  if (options.site) options.camera.altitude_m = find_view(view).camera.altitude_m +
-                                                planet.renderer.ground_height_m(options.site);
+  if (options.site)
+    options.camera.altitude_m =
+        find_view(view).camera.altitude_m + planet.renderer.ground_height_m(options.site);
   if (sun_deg > 0) options.sun_zenith = sun_deg * kDegree;
   if (altitude_m > 0) options.camera.altitude_m = altitude_m;
   options.layers = true;
@@ -74,7 +75,8 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
   const auto point_at = [&](const glm::dvec3& p, const glm::dvec3& ray) {
     const glm::dvec3 up = glm::normalize(p);
     const double mu = glm::dot(ray, up), mu_s = glm::dot(sun, up);
-    const double cosine = (glm::dot(ray, sun) - mu * mu_s) / std::sqrt((1 - mu * mu) * (1 - mu_s * mu_s));
+    const double cosine =
+        (glm::dot(ray, sun) - mu * mu_s) / std::sqrt((1 - mu * mu) * (1 - mu_s * mu_s));
     return SkyPoint{std::max(glm::length(p) - bottom, 0.0), std::acos(mu_s), std::acos(mu),
                     std::acos(std::clamp(cosine, -1.0, 1.0))};
   };
@@ -90,16 +92,15 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
   ASSERT_GT(pixels.size(), 80u);
   const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
   // Light straight from the ground is in both ends' rays and falls out of the difference.
-  const SkyValues light =
-      model->radiance(tables.atmosphere, tables.color.nodes, points, {});
+  const SkyValues light = model->radiance(tables.atmosphere, tables.color.nodes, points, {});
   double worst_pixel = 0, worst_volume = 0, squares = 0;
   for (std::size_t n = 0; n < pixels.size(); ++n) {
     const SkyPoint &start = points[2 * n], &end = points[2 * n + 1];
     const double mu = std::cos(start.view_zenith);
-    const NodeValues t = lookup_transmittance(
-        tables, {start.altitude_m, mu, std::cos(start.sun_zenith)},
-        {end.altitude_m, std::cos(end.view_zenith), std::cos(end.sun_zenith)},
-        mu < horizon_cosine(bottom, start.altitude_m));
+    const NodeValues t =
+        lookup_transmittance(tables, {start.altitude_m, mu, std::cos(start.sun_zenith)},
+                             {end.altitude_m, std::cos(end.view_zenith), std::cos(end.sun_zenith)},
+                             mu < horizon_cosine(bottom, start.altitude_m));
     NodeValues finite;
     const int ray = static_cast<int>(2 * n);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -113,9 +114,10 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
     worst_volume = std::max(worst_volume, std::abs(volume));
     squares += volume * volume;
   }
-  std::printf("[ aerial ] %zu paths: worst %.2f %% by pixel; %.2f %%, rms %.2f %% from the volume\n",
-              pixels.size(), 100 * worst_pixel, 100 * worst_volume,
-              100 * std::sqrt(squares / static_cast<double>(pixels.size())));
+  std::printf(
+      "[ aerial ] %zu paths: worst %.2f %% by pixel; %.2f %%, rms %.2f %% from the volume\n",
+      pixels.size(), 100 * worst_pixel, 100 * worst_volume,
+      100 * std::sqrt(squares / static_cast<double>(pixels.size())));
   EXPECT_LT(worst_pixel, kAgreement);
   EXPECT_LT(worst_volume, kAgreement);
 }

@@ -14,9 +14,9 @@
 namespace skyfit {
 namespace {
 
-constexpr double kFloat = 1.2e-7;   // of a position relative to the block's centre: two roundings
-constexpr double kPacked = 2e-4;    // of a normal: 16 bit, three components
-constexpr int kReflectance = 4;     // of 65535: it follows the slope
+constexpr double kFloat = 1.2e-7;  // of a position relative to the block's centre: two roundings
+constexpr double kPacked = 2e-4;   // of a normal: 16 bit, three components
+constexpr int kReflectance = 4;    // of 65535: it follows the slope
 
 double tolerance_m(int level) { return 1e-3 + kFloat * block_arc_m(level, kEarth); }
 
@@ -56,15 +56,13 @@ int for_shared_border(const CubeBlock& block, const CubeBlock& neighbour, int si
   int met = 0;
   for (int i = 0; i <= kBlockQuads; ++i) {
     const auto [column, row] = on_side(side, i);
-    const glm::dvec3 direction =
-        block_direction(block, static_cast<double>(column) / kBlockQuads,
-                        static_cast<double>(row) / kBlockQuads);
+    const glm::dvec3 direction = block_direction(block, static_cast<double>(column) / kBlockQuads,
+                                                 static_cast<double>(row) / kBlockQuads);
     for (int s = 0; s < 4; ++s) {
       for (int j = 0; j < kBlockQuads; ++j) {
         const auto [c, r] = on_side(s, j);
-        const glm::dvec3 there =
-            block_direction(neighbour, static_cast<double>(c) / kBlockQuads,
-                            static_cast<double>(r) / kBlockQuads);
+        const glm::dvec3 there = block_direction(neighbour, static_cast<double>(c) / kBlockQuads,
+                                                 static_cast<double>(r) / kBlockQuads);
         if (glm::distance(direction, there) * kEarth > 1e-5 * block_arc_m(block.level, kEarth))
           continue;
         f(own, own.at(column, row), other, other.at(c, r), i);
@@ -104,9 +102,8 @@ TEST(Border, MeetsTheNeighbourOfTheSameLevel) {
               const double turn =
                   std::max(glm::distance(normal_of(a.fine_normal), normal_of(b.fine_normal)),
                            glm::distance(normal_of(a.coarse_normal), normal_of(b.coarse_normal)));
-              EXPECT_LT(turn, kPacked)
-                  << "level " << level << ", face " << block.face << ", side " << toward
-                  << ", vertex " << i;
+              EXPECT_LT(turn, kPacked) << "level " << level << ", face " << block.face << ", side "
+                                       << toward << ", vertex " << i;
               worst_normal = std::max(worst_normal, turn);
               for (std::size_t k = 0; k < 4; ++k)
                 EXPECT_NEAR(a.fine_reflectance[k], b.fine_reflectance[k], kReflectance);
@@ -172,8 +169,8 @@ TEST(CoarseShape, IsThatOfTheParent) {
     for (int row = 0; row <= kBlockQuads; ++row) {
       for (int column = 0; column <= kBlockQuads; ++column) {
         const int c = column / 2, r = row / 2;
-        // Odd vertices lie on the middles of the parent's edges; those of quads on the diagonal from
-        // (1, 0) to (0, 1), along which its triangles meet.
+        // Odd vertices lie on the middles of the parent's edges; those of quads on the diagonal
+        // from (1, 0) to (0, 1), along which its triangles meet.
         const bool odd_column = column % 2 != 0, odd_row = row % 2 != 0;
         glm::dvec3 expected = at_parent(c, r);
         if (odd_column && odd_row) {
@@ -183,8 +180,7 @@ TEST(CoarseShape, IsThatOfTheParent) {
         } else if (odd_row) {
           expected = 0.5 * (at_parent(c, r) + at_parent(c, r + 1));
         }
-        ASSERT_LT(glm::distance(own.coarse(own.at(column, row)), expected),
-                  tolerance_m(level - 1))
+        ASSERT_LT(glm::distance(own.coarse(own.at(column, row)), expected), tolerance_m(level - 1))
             << "level " << level << ", column " << column << ", row " << row;
       }
     }
@@ -218,8 +214,8 @@ TEST(Skirt, HangsBelowTheBorder) {
       for (int i = 0; i < kBlockQuads; ++i) {
         const auto [column, row] = on_side(side, i);
         const BlockVertex& border = made.at(column, row);
-        const BlockVertex& below =
-            made.vertices[static_cast<std::size_t>(kBlockSide * kBlockSide + side * kBlockQuads + i)];
+        const BlockVertex& below = made.vertices[static_cast<std::size_t>(kBlockSide * kBlockSide +
+                                                                          side * kBlockQuads + i)];
         EXPECT_LT(glm::length(made.fine(below)), glm::length(made.fine(border)));
         EXPECT_LT(glm::length(made.coarse(below)), glm::length(made.coarse(border)));
         EXPECT_GE(glm::length(made.fine(below)), kEarth + made.heights.low - tolerance_m(level));

@@ -10,7 +10,8 @@
 namespace skyfit {
 namespace {
 
-// Depth near / d, a division and a multiplication in the shader, the distance as a float; 6e-8 each.
+// Depth near / d, a division and a multiplication in the shader, the distance as a float; 6e-8
+// each.
 constexpr double kFloatDepth = 4e-7;
 // Rows of triangles of the moon's sphere: an arrow of (pi / 128)^2 / 8, and of the columns.
 constexpr double kMoonsTriangles = 3e-4;  // of its radius
@@ -35,8 +36,8 @@ TEST_P(Altitudes, DepthLeadsBackToTheGround) {
       const double d = frame.depth_m[i];
       const glm::dvec3 p = d * ray_of(frame, i) + glm::dvec3(0, 0, bottom + altitude);
       const double footprint = d * options.camera.vertical_fov / frame.height;
-      const double height = ground.height_m(glm::normalize(coast().planet_from_site() * p),
-                                            2 * footprint);
+      const double height =
+          ground.height_m(glm::normalize(coast().planet_from_site() * p), 2 * footprint);
       const double error = std::abs(glm::length(p) - bottom - height);
       // A quad is as large as a pixel; the finest ones are 0.3 m.
       worst.add(frame, i, error / (0.3 + 2 * footprint + 1e-6 * d));
@@ -61,7 +62,8 @@ TEST(Depth, HasTheDigitsOfAFloatFromOneMetreToTheMoon) {
     // Each a strip of the picture of its own.
     const auto file = directory.path() / ("plane" + std::to_string(i) + ".obj");
     const double left = -0.5 + 0.25 * static_cast<double>(i), right = left + 0.25;
-    ObjWriter(file).quad({glm::dvec3{-0.5, left, 0}, {-0.5, right, 0}, {0.5, right, 0}, {0.5, left, 0}});
+    ObjWriter(file).quad(
+        {glm::dvec3{-0.5, left, 0}, {-0.5, right, 0}, {0.5, right, 0}, {0.5, left, 0}});
     scene.meshes.push_back(at_the_coast(file, kAltitude + kDistances[i]));
     scene.meshes.back().scale = kDistances[i];
   }
@@ -87,8 +89,8 @@ TEST(Depth, HasTheDigitsOfAFloatFromOneMetreToTheMoon) {
 TEST(Depth, OfASphereIsTheDistanceAlongTheRay) {
   for (const double distance : {20.0, 1e3, 1e6, 384.4e6}) {
     FrameOptions options = options_at({100, 60 * kDegree, 2, 0.4}, 1, 64, 64);
-    options.moon = Moon{options.camera.view_zenith, options.camera.azimuth, distance,
-                        0.15 * distance, 0.1};
+    options.moon =
+        Moon{options.camera.view_zenith, options.camera.azimuth, distance, 0.15 * distance, 0.1};
     const Frame frame = renderer().draw(options);
     const glm::dvec3 centre = distance * direction_to(options.moon->zenith, options.moon->azimuth);
     WorstPixel worst;

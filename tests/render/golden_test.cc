@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three pictures as they were when somebody looked at them: what no property test notices, a wrong
-// horizon, a seam or another mood. A picture that differs is left in the folder for temporary files;
-// when it is right, it takes the old one's place in tests/render/data/.
+// horizon, a seam or another mood. A picture that differs is left in the folder for temporary
+// files; when it is right, it takes the old one's place in tests/render/data/.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The patches that are left out change no pixel: of the blocks of a view the visible patches give the
-// same depth and colour as all of them.
+// The patches that are left out change no pixel: of the blocks of a view the visible patches give
+// the same depth and colour as all of them.
 #include "render/gl/patches.h"
 
 #include <gtest/gtest.h>
@@ -146,9 +146,10 @@ TEST(Horizon, HidesWhatLiesBehindARidge) {
     std::set<CubeBlock> found;
     for (double left = -half_width; left <= half_width; left += 0.5) {
       for (const double further : {-0.5, 0.0, 0.5}) {
-        found.insert(block_at(glm::normalize(view.axes.z + std::tan((ahead + further) * arc) * view.axes.x +
-                                             std::tan(left * arc) * view.axes.y),
-                              kLevel));
+        found.insert(
+            block_at(glm::normalize(view.axes.z + std::tan((ahead + further) * arc) * view.axes.x +
+                                    std::tan(left * arc) * view.axes.y),
+                     kLevel));
       }
     }
     std::vector<MeasuredBlock> measured;
@@ -168,7 +169,8 @@ TEST(Horizon, HidesWhatLiesBehindARidge) {
     return static_cast<double>(patches) / static_cast<double>(behind.size() * kPatches);
   };
   const std::vector<MeasuredBlock> plain = blocks_at(9, 3, 0), summit = blocks_at(9, 3, 3000);
-  // Where the borders between patches of the ridge run toward the camera, none fills a whole sector.
+  // Where the borders between patches of the ridge run toward the camera, none fills a whole
+  // sector.
   EXPECT_LT(share_seen(plain), 0.05);
   EXPECT_GT(share_seen(summit), 0.1);  // the side toward the camera: level ground hides itself
   view.altitude_m = 1500;

@@ -17,9 +17,10 @@ namespace skyfit {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kRounding = 1e-3;  // m: positions of 1e7 m in double, of 1e5 m in float from a centre
+constexpr double kRounding =
+    1e-3;  // m: positions of 1e7 m in double, of 1e5 m in float from a centre
 
-constexpr double kGrazing = 1e-6;   // m: the sea, in double
+constexpr double kGrazing = 1e-6;  // m: the sea, in double
 
 TerrainView view_at(double altitude_m, double zenith_deg, double azimuth_deg, double ratio,
                     int levels) {
@@ -106,8 +107,8 @@ TEST(Selection, HasNeighboursOfEqualOrAdjacentLevels) {
     const std::set<CubeBlock> chosen(selection.blocks.begin(), selection.blocks.end());
     for (const CubeBlock& block : selection.blocks) {
       constexpr double kAcross = 1e-3;  // a little beyond the border, in sides of the block
-      for (const auto& [u, v] : {std::pair(-kAcross, 0.3), {1 + kAcross, 0.7}, {0.7, -kAcross},
-                                 {0.3, 1 + kAcross}}) {
+      for (const auto& [u, v] :
+           {std::pair(-kAcross, 0.3), {1 + kAcross, 0.7}, {0.7, -kAcross}, {0.3, 1 + kAcross}}) {
         const glm::dvec3 beyond = block_direction(block, u, v);
         // The neighbour is an ancestor of the block of the finest level there, or it itself.
         CubeBlock neighbour = block_at(beyond, view.levels - 1);
@@ -196,10 +197,11 @@ TEST(Culling, DrawsAtMostAThirdOfTheTrianglesOfTheValley) {
   const auto all = static_cast<double>(select_blocks(view, stored_heights).blocks.size());
   const auto drawn = static_cast<double>(culled.blocks.size());
   const double triangles = static_cast<double>(block_indices().indices.size()) / 3;
-  std::printf("[ culled ] %.0f of %.0f blocks drawn, %.0f and %.0f triangles (%.1f %%); %d nodes "
-              "outside, %d behind\n",
-              drawn, all, drawn * triangles, all * triangles, 100 * drawn / all, culled.outside,
-              culled.behind);
+  std::printf(
+      "[ culled ] %.0f of %.0f blocks drawn, %.0f and %.0f triangles (%.1f %%); %d nodes "
+      "outside, %d behind\n",
+      drawn, all, drawn * triangles, all * triangles, 100 * drawn / all, culled.outside,
+      culled.behind);
   EXPECT_LE(drawn, all / 3);
 }
 

@@ -54,7 +54,8 @@ inline MadeBlock made_block(const CubeBlock& block) {
 inline const MadeBlock& stored_block(const CubeBlock& block) {
   static std::map<CubeBlock, MadeBlock> store;
   const auto found = store.find(block);
-  return found != store.end() ? found->second : store.emplace(block, made_block(block)).first->second;
+  return found != store.end() ? found->second
+                              : store.emplace(block, made_block(block)).first->second;
 }
 
 inline std::vector<HeightRange> stored_heights(std::span<const CubeBlock> blocks) {
@@ -78,8 +79,8 @@ inline CubeBlock block_at(const glm::dvec3& direction, int level) {
     const glm::dvec3 along = std::numbers::sqrt2 * cube_direction(block.face, s, t) - out;
     const double angle = std::atan2(glm::dot(direction, along), glm::dot(direction, out));
     const double unit = 0.5 + 2 * angle / std::numbers::pi;
-    return std::clamp(static_cast<std::int64_t>(unit * static_cast<double>(count)),
-                      std::int64_t{0}, count - 1);
+    return std::clamp(static_cast<std::int64_t>(unit * static_cast<double>(count)), std::int64_t{0},
+                      count - 1);
   };
   block.column = place(1, 0);
   block.row = place(0, 1);
