@@ -27,11 +27,12 @@ Number distance_to_outer_sphere(Number bottom_radius, Number height, Number mu, 
   return mu > Number(0.0) ? above / max(half_chord + r * mu, Number(1.0e-30)) : half_chord - r * mu;
 }
 
-// Distance to the first hit with the sphere at target_height <= height, for a ray that points down and meets it.
+// Distance to the first hit with the sphere at target_height <= height, for a ray that points down and meets it. At most
+// that to the horizon, also where rounding lets a ray that grazes the sphere miss it or point up.
 Number distance_to_inner_sphere(Number bottom_radius, Number height, Number mu, Number target_height) {
   Number r = bottom_radius + height;
   Number half_chord =
       sqrt(max(sphere_discriminant(bottom_radius, height, mu, target_height), Number(0.0)));
   Number below = (height - target_height) * (target_height + height + 2.0 * bottom_radius);
-  return below / max(half_chord - r * mu, Number(1.0e-30));
+  return below / max(max(half_chord - r * mu, sqrt(below)), Number(1.0e-30));
 }

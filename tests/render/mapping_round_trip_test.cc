@@ -33,6 +33,18 @@ TEST_P(MappingRoundTrip, Height) {
   }
 }
 
+// As rounding leaves them: a little too high to meet the sphere, or upward.
+TEST_P(MappingRoundTrip, RaysThatGrazeTheGroundMeetItByTheHorizon) {
+  for (double h = 1e-9 * thickness_; h < thickness_; h *= 10) {
+    const double horizon = shared_.horizon_distance(h, bottom_), tangent = -horizon / (bottom_ + h);
+    for (const double mu : {tangent * (1 - 1e-7), tangent + 1e-6, 1e-9, 0.0}) {
+      if (shared_.ray_hits_ground(h, mu, bottom_)) continue;
+      const double d = shared_.distance_to_inner_sphere(bottom_, h, mu, 0);
+      EXPECT_NEAR(d / horizon, 1, 1e-9) << "h = " << h << ", mu = " << mu;
+    }
+  }
+}
+
 TEST_P(MappingRoundTrip, ViewZenithInBothHalves) {
   constexpr int kGround = 32, kSky = 64;
   for (double x = 1.0 / 32; x <= 1; x += 1.0 / 32) {
