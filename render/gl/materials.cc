@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "render/gl/image_files.h"
@@ -41,14 +42,40 @@ double relief_of(Texture texture, const glm::dvec3& p) {
 
 const char* name_of(Texture texture) { return texture == Texture::kGrains ? "grains" : "crags"; }
 
+// The next mipmap: means of two texels along each axis.
+std::vector<float> halved(std::span<const float> texels, int side) {
+  const int half = side / 2;
+  std::vector<float> means;
+  for (int z = 0; z < half; ++z) {
+    for (int y = 0; y < half; ++y) {
+      for (int x = 0; x < half; ++x) {
+        for (int channel = 0; channel < 4; ++channel) {
+          float sum = 0;
+          for (int corner = 0; corner < 8; ++corner) {
+            const int column = 2 * x + (corner & 1), row = 2 * y + (corner >> 1 & 1);
+            const int slice = 2 * z + (corner >> 2);
+            sum += texels[static_cast<std::size_t>(((slice * side + row) * side + column) * 4 +
+                                                   channel)];
+          }
+          means.push_back(sum / 8);
+        }
+      }
+    }
+  }
+  return means;
+}
+
 GlTexture solid_texture(const MaterialTexels& texels) {
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_3D, 1, &id);
   GlTexture texture(id);
   glTextureStorage3D(id, kLastLevel + 1, GL_RGBA8, kSide, kSide, kSide);
-  glTextureSubImage3D(id, 0, 0, 0, 0, kSide, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE,
-                      texels.data());
-  glGenerateTextureMipmap(id);
+  GLint level = 0;
+  for (const MaterialTexels& mipmap : mipmaps_of(texels)) {
+    const int side = kSide >> level;
+    glTextureSubImage3D(id, level++, 0, 0, 0, side, side, side, GL_RGBA, GL_UNSIGNED_BYTE,
+                        mipmap.data());
+  }
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   return texture;
@@ -101,6 +128,18 @@ MaterialTexels make_texture(Texture texture) {
   return texels;
 }
 
+std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels) {
+  std::vector<MaterialTexels> mipmaps = {texels};
+  std::vector<float> values(texels.begin(), texels.end());
+  for (int side = kSide; side > 1; side /= 2) {
+    values = halved(values, side);
+    MaterialTexels& rounded = mipmaps.emplace_back();
+    for (const float value : values)
+      rounded.push_back(static_cast<std::uint8_t>(std::lround(value)));
+  }
+  return mipmaps;
+}
+
 MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory) {
   if (directory.empty()) return make_texture(texture);
   const std::filesystem::path file = directory / fmt::format("{}.png", name_of(texture));
@@ -135,7 +174,8 @@ Materials::Materials(const std::filesystem::path& directory)
 
 double Materials::grainless_distance_m(double pixel_rad) { return kGrainPeriod / pixel_rad; }
 
-GlBuffer Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit) const {
+void Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit,
+                     UniformBuffers& buffers) const {
   glBindTextureUnit(unit, grains_.id());
   glBindTextureUnit(unit + 1, crags_.id());
   UniformBlock block(program, "Materials");
@@ -145,7 +185,7 @@ GlBuffer Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit) 
   block.set("crags_per_km", 1e3 / kCragPeriod);
   block.set("grain_mean", grain_mean_);
   block.set("finer_grain_levels", std::log2(kCragPeriod / kGrainPeriod));
-  return block.bind();
+  block.bind(buffers);
 }
 
 }  // namespace skyfit

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/gl/objects.h"
+#include "render/gl/uniform_block.h"
 
 namespace skyfit {
 
@@ -27,6 +28,10 @@ MaterialTexels make_texture(Texture texture);
 // cannot be read or written or has another size.
 MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory);
 
+// The texture and its mipmaps down to one texel: means of 2 x 2 x 2 texels, each rounded once.
+// Drivers round those of bytes in their own way and level by level, which tilts the distant ground.
+std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels);
+
 class Materials {
  public:
   explicit Materials(const std::filesystem::path& directory);
@@ -34,9 +39,8 @@ class Materials {
   // Beyond it the grains are smaller than a pixel of that angle.
   static double grainless_distance_m(double pixel_rad);
 
-  // As two textures from `unit` on, and what the shader needs, which is bound while the buffer
-  // lives. `camera`: planet coordinates, m.
-  GlBuffer bind(const glm::dvec3& camera, GLuint program, GLuint unit) const;
+  // As two textures from `unit` on, and what the shader needs. `camera`: planet coordinates, m.
+  void bind(const glm::dvec3& camera, GLuint program, GLuint unit, UniformBuffers& buffers) const;
 
  private:
   GlTexture grains_, crags_;
