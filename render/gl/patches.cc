@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/gl/patches.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -169,18 +172,30 @@ class Horizon {
 // twelve sectors.
 constexpr double kSectorsPerRatio = 600;
 
+using Outlines = std::vector<std::vector<Outline>>;  // of each block's patches
+
+// The patches in the order of one of their distances.
+std::vector<const Outline*> ordered(const Outlines& blocks, double Outline::*distance) {
+  std::vector<std::pair<double, const Outline*>> order;
+  for (const std::vector<Outline>& patches : blocks)
+    for (const Outline& patch : patches) order.emplace_back(patch.*distance, &patch);
+  std::ranges::sort(order);
+  std::vector<const Outline*> patches;
+  for (const auto& [key, patch] : order) patches.push_back(patch);
+  return patches;
+}
+
 // Drops the patches that nearer ones hide.
-void drop_hidden(std::vector<Outline> patches, double split_ratio, std::span<PatchSet> visible) {
-  std::ranges::sort(patches, {}, &Outline::nearest);
-  std::vector<const Outline*> by_end;
-  for (const Outline& patch : patches) by_end.push_back(&patch);
-  std::ranges::sort(by_end, {}, &Outline::farthest);
+void drop_hidden(const Outlines& blocks, double split_ratio, std::span<PatchSet> visible) {
+  std::vector<const Outline*> by_start, by_end;
+  tbb::parallel_invoke([&] { by_start = ordered(blocks, &Outline::nearest); },
+                       [&] { by_end = ordered(blocks, &Outline::farthest); });
   Horizon horizon(static_cast<int>(kSectorsPerRatio * split_ratio));
   auto passed = by_end.begin();
-  for (const Outline& patch : patches) {
-    for (; passed != by_end.end() && (*passed)->farthest <= patch.nearest; ++passed)
+  for (const Outline* patch : by_start) {
+    for (; passed != by_end.end() && (*passed)->farthest <= patch->nearest; ++passed)
       horizon.raise(**passed);
-    if (horizon.hides(patch)) visible[patch.block].reset(patch.patch);
+    if (horizon.hides(*patch)) visible[patch->block].reset(patch->patch);
   }
 }
 
@@ -196,8 +211,8 @@ std::vector<PatchSet> visible_patches(const TerrainView& view,
     return visible;
   }
   const bool camera = view.planes.empty();
-  std::vector<Outline> outlines;  // of the patches that are not around the camera
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
+  Outlines outlines(blocks.size());  // but for patches around the camera
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
     const auto& [block, heights] = blocks[i];
     const Corners corners(view, block, site_from_planet);
     const double bulge = bulge_m(block, view.radius_m);
@@ -207,10 +222,10 @@ std::vector<PatchSet> visible_patches(const TerrainView& view,
       visible[i].set(patch);
       if (!camera) continue;
       const Outline outline = outline_of(i, patch, corners, points, bulge);
-      if (outline.nearest > 0) outlines.push_back(outline);
+      if (outline.nearest > 0) outlines[i].push_back(outline);
     }
-  }
-  drop_hidden(std::move(outlines), view.split_ratio, visible);
+  });
+  drop_hidden(outlines, view.split_ratio, visible);
   return visible;
 }
 
