@@ -57,9 +57,18 @@ double Renderer::ground_height_m(const std::optional<Site>& site) const {
   return drawer_->ground_height_m(site);
 }
 
-Frame Renderer::draw(const FrameOptions& options, const std::function<void(double)>& progress) {
+void Renderer::require_ready(const FrameOptions& options) const {
   validate(options);
   if (preset_.empty()) throw std::logic_error("render: a frame needs an atmosphere");
+}
+
+FrameStatistics Renderer::draw_unread(const FrameOptions& options) {
+  require_ready(options);
+  return drawer_->draw_unread(options);
+}
+
+Frame Renderer::draw(const FrameOptions& options, const std::function<void(double)>& progress) {
+  require_ready(options);
   Frame frame = drawer_->draw(options, progress);
   add_metadata(preset_, options, frame);
   return frame;

@@ -200,7 +200,12 @@ class Renderer {
   // refuses and for a camera below the ground.
   Frame draw(const FrameOptions& options, const std::function<void(double)>& progress = {});
 
+  // The same, but the frame stays on the device: what showing one there takes. Errors as above.
+  FrameStatistics draw_unread(const FrameOptions& options);
+
  private:
+  void require_ready(const FrameOptions& options) const;
+
   std::unique_ptr<FrameDrawer> drawer_;
   std::string preset_;  // as JSON
 };

@@ -38,13 +38,17 @@ constexpr double kVolumeAbove = 12e3;  // m
 
 const std::string kSkyView = "render/shaders/sky_view.frag",
                   kFillVolume = "render/shaders/aerial_volume.comp",
-                  kAtmosphere = "render/shaders/atmosphere.frag";
+                  kClasses = "render/shaders/pixel_class.frag",
+                  kFragments = "render/shaders/atmosphere.frag",
+                  kCompute = "render/shaders/atmosphere.comp";
 
-// What the last may be drawn for besides the sky.
+// What the last two may be for besides the sky.
 const std::string kDisc = "DISC", kSurface = "SURFACE", kGrains = "GRAINS";
 
 // Depths that stand for the classes of pixels; exact in single precision.
 constexpr double kSkyClass = 0, kGrainlessClass = 0.5, kGrainyClass = 1;
+
+constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 
 // After those of kAtmosphereReads.
 constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14, kMaterialUnit = 17;
@@ -73,8 +77,19 @@ GlTexture density_texture(const Atmosphere<double>& a) {
   return texture;
 }
 
+std::vector<std::string> class_defines() {
+  return {fmt::format("SKY_CLASS {:.1f}", kSkyClass),
+          fmt::format("GRAINLESS_CLASS {:.1f}", kGrainlessClass),
+          fmt::format("GRAINY_CLASS {:.1f}", kGrainyClass)};
+}
+
 double pixel_rad(const FrameOptions& options) {
   return options.camera.vertical_fov / (options.height * options.samples_per_side);
+}
+
+double grainless_depth(const AtmosphereView& view) {
+  const double grainless_km = 1e-3 * Materials::grainless_distance_m(pixel_rad(view.options));
+  return view.projection.near_km / grainless_km;
 }
 
 glm::vec4 second_sun(const SecondSun& sun) {
@@ -118,11 +133,11 @@ std::array<double, 16> light_from_nodes(const ColorRule& color) {
 
 std::vector<ShaderStage> stages_of(const std::string& path,
                                    const std::vector<std::string>& defined) {
-  if (path == kFillVolume) return {{GL_COMPUTE_SHADER, path}};
+  if (path == kFillVolume || path == kCompute) return {{GL_COMPUTE_SHADER, path}};
   const bool disc = std::ranges::find(defined, kDisc) != defined.end();
-  const char* const vertex = path != kAtmosphere ? "render/shaders/fullscreen.vert"
-                             : disc              ? "render/shaders/sun.vert"
-                                                 : "render/shaders/atmosphere.vert";
+  const char* const vertex = path != kFragments ? "render/shaders/fullscreen.vert"
+                             : disc             ? "render/shaders/sun.vert"
+                                                : "render/shaders/atmosphere.vert";
   return {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, path}};
 }
 
@@ -136,7 +151,7 @@ void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
   add("phase", tables.phase, graph);
 }
 
-GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program) {
+void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
   const Atmosphere<double>& a = tables.atmosphere;
   const AerosolPhase<double>& phase = a.mie.phase;
   UniformBlock block(program, "Atmosphere");
@@ -147,7 +162,7 @@ GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program) {
             scattering_per_km(tables, a.rayleigh.scattering_per_m,
                               a.rayleigh.site_pressure_hpa / kStandardPressureHpa));
   block.set("aerosol_scattering", scattering_per_km(tables, a.mie.scattering_per_m, 1));
-  return block.bind();
+  block.bind(buffers);
 }
 
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
@@ -160,15 +175,7 @@ bool AtmospherePass::has_sky_view(const FrameOptions& options) {
   return options.camera.altitude_m <= kAbove;
 }
 
-AtmospherePass::AtmospherePass()
-    : classes_(build_program(
-          std::array{ShaderStage{GL_VERTEX_SHADER, "render/shaders/fullscreen.vert"},
-                     ShaderStage{GL_FRAGMENT_SHADER, "render/shaders/pixel_class.frag"}},
-          {},
-          std::array{fmt::format("SKY_CLASS {:.1f}", kSkyClass),
-                     fmt::format("GRAINLESS_CLASS {:.1f}", kGrainlessClass),
-                     fmt::format("GRAINY_CLASS {:.1f}", kGrainyClass)})),
-      empty_(make_vertex_array()) {}
+AtmospherePass::AtmospherePass() : empty_(make_vertex_array()) {}
 
 void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   tables_.atmosphere = tables.atmosphere;
@@ -225,9 +232,8 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
       {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
   block.set("suns", std::span<const glm::vec4>(suns));
-  blocks_.clear();
-  blocks_.push_back(block.bind());
-  blocks_.push_back(atmosphere_block(tables_, program));
+  block.bind(blocks_);
+  bind_atmosphere(tables_, program, blocks_);
 }
 
 void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {
@@ -255,55 +261,90 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
   volume_->fill(id);
 }
 
-GLuint AtmospherePass::variant(const Defined& what, const AtmosphereView& view) {
+GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
+                               const AtmosphereView& view) {
   Defined defined = defined_by(view.options);
+  if (path == kCompute) std::ranges::copy(class_defines(), std::back_inserter(defined));
   defined.insert(defined.end(), what.begin(), what.end());
   if (view.volume(tables_)) defined.push_back("VOLUME");
   if (view.options.layers) defined.push_back("LAYERS");
   if (view.options.clouds) defined.push_back("CLOUDS");
   if (view.shadows != nullptr) defined.push_back("SHADOWS");
-  return program(kAtmosphere, defined);
+  return program(path, defined);
 }
 
-void AtmospherePass::classify(const AtmosphereView& view) const {
-  const double grainless_km = 1e-3 * Materials::grainless_distance_m(pixel_rad(view.options));
-  Uniforms(classes_.id()).set("grainless_depth", view.projection.near_km / grainless_km);
+void AtmospherePass::classify(const AtmosphereView& view) {
+  const GLuint classes = program(kClasses, class_defines());
+  Uniforms(classes).set("grainless_depth", grainless_depth(view));
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
-  draw_triangle(classes_.id());
+  draw_triangle(classes);
   glDisable(GL_DEPTH_TEST);
 }
 
-void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_maps) {
-  const GLuint sky = variant({}, view), disc = variant({kDisc}, view);
-  const GLuint grainless = variant({kSurface}, view);
-  const GLuint grainy = variant({kSurface, kGrains}, view);
+void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky,
+                          GLuint grainy) {
   bind_blocks(sky, view);
   if (view.shadows != nullptr) {
-    blocks_.push_back(shadow_maps.bind(*view.shadows, grainy, kShadowUnit));
+    shadow_maps.bind(*view.shadows, grainy, kShadowUnit, blocks_);
     glBindTextureUnit(kShadowUnit + 1, densities_.id());
   }
   if (view.options.clouds) {
     if (!clouds_) clouds_.emplace();
-    blocks_.push_back(clouds_->bind(*view.options.clouds, sky, kCloudUnit));
+    clouds_->bind(*view.options.clouds, sky, kCloudUnit, blocks_);
   }
   if (view.volume(tables_)) volume_->bind(kVolumeUnit);
   const glm::dvec3 camera =
       (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
-  blocks_.push_back(view.materials.bind(camera, grainy, kMaterialUnit));
+  view.materials.bind(camera, grainy, kMaterialUnit, blocks_);
+}
+
+void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_maps) {
+  const GLuint sky = variant(kFragments, {}, view);
+  const GLuint grainless = variant(kFragments, {kSurface}, view);
+  const GLuint grainy = variant(kFragments, {kSurface, kGrains}, view);
+  bind(view, shadow_maps, sky, grainy);
+  // The triangle lies at the near end of the range of depths.
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
-  // The triangle and the squares about the suns lie at the near end of the range of depths.
   glDepthFunc(GL_EQUAL);
   glDepthRange(kSkyClass, 1);
   draw_triangle(sky);
-  glUseProgram(disc);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
   glDepthRange(kGrainlessClass, 1);
   draw_triangle(grainless);
   glDepthRange(kGrainyClass, 1);
   draw_triangle(grainy);
   glDepthRange(0, 1);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+  draw_suns(view);
+}
+
+void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shadow_maps) {
+  const GLuint sky = variant(kCompute, {}, view);
+  const GLuint grainless = variant(kCompute, {kSurface}, view);
+  const GLuint grainy = variant(kCompute, {kSurface, kGrains}, view);
+  bind(view, shadow_maps, sky, grainy);
+  const auto groups = [&](int pixels) {
+    return static_cast<GLuint>((pixels * view.options.samples_per_side + kGroup - 1) / kGroup);
+  };
+  for (const auto& [id, pixel_class] :
+       {std::pair(sky, kSkyClass), {grainless, kGrainlessClass}, {grainy, kGrainyClass}}) {
+    const Uniforms uniforms(id);
+    uniforms.set("pixel_class", pixel_class);
+    uniforms.set("grainless_depth", grainless_depth(view));
+    glUseProgram(id);
+    glDispatchCompute(groups(view.options.width), groups(view.options.height), 1);
+  }
+}
+
+void AtmospherePass::draw_suns(const AtmosphereView& view) {
+  glUseProgram(variant(kFragments, {kDisc}, view));
+  glBindVertexArray(empty_.id());
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_EQUAL);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
 }

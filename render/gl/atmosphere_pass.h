@@ -3,9 +3,10 @@
 // kAtmosphereReads; writes light (linear sRGB and luminance, cd/m^2), the distance from the camera
 // (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites. The sky, the
 // suns' discs, surfaces and those near enough to show their grains are drawn apart, each by a
-// shader that does no more than it must: the pixels are sorted into classes before, which the depth
-// test tells apart. Before it, the light of whole rays from the eye is looked up once for all
-// pixels, into the targets kSkyViewWrites.
+// shader that does no more than it must. As fragments, of which a renderer in software skips those
+// that fail the depth test, or as compute shaders, which have all of a GPU to themselves: fragments
+// are shaded by a part of it on cards made for computing. Before it, the light of whole rays from
+// the eye is looked up once for all pixels, into the targets kSkyViewWrites.
 #pragma once
 
 #include <array>
@@ -22,10 +23,11 @@
 #include "render/gl/projection.h"
 #include "render/gl/shadow_pass.h"
 #include "render/gl/site_axes.h"
+#include "render/gl/uniform_block.h"
 
 namespace skyfit {
 
-// The texture units of render/shaders/atmosphere.glsl, of atmosphere.frag and of sky_view.glsl.
+// The texture units of render/shaders/atmosphere.glsl, of pixel_light.glsl and of sky_view.glsl.
 inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance", "rayleigh_like",
                                                      "single_mie", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
@@ -43,7 +45,7 @@ inline const std::vector<std::string> kSkyViewWrites = {"view_air", "view_aeroso
 // What render/shaders/atmosphere.glsl needs to know of the tables: what no blend of two atmospheres
 // changes, as text to #define, and the rest.
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables);
-GlBuffer atmosphere_block(const AtmosphereTables& tables, GLuint program);
+void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers);
 
 // A frame as the atmosphere's passes see it.
 struct AtmosphereView {
@@ -73,29 +75,33 @@ class AtmospherePass {
   void draw_sky_view(const AtmosphereView& view);
   void fill_volume(const AtmosphereView& view);
 
-  // Sorts the pixels by the G-buffer's depth; what it writes is the depth target of draw().
-  void classify(const AtmosphereView& view) const;
-
-  // After the passes above of the same view, as far as it has them.
-  // Compiles the variants that the options need, when they are new.
+  // Either of two ways comes after the passes above of the same view, as far as it has them, and
+  // compiles the variants that the options need, when they are new.
+  // As fragments. First the pixels are sorted by the G-buffer's depth; what that writes is the
+  // depth target of draw().
+  void classify(const AtmosphereView& view);
   void draw(const AtmosphereView& view, const ShadowPass& shadow_maps);
+  // As compute shaders into images, but for the suns, whose depth target is the G-buffer's.
+  void dispatch(const AtmosphereView& view, const ShadowPass& shadow_maps);
+  void draw_suns(const AtmosphereView& view);
 
  private:
   using Defined = std::vector<std::string>;
   GLuint program(const std::string& path, const Defined& defined);
   Defined defined_by(const FrameOptions& options) const;
-  GLuint variant(const Defined& what, const AtmosphereView& view);
+  GLuint variant(const std::string& path, const Defined& what, const AtmosphereView& view);
   void bind_blocks(GLuint program, const AtmosphereView& view);
+  // What the two ways need, of which `sky` and `grainy` are programs.
+  void bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky, GLuint grainy);
   void draw_triangle(GLuint program) const;
 
   AtmosphereTables tables_;  // without the tables' values
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
-  GlProgram classes_;
   GlVertexArray empty_;
   GlTexture densities_;                 // over height
   std::optional<AerialVolume> volume_;  // made when first used
   std::optional<Clouds> clouds_;
-  std::vector<GlBuffer> blocks_;  // of the frame
+  UniformBuffers blocks_;
 };
 
 }  // namespace skyfit

@@ -24,4 +24,16 @@ GlBuffer upload(std::span<const T> data) {
   return buffer;
 }
 
+// Replaces what the buffer holds: for what changes from frame to frame.
+template <class T>
+void refill(GlBuffer& buffer, std::span<const T> data) {
+  if (buffer.id() == 0) {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    buffer = GlBuffer(id);
+  }
+  glNamedBufferData(buffer.id(), static_cast<GLsizeiptr>(data.size_bytes()), data.data(),
+                    GL_STREAM_DRAW);
+}
+
 }  // namespace skyfit

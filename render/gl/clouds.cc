@@ -16,8 +16,8 @@ namespace {
 constexpr int kSide = 64;
 constexpr double kDeviation = 1.0 / 6;
 // Of the sum of four octaves with the weights of clouds.glsl.
-const double kSumDeviation = kDeviation * std::sqrt(0.30 * 0.30 + 0.40 * 0.40 + 0.22 * 0.22 +
-                                                    0.08 * 0.08);
+const double kSumDeviation =
+    kDeviation * std::sqrt(0.30 * 0.30 + 0.40 * 0.40 + 0.22 * 0.22 + 0.08 * 0.08);
 constexpr double kMiddleOfEdge = 0.025;  // of the smoothstep in clouds.glsl, above its threshold
 
 // Fractal, repeating, mean 1/2, deviation 1/6.
@@ -71,14 +71,14 @@ Clouds::Clouds() {
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-GlBuffer Clouds::bind(const CloudLayer& clouds, GLuint program, GLuint unit) const {
+void Clouds::bind(const CloudLayer& clouds, GLuint program, GLuint unit,
+                  UniformBuffers& buffers) const {
   glBindTextureUnit(unit, noise_.id());
   UniformBlock block(program, "Clouds");
   block.set("cloud_km", 1e-3 * clouds.altitude_m);
   block.set("cloud_opacity", clouds.opacity);
-  block.set("cloud_threshold",
-            0.5 + kSumDeviation * exceeded_by(clouds.cover) - kMiddleOfEdge);
-  return block.bind();
+  block.set("cloud_threshold", 0.5 + kSumDeviation * exceeded_by(clouds.cover) - kMiddleOfEdge);
+  block.bind(buffers);
 }
 
 }  // namespace skyfit

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/gl/objects.h"
+#include "render/gl/uniform_block.h"
 #include "render/render.h"
 
 namespace skyfit {
@@ -11,8 +12,8 @@ class Clouds {
  public:
   Clouds();
 
-  // The noise as texture `unit`, and what the shader needs, which is bound while the buffer lives.
-  GlBuffer bind(const CloudLayer& clouds, GLuint program, GLuint unit) const;
+  // The noise as texture `unit`, and what the shader needs.
+  void bind(const CloudLayer& clouds, GLuint program, GLuint unit, UniformBuffers& buffers) const;
 
  private:
   GlTexture noise_;

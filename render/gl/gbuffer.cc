@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/gl/gbuffer.h"
 
-#include <array>
-
 namespace skyfit {
 
 void add_gbuffer(int width, int height, FrameGraph& graph) {
@@ -12,10 +10,7 @@ void add_gbuffer(int width, int height, FrameGraph& graph) {
 }
 
 void clear_gbuffer() {
-  const std::array<float, 4> nothing{};
   const float far_depth = 0;
-  glClearBufferfv(GL_COLOR, 0, nothing.data());
-  glClearBufferfv(GL_COLOR, 1, nothing.data());
   glClearBufferfv(GL_DEPTH, 0, &far_depth);
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);

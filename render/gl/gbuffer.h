@@ -15,8 +15,8 @@ inline const std::vector<std::string> kGBuffer = {"color", "surface", "depth"};
 // Its targets, in samples.
 void add_gbuffer(int width, int height, FrameGraph& graph);
 
-// Clears the targets of the pass that runs and sets the test against reversed depth, near /
-// distance: 0 where nothing is.
+// Clears the depth of the pass that runs and sets the test against reversed depth, near / distance:
+// 0 where nothing is, where the other targets hold anything.
 void clear_gbuffer();
 
 }  // namespace skyfit

@@ -95,7 +95,14 @@ std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
     for (std::size_t unit = 0; unit < pass.reads.size(); ++unit) {
       bind(pass.reads[unit], static_cast<GLuint>(unit));
     }
+    for (std::size_t unit = 0; unit < pass.images.size(); ++unit) {
+      bind_image(pass.images[unit], static_cast<GLuint>(unit));
+    }
     pass.draw();
+    if (!pass.images.empty()) {
+      glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                      GL_FRAMEBUFFER_BARRIER_BIT);
+    }
     check_gl("pass " + pass.name);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     stamp();
@@ -113,6 +120,11 @@ std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
 
 void FrameGraph::bind(const std::string& name, GLuint unit) const {
   glBindTextureUnit(unit, texture(name).object.id());
+}
+
+void FrameGraph::bind_image(const std::string& name, GLuint unit) const {
+  const Texture& target = texture(name);
+  glBindImageTexture(unit, target.object.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, target.format);
 }
 
 std::vector<float> FrameGraph::read_back(const std::string& name, GLenum format,

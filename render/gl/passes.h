@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame is a list of passes over named textures. The list is the renderer's documentation: what a
 // pass reads is bound to texture units 0, 1, ... in the order of `reads`; what it writes are the
-// colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target.
+// colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target; what its
+// compute shaders write are the image units 0, 1, ... in the order of `images`.
 #pragma once
 
 #include <functional>
@@ -19,6 +20,7 @@ struct Pass {
   std::string name;
   std::vector<std::string> reads, writes;
   std::function<void()> draw;
+  std::vector<std::string> images = {};
 };
 
 class FrameGraph {
@@ -47,6 +49,7 @@ class FrameGraph {
   };
   const Texture& texture(const std::string& name) const;
   GlFramebuffer framebuffer(const Pass& pass) const;
+  void bind_image(const std::string& name, GLuint unit) const;
 
   std::map<std::string, Texture> textures_;
 };

@@ -120,7 +120,10 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 class GlRenderer final : public FrameDrawer {
  public:
   GlRenderer(const Scene& scene, GraphicsDevice device)
-      : scene_(scene), context_(make_context(device)), materials_(scene.textures) {}
+      : scene_(scene),
+        device_(device),
+        context_(make_context(device)),
+        materials_(scene.textures) {}
 
   void set_atmosphere(const AtmosphereTables& tables) override {
     context_->make_current();
@@ -157,20 +160,10 @@ class GlRenderer final : public FrameDrawer {
     const auto report = [&](double done) {
       if (progress) progress(done);
     };
-    context_->make_current();
-    require_above_ground(options);
-    FrameOptions sampled = options;
-    sampled.samples_per_side = affordable_samples(options);
+    const FrameOptions sampled = affordable(options);
     const int samples = sampled.samples_per_side;
-    add_targets(options.width * samples, options.height * samples, options.layers, graph_);
-    atmosphere_.add_sky_view(options, graph_);
-
-    const auto start = std::chrono::steady_clock::now();
     Frame frame;
-    prepare_scene(sampled, frame.statistics);
-    report(0.7);
-    frame.statistics.passes = graph_.run(passes(sampled));
-    frame.statistics.milliseconds = milliseconds_since(start);
+    frame.statistics = draw_samples(sampled, report);
     report(0.9);
     frame.width = options.width;
     frame.height = options.height;
@@ -179,6 +172,10 @@ class GlRenderer final : public FrameDrawer {
     add_directions(options.camera, frame);
     report(1);
     return frame;
+  }
+
+  FrameStatistics draw_unread(const FrameOptions& options) override {
+    return draw_samples(affordable(options), [](double) {});
   }
 
  private:
@@ -205,6 +202,29 @@ class GlRenderer final : public FrameDrawer {
           fmt::format("render.camera.altitude_m = {:.9g}: must be above the ground, {:.9g} m",
                       options.camera.altitude_m, ground + kRoom));
     }
+  }
+
+  // With as many samples as the device can hold. Makes the context current.
+  FrameOptions affordable(const FrameOptions& options) const {
+    context_->make_current();
+    require_above_ground(options);
+    FrameOptions sampled = options;
+    sampled.samples_per_side = affordable_samples(options);
+    return sampled;
+  }
+
+  FrameStatistics draw_samples(const FrameOptions& options,
+                               const std::function<void(double)>& report) {
+    const int samples = options.samples_per_side;
+    add_targets(options.width * samples, options.height * samples, options.layers, graph_);
+    atmosphere_.add_sky_view(options, graph_);
+    const auto start = std::chrono::steady_clock::now();
+    FrameStatistics statistics;
+    prepare_scene(options, statistics);
+    report(0.7);
+    statistics.passes = graph_.run(passes(options));
+    statistics.milliseconds = milliseconds_since(start);
+    return statistics;
   }
 
   // What stands where in a frame.
@@ -237,7 +257,7 @@ class GlRenderer final : public FrameDrawer {
     statistics.blocks_behind = selection.behind;
     if (options.shadows) prepare_shadows(options, view, ground_distance);
     statistics.blocks_made = store.made();
-    current_.blocks = terrain_->prepare(selection.blocks, view);
+    terrain_->prepare(selection.blocks, view, current_.blocks);
     statistics.triangles = current_.blocks.triangles;
     statistics.blocks_drawn = current_.blocks.blocks;
     statistics.blocks_hidden = current_.blocks.hidden;
@@ -252,8 +272,8 @@ class GlRenderer final : public FrameDrawer {
     current_.shadows = shadow_views(sun, ground_distance_m);
     for (std::size_t i = 0; i < kShadowMaps; ++i) {
       view.planes = current_.shadows[i].planes;
-      current_.casters[i] =
-          terrain_->prepare(affordable_blocks(view, terrain_->store()).blocks, view);
+      terrain_->prepare(affordable_blocks(view, terrain_->store()).blocks, view,
+                        current_.casters[i]);
     }
   }
 
@@ -291,7 +311,6 @@ class GlRenderer final : public FrameDrawer {
     if (!current_.meshes.empty() || current_.moon) {
       list.push_back({"objects", {}, kGBuffer, [this] { draw_objects(); }});
     }
-    list.push_back({"classes", {"depth"}, {"class"}, [this, view] { atmosphere_.classify(view); }});
     if (AtmospherePass::has_sky_view(options)) {
       list.push_back({"sky view", kTableReads, kSkyViewWrites,
                       [this, view] { atmosphere_.draw_sky_view(view); }});
@@ -302,8 +321,21 @@ class GlRenderer final : public FrameDrawer {
     }
     std::vector<std::string> lights = {"light", "distance"};
     if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
-    lights.emplace_back("class");
-    list.push_back({"atmosphere", kAtmosphereReads, lights,
+    std::vector<std::string> lights_and_depth = lights;
+    if (device_ == GraphicsDevice::kGpu) {
+      list.push_back({"atmosphere",
+                      kAtmosphereReads,
+                      {},
+                      [this, view] { atmosphere_.dispatch(view, shadow_maps()); },
+                      lights});
+      lights_and_depth.emplace_back("depth");
+      list.push_back(
+          {"suns", kTableReads, lights_and_depth, [this, view] { atmosphere_.draw_suns(view); }});
+      return list;
+    }
+    lights_and_depth.emplace_back("class");
+    list.push_back({"classes", {"depth"}, {"class"}, [this, view] { atmosphere_.classify(view); }});
+    list.push_back({"atmosphere", kAtmosphereReads, lights_and_depth,
                     [this, view] { atmosphere_.draw(view, shadow_maps()); }});
     return list;
   }
@@ -334,6 +366,7 @@ class GlRenderer final : public FrameDrawer {
   }
 
   Scene scene_;
+  GraphicsDevice device_;
   std::unique_ptr<GlContext> context_;
   FrameGraph graph_;
   double radius_m_ = 0, albedo_ = 0;

@@ -10,11 +10,11 @@
 namespace skyfit {
 namespace {
 
-constexpr int kSide = 2048;                       // texels of a map
-constexpr double kSmallestHalf = 600;             // m, of the finest map
-constexpr double kHalfPerDistance = 1.5;          // and of one seen from high above
-constexpr double kGrowth = 8;                     // from map to map
-constexpr double kBeyond = 60e3;                  // m along the beam that a peak's shadow crosses
+constexpr int kSide = 2048;               // texels of a map
+constexpr double kSmallestHalf = 600;     // m, of the finest map
+constexpr double kHalfPerDistance = 1.5;  // and of one seen from high above
+constexpr double kGrowth = 8;             // from map to map
+constexpr double kBeyond = 60e3;          // m along the beam that a peak's shadow crosses
 
 }  // namespace
 
@@ -73,8 +73,8 @@ void ShadowPass::draw(const std::function<void(int)>& draw) const {
   check_gl("shadow maps");
 }
 
-GlBuffer ShadowPass::bind(const std::array<ShadowView, kShadowMaps>& views, GLuint program,
-                          GLuint unit) const {
+void ShadowPass::bind(const std::array<ShadowView, kShadowMaps>& views, GLuint program, GLuint unit,
+                      UniformBuffers& buffers) const {
   glBindTextureUnit(unit, maps_.id());
   // From -1..1 to texture coordinates.
   glm::dmat4 texture_from_clip(1);
@@ -87,14 +87,15 @@ GlBuffer ShadowPass::bind(const std::array<ShadowView, kShadowMaps>& views, GLui
     const int map = static_cast<int>(i);
     texels[map] = static_cast<float>(2 * views[i].half_km / kSide);
     const glm::dmat4& clip = views[i].clip_from_site;
-    depth_per_km[map] = static_cast<float>(glm::length(glm::dvec3(clip[0][2], clip[1][2], clip[2][2])));
+    depth_per_km[map] =
+        static_cast<float>(glm::length(glm::dvec3(clip[0][2], clip[1][2], clip[2][2])));
   }
   UniformBlock block(program, "Shadows");
   block.set("map_from_site", std::span<const glm::mat4>(matrices));
   block.set("shadow_texel_km", texels);
   block.set("shadow_depth_per_km", depth_per_km);
   block.set("shadow_reach_km", views.back().half_km);
-  return block.bind();
+  block.bind(buffers);
 }
 
 }  // namespace skyfit

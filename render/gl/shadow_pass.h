@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth seen from the sun, in three maps about the camera, each of a larger part of the terrain; see
-// render/shaders/shadows.glsl.
+// Depth seen from the sun, in three maps about the camera, each of a larger part of the terrain;
+// see render/shaders/shadows.glsl.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 
 #include "render/gl/objects.h"
 #include "render/gl/planet_tree.h"
+#include "render/gl/uniform_block.h"
 
 namespace skyfit {
 
@@ -17,7 +18,7 @@ inline constexpr int kShadowMaps = 3;
 
 // An orthographic view along the sun's beam; the axes of the site, kilometres from the camera.
 struct ShadowView {
-  glm::dmat4 clip_from_site;  // x, y in -1..1, depth in 0..1 away from the sun
+  glm::dmat4 clip_from_site;       // x, y in -1..1, depth in 0..1 away from the sun
   std::vector<glm::dvec4> planes;  // of what may cast a shadow into it, metres, as in TerrainView
   double half_km;
 };
@@ -32,10 +33,9 @@ class ShadowPass {
   // Calls draw(i) with the map of the view i as the depth target.
   void draw(const std::function<void(int)>& draw) const;
 
-  // The maps as texture `unit`, and what render/shaders/shadows.glsl needs of the views, which is
-  // bound while the buffer lives.
-  GlBuffer bind(const std::array<ShadowView, kShadowMaps>& views, GLuint program,
-                GLuint unit) const;
+  // The maps as texture `unit`, and what render/shaders/shadows.glsl needs of the views.
+  void bind(const std::array<ShadowView, kShadowMaps>& views, GLuint program, GLuint unit,
+            UniformBuffers& buffers) const;
 
  private:
   GlTexture maps_;

@@ -71,12 +71,14 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m)
   attribute(7, 1, 2, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, morph_begin_km));
 }
 
-TerrainDraw TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& view) const {
+void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& view,
+                          TerrainDraw& draw) const {
   std::vector<MeasuredBlock> measured;
   for (const CubeBlock& block : blocks) measured.push_back({block, store_.heights(block)});
   const std::vector<PatchSet> visible = visible_patches(view, measured);
   const auto& ends = block_indices().patches;
-  TerrainDraw draw;
+  draw.hidden = 0;
+  draw.triangles = 0;
   std::vector<BlockInstance> instances;
   std::vector<DrawCommand> commands;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -97,11 +99,10 @@ TerrainDraw TerrainPass::prepare(std::span<const CubeBlock> blocks, const Terrai
     instances.push_back({glm::vec3(1e-3 * (centre - view.camera())),
                          static_cast<float>(1e-3 * begin), static_cast<float>(1e-3 * end)});
   }
-  draw.instances = upload(std::span<const BlockInstance>(instances));
-  draw.commands = upload(std::span<const DrawCommand>(commands));
+  refill(draw.instances, std::span<const BlockInstance>(instances));
+  refill(draw.commands, std::span<const DrawCommand>(commands));
   draw.runs = static_cast<int>(commands.size());
   draw.blocks = static_cast<int>(instances.size());
-  return draw;
 }
 
 void TerrainPass::submit(const TerrainDraw& draw) const {

@@ -30,8 +30,8 @@ class TerrainPass {
 
   BlockStore& store() { return store_; }
 
-  // The visible patches of blocks in the store.
-  TerrainDraw prepare(std::span<const CubeBlock> blocks, const TerrainView& view) const;
+  // The visible patches of blocks in the store, in place of what `draw` held.
+  void prepare(std::span<const CubeBlock> blocks, const TerrainView& view, TerrainDraw& draw) const;
 
   void draw(const TerrainDraw& draw, const Projection& projection, const SiteAxes& axes) const;
 

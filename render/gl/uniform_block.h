@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <glm/glm.hpp>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,13 @@
 #include "render/gl/buffers.h"
 
 namespace skyfit {
+
+// Of the blocks that are bound, by their bindings: they stay from frame to frame.
+struct UniformBuffer {
+  GlBuffer buffer;
+  std::vector<std::byte> held;
+};
+using UniformBuffers = std::map<GLint, UniformBuffer>;
 
 class UniformBlock {
  public:
@@ -49,10 +57,13 @@ class UniformBlock {
   }
 
   // Makes it the one that programs read at the block's binding.
-  GlBuffer bind() const {
-    GlBuffer buffer = upload(std::span<const std::byte>(bytes_));
+  void bind(UniformBuffers& buffers) const {
+    auto& [buffer, held] = buffers[binding_];
+    if (held != bytes_) {
+      refill(buffer, std::span<const std::byte>(bytes_));
+      held = bytes_;
+    }
     glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding_), buffer.id());
-    return buffer;
   }
 
  private:

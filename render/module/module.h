@@ -17,10 +17,11 @@ class FrameDrawer {
   virtual void set_atmosphere(const AtmosphereTables& tables) = 0;
   virtual double ground_height_m(const std::optional<Site>& site) const = 0;
   virtual Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) = 0;
+  virtual FrameStatistics draw_unread(const FrameOptions& options) = 0;
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 2;
+  static constexpr int kRevision = 3;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice);
   void (*write_exr)(const Frame&, const std::filesystem::path&);

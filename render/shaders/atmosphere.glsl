@@ -32,6 +32,32 @@ const float kPi = 3.14159265358979;
 const float kSunRadius = 0.004654793;       // rad, at 1 au
 const float kSunSolidAngle = 6.8069e-5;     // sr
 
+#ifdef EXACT_FILTER
+// GPUs interpolate in steps of 1/256 of a texel, too coarse where neighbouring points are subtracted.
+vec4 look_up(sampler2D table, vec2 at) {
+  ivec2 size = textureSize(table, 0);
+  vec2 place = clamp(at * vec2(size) - 0.5, vec2(0.0), vec2(size) - 1.0);
+  ivec2 low = min(ivec2(place), size - 2);
+  vec2 t = place - vec2(low);
+  return mix(mix(texelFetch(table, low, 0), texelFetch(table, low + ivec2(1, 0), 0), t.x),
+             mix(texelFetch(table, low + ivec2(0, 1), 0), texelFetch(table, low + 1, 0), t.x), t.y);
+}
+vec4 slice_of(sampler3D table, ivec3 low, vec2 t) {
+  return mix(mix(texelFetch(table, low, 0), texelFetch(table, low + ivec3(1, 0, 0), 0), t.x),
+             mix(texelFetch(table, low + ivec3(0, 1, 0), 0), texelFetch(table, low + ivec3(1, 1, 0), 0), t.x), t.y);
+}
+vec4 look_up(sampler3D table, vec3 at) {
+  ivec3 size = textureSize(table, 0);
+  vec3 place = clamp(at * vec3(size) - 0.5, vec3(0.0), vec3(size) - 1.0);
+  ivec3 low = min(ivec3(place), size - 2);
+  vec3 t = place - vec3(low);
+  return mix(slice_of(table, low, t.xy), slice_of(table, low + ivec3(0, 0, 1), t.xy), t.z);
+}
+#else
+vec4 look_up(sampler2D table, vec2 at) { return texture(table, at); }
+vec4 look_up(sampler3D table, vec3 at) { return texture(table, at); }
+#endif
+
 float aerosol_phase(float nu) {
 #if PHASE_TYPE == 2
   return two_lobe_phase(LOBE_TYPE, phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
@@ -50,7 +76,7 @@ float height_coordinate(float h, float size) {
 // From the point to the top, for rays that miss the ground.
 vec4 optical_depth_to_top(float h, float mu) {
   float x = texture_from_unit(unit_from_upward_ray(h, mu, bottom_km, thickness_km), optical_depth_size.x);
-  return texture(optical_depth_table, vec2(x, height_coordinate(h, optical_depth_size.y)));
+  return look_up(optical_depth_table, vec2(x, height_coordinate(h, optical_depth_size.y)));
 }
 
 // Of the sun's beam; the disc sinks behind the horizon over its diameter.
@@ -70,7 +96,7 @@ float deep_twilight(float sun) { return exp(min((sun - LOWEST_SUN) * 57.3, 0.0))
 vec4 sky_irradiance(float h, float mu_s) {
   float sun = sun_height(h, mu_s, bottom_km);
   float x = texture_from_unit(unit_from_sun(sun, LOWEST_SUN), irradiance_size.x);
-  return deep_twilight(sun) * texture(irradiance_table, vec2(x, height_coordinate(h, irradiance_size.y)));
+  return deep_twilight(sun) * look_up(irradiance_table, vec2(x, height_coordinate(h, irradiance_size.y)));
 }
 
 // A point on the view ray, as the tables see it.
@@ -102,8 +128,8 @@ Scattering scattering(Place from, float nu, bool hits_ground) {
                                      thickness_km),
                    height_coordinate(from.h, scattering_heights));
   vec3 far = near + vec3(1.0 / scattering_size.y, 0.0, 0.0);
-  vec4 rayleigh_like = mix(texture(rayleigh_like_table, near), texture(rayleigh_like_table, far), turn - first);
-  vec4 single_mie = mix(texture(single_mie_table, near), texture(single_mie_table, far), turn - first);
+  vec4 rayleigh_like = mix(look_up(rayleigh_like_table, near), look_up(rayleigh_like_table, far), turn - first);
+  vec4 single_mie = mix(look_up(single_mie_table, near), look_up(single_mie_table, far), turn - first);
   // The tables hold logarithms of the mean over the ray.
   float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
                                 : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);

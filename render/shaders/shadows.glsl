@@ -48,7 +48,7 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
   if (reach <= 0.0) return vec4(0.0);
   float step_km = reach / float(kSteps);
   // Jimenez 2014: interleaved gradient noise.
-  float begin = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  float begin = fract(52.9829189 * fract(dot(pixel_centre, vec2(0.06711056, 0.00583715))));
   vec4 air = air_scattering * rayleigh_phase(depolarisation, nu);
   vec4 aerosol = aerosol_scattering * aerosol_phase(nu);
   vec4 sum = vec4(0.0);

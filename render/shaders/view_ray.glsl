@@ -20,6 +20,10 @@ layout(std140, binding = 1) uniform View {
   vec4 suns[kSuns];   // unit vector in the camera frame; irradiance as a share of the first sun's
 };
 
+// The ray through a point of the picture, which runs from -1 to 1: of length 1 along the view's axis, so that it is linear
+// over the picture. Camera frame.
+vec3 ray_through(vec2 screen) { return site_from_view * vec3(screen * tangent, -1.0); }
+
 struct ViewRay {
   vec3 direction;
   bool air;          // meets the atmosphere

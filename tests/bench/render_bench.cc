@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a planet in software: the whole frame with all blocks made and all shaders compiled,
-// without reading it back; the medians count. The counters are the passes (ms, by the device's
-// timers) and what the culling leaves. EightFetches is a full-screen pass with eight fetches from
-// the scattering tables: what the atmosphere's pass is held against.
+// Frames of a planet, in software and on a GPU: the whole frame with all blocks made and all
+// shaders compiled, without reading it back; the medians count. The counters are the passes (ms, by
+// the device's timers) and what the culling leaves. EightFetches is a full-screen pass with eight
+// fetches from the scattering tables: what the atmosphere's pass is held against.
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "data_refs/references.h"
@@ -34,13 +39,14 @@ const AtmosphereTables& tables() {
   return made;
 }
 
-Renderer& renderer() {
-  static Renderer made = [] {
-    Renderer renderer;
-    renderer.set_atmosphere(preset(), tables());
-    return renderer;
-  }();
-  return made;
+// Throws std::runtime_error where there is no such device.
+Renderer& renderer(GraphicsDevice device) {
+  static std::map<GraphicsDevice, Renderer> made;
+  const auto found = made.find(device);
+  if (found != made.end()) return found->second;
+  Renderer renderer({}, device);
+  renderer.set_atmosphere(preset(), tables());
+  return made.emplace(device, std::move(renderer)).first->second;
 }
 
 FrameOptions options_of(const char* view, int width, int height) {
@@ -52,15 +58,23 @@ FrameOptions options_of(const char* view, int width, int height) {
   options.site = named.site;
   options.sun_zenith = named.sun_zenith;
   options.samples_per_side = 1;
-  if (options.site) options.camera.altitude_m += renderer().ground_height_m(options.site);
+  if (options.site)
+    options.camera.altitude_m += renderer(GraphicsDevice::kSoftware).ground_height_m(options.site);
   return options;
 }
 
-void run(benchmark::State& state, const FrameOptions& options) {
-  renderer().draw(options);
+// A GPU without work lowers its clock.
+void warm_up(const std::function<void()>& draw) {
+  const auto start = std::chrono::steady_clock::now();
+  do draw();
+  while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(200));
+}
+
+void run(benchmark::State& state, Renderer& renderer, const FrameOptions& options) {
+  warm_up([&] { renderer.draw_unread(options); });
   FrameStatistics statistics;
   for (auto _ : state) {
-    statistics = renderer().draw(options).statistics;
+    statistics = renderer.draw_unread(options);
     state.SetIterationTime(1e-3 * statistics.milliseconds);
     for (const PassTime& pass : statistics.passes) state.counters[pass.pass] = pass.milliseconds;
   }
@@ -72,7 +86,7 @@ void View(benchmark::State& state, const char* view, int width, int height,
           AerialPerspective aerial) {
   FrameOptions options = options_of(view, width, height);
   options.aerial = aerial;
-  run(state, options);
+  run(state, renderer(GraphicsDevice::kSoftware), options);
 }
 
 // The atmosphere's pass does not depend on the scene: the same view with few and with many
@@ -80,18 +94,31 @@ void View(benchmark::State& state, const char* view, int width, int height,
 void Triangles(benchmark::State& state, double samples_per_quad) {
   FrameOptions options = options_of("space", 1280, 720);
   options.samples_per_quad = samples_per_quad;
-  run(state, options);
+  run(state, renderer(GraphicsDevice::kSoftware), options);
 }
 
-void EightFetches(benchmark::State& state) {
-  static const auto context = make_osmesa_context();
-  context->make_current();
-  static FrameGraph graph = [] {
-    FrameGraph made;
-    add_tables(tables(), made);
-    made.add_target("light", GL_RGBA32F, 1280, 720);
-    return made;
-  }();
+// Whatever EGL finds; the label says what it was.
+void Gpu(benchmark::State& state, const char* view) {
+  try {
+    state.SetLabel(make_egl_context()->description());
+    run(state, renderer(GraphicsDevice::kGpu), options_of(view, 1920, 1080));
+  } catch (const std::runtime_error& error) {
+    state.SkipWithError(error.what());
+  }
+}
+
+void EightFetches(benchmark::State& state, GraphicsDevice device, int width, int height) {
+  std::unique_ptr<GlContext> context;
+  try {
+    context = make_context(device);
+  } catch (const std::runtime_error& error) {
+    state.SkipWithError(error.what());
+    return;
+  }
+  state.SetLabel(context->description());
+  FrameGraph graph;
+  add_tables(tables(), graph);
+  graph.add_target("light", GL_RGBA32F, width, height);
   const ShaderSource source{"eight.frag",
                             "in vec2 screen;\n"
                             "layout(binding = 0) uniform sampler3D first;\n"
@@ -116,7 +143,7 @@ void EightFetches(benchmark::State& state) {
          glBindVertexArray(empty.id());
          glDrawArrays(GL_TRIANGLES, 0, 3);
        }}};
-  graph.run(passes);
+  warm_up([&] { graph.run(passes); });
   for (auto _ : state) state.SetIterationTime(1e-3 * graph.run(passes).front().milliseconds);
 }
 
@@ -129,7 +156,7 @@ void frames(benchmark::internal::Benchmark* benchmark) {
       ->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK(EightFetches)->Apply(frames);
+BENCHMARK_CAPTURE(EightFetches, 1280x720, GraphicsDevice::kSoftware, 1280, 720)->Apply(frames);
 BENCHMARK_CAPTURE(Triangles, few, 64)->Apply(frames);
 BENCHMARK_CAPTURE(Triangles, many, 3)->Apply(frames);
 BENCHMARK_CAPTURE(View, valley_1280x720, "valley", 1280, 720, AerialPerspective::kVolume)
@@ -142,6 +169,12 @@ BENCHMARK_CAPTURE(View, ground_1280x720, "ground", 1280, 720, AerialPerspective:
     ->Apply(frames);
 BENCHMARK_CAPTURE(View, limb_1280x720, "limb", 1280, 720, AerialPerspective::kVolume)
     ->Apply(frames);
+
+BENCHMARK_CAPTURE(EightFetches, gpu_1920x1080, GraphicsDevice::kGpu, 1920, 1080)->Apply(frames);
+BENCHMARK_CAPTURE(Gpu, valley_1920x1080, "valley")->Apply(frames);
+BENCHMARK_CAPTURE(Gpu, ground_1920x1080, "ground")->Apply(frames);
+BENCHMARK_CAPTURE(Gpu, space_1920x1080, "space")->Apply(frames);
+BENCHMARK_CAPTURE(Gpu, limb_1920x1080, "limb")->Apply(frames);
 
 }  // namespace
 }  // namespace skyfit

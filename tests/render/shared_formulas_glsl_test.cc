@@ -162,7 +162,7 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
   const auto look_up = [&](float which) {
     std::vector<float> asked = inputs;
     for (std::size_t i = 3; i < asked.size(); i += 4) asked[i] = which;
-    GlBuffer block;
+    UniformBuffers blocks;
     return run_glsl("#include \"render/shaders/atmosphere.glsl\"\n",
                     "bool hit = ray_hits_ground(x.x, x.y, bottom_km);\n"
                     "float nu = x.y * x.z + 0.3 * sqrt((1.0 - x.y * x.y) * (1.0 - x.z * x.z));\n"
@@ -170,7 +170,7 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
                     "if (x.w == 1.0) y = sky_irradiance(x.x, x.z);\n"
                     "if (x.w == 2.0) y = sun_transmittance(x.x, x.z);\n",
                     asked, atmosphere_defines(tables), [&](GLuint program) {
-                      block = atmosphere_block(tables, program);
+                      bind_atmosphere(tables, program, blocks);
                       for (GLuint unit = 0; unit < 5; ++unit) graph.bind(names[unit], unit);
                     });
   };

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a pixel sees (Sperlhofer 2011, 4.6.2): light reflected by what is there, dimmed on the way, plus the light that the
+// air scatters into the path; where there is something (SURFACE), in the sky, and in the suns (DISC). See atmosphere_pass.h
+// for the other variants.
+#include "render/shaders/sky_view.glsl"
+#include "render/shaders/gbuffer.glsl"
+#include "render/shaders/surface_light.glsl"
+#ifdef SURFACE
+#include "render/shaders/materials.glsl"
+#endif
+#ifdef VOLUME
+#include "render/shaders/aerial_volume.glsl"
+#endif
+#ifdef CLOUDS
+#include "render/shaders/clouds.glsl"
+#endif
+#ifdef SHADOWS
+vec2 pixel_centre;  // that seen_at() is asked for
+#include "render/shaders/shadows.glsl"
+#endif
+
+layout(binding = 5) uniform sampler2D color;
+layout(binding = 6) uniform sampler2D surface_target;
+layout(binding = 7) uniform sampler2D depth;
+
+const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // linear sRGB and luminance, cd/m^2
+
+const float kInfinity = uintBitsToFloat(0x7f800000u);
+
+vec3 srgb(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
+
+#ifdef DISC
+// A sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel; its mean is 1.
+float disc(vec3 ray, vec3 sun) {
+  float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
+  float cover = clamp((kSunRadius - away) / pixel_angle + 0.5, 0.0, 1.0);
+  float inside = min(away / kSunRadius, 1.0);
+  return cover * (1.0 - 0.6 * (1.0 - sqrt(1.0 - inside * inside))) / 0.8;
+}
+#endif
+
+struct PathLight {
+  vec4 in_scatter, reflected, transmittance;
+};
+
+// What reaches the eye by the light of one sun.
+#ifdef SURFACE
+struct Surface {
+  float d;  // from the eye
+  vec3 normal, up;
+  vec4 reflectance;
+};
+
+PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
+  vec3 sun = suns[i].xyz;
+  float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
+  Place start = place_of(ray, sun, nu);
+  float in_air = max(surface.d - ray.entry, 0.0);
+  Place end = place_along(start, nu, in_air);
+  PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
+#ifdef VOLUME
+  VolumeLight light = volume_light(ray, in_air);
+  path.in_scatter = radiance(light.scattering, nu);
+  path.transmittance = light.transmittance;
+#else
+  if (ray.air && surface.d > ray.entry) {
+    WholeRay whole = whole_ray(ray, start, sun, nu, i);
+    // Both ends from the same table: nothing is left of its errors where they are near each other.
+    path.transmittance = transmittance_between(start, end, ray.hits_ground);
+    Scattering rest = scattering(end, nu, ray.hits_ground);
+    path.in_scatter = radiance(scattering_before(whole.scattering, path.transmittance, rest), nu);
+  }
+#endif
+  float lit = 1.0;
+#ifdef SHADOWS
+  if (i == 0) lit *= sunlit(surface.d * ray.direction, surface.normal);
+#endif
+#ifdef CLOUDS
+  lit *= 1.0 - cloud_shadow(surface.d * ray.direction, end, sun);
+#endif
+  Place at = Place(height_after(bottom_km, camera_km, ray.direction.z, surface.d), end.mu, dot(surface.up, sun));
+  path.reflected = clear * path.transmittance * (surface.reflectance / kPi) *
+                   surface_irradiance(at, surface.normal, surface.up, sun, lit);
+#else
+PathLight light_of(int i, ViewRay ray, float clear) {
+  vec3 sun = suns[i].xyz;
+  float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
+  Place start = place_of(ray, sun, nu);
+  PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
+  if (ray.air) {
+    WholeRay whole = whole_ray(ray, start, sun, nu, i);
+    path.in_scatter = radiance(whole.scattering, nu);
+    path.transmittance = exp(-whole.depth);
+  }
+#ifdef DISC
+  path.reflected = clear * path.transmittance * (disc(ray.direction, sun) / kSunSolidAngle);
+#endif
+#endif
+#ifndef SURFACE
+  const float in_air = kInfinity;
+#endif
+#ifdef SHADOWS
+  if (i == 0 && ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air), 0.0);
+#endif
+#ifdef CLOUDS
+  // Of the light behind a cloud the cloud lets the rest pass.
+  if (clear < 1.0) {
+    Place at = place_along(start, nu, cloud_distance(ray) - ray.entry);
+    vec4 dimming = transmittance_between(start, at, ray.hits_ground);
+    Scattering before = scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground));
+    path.in_scatter = mix(min(radiance(before, nu), path.in_scatter), path.in_scatter, clear);
+    path.reflected += (1.0 - clear) * dimming * cloud_radiance(at, ray.h);
+  }
+#endif
+  path.in_scatter *= suns[i].w;
+  path.reflected *= suns[i].w;
+  return path;
+}
+
+struct Seen {
+  vec4 light;  // linear sRGB and luminance, cd/m^2
+  float distance_km;
+#ifdef LAYERS
+  vec4 in_scatter, reflected, transmittance, albedo, normal;
+#endif
+};
+
+// The rays are those of ray_through(), in the camera frame and in the planet's axes.
+Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
+#ifdef SHADOWS
+  pixel_centre = vec2(pixel) + 0.5;
+#endif
+  float stretch = length(site_ray);
+  ViewRay ray = view_ray(site_ray / stretch);
+#ifdef SURFACE
+  Surface surface;
+  float along_axis = near_km / texelFetch(depth, pixel, 0).x;
+  surface.d = along_axis * stretch;
+  vec4 shape = texelFetch(surface_target, pixel, 0);
+  surface.normal = from_octahedral(shape.xy);
+  float light_or_dark = add_material(along_axis * planet_ray, surface.d, ray.direction, shape.z, surface.normal);
+  surface.reflectance = min(texelFetch(color, pixel, 0) * (shape.w * kPi * light_or_dark), 1.0);
+  surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
+  if (ray.hits_ground) surface.d = min(surface.d, ray.entry + distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0));
+  float d = surface.d;
+#else
+  // A ray that misses the triangles but not the sphere grazes it.
+  ray.hits_ground = false;
+  const float d = kInfinity;
+#endif
+#ifdef CLOUDS
+  float clear = 1.0 - cloud_opacity_on(ray, d);
+#else
+  const float clear = 1.0;
+#endif
+#ifdef SURFACE
+  PathLight path = light_of(0, ray, surface, clear);
+#else
+  PathLight path = light_of(0, ray, clear);
+#endif
+#ifdef SECOND_SUN
+  // Not a loop, which the software renderer does not unroll.
+#ifdef SURFACE
+  PathLight other = light_of(1, ray, surface, clear);
+#else
+  PathLight other = light_of(1, ray, clear);
+#endif
+  path.in_scatter += other.in_scatter;
+  path.reflected += other.reflected;
+#endif
+  Seen seen;
+  seen.light = light_from_nodes * (path.in_scatter + path.reflected);
+  seen.distance_km = d;
+#ifdef LAYERS
+  vec3 white = srgb(vec4(1.0));
+  seen.in_scatter = vec4(srgb(path.in_scatter), 1.0);
+  seen.reflected = vec4(srgb(path.reflected), 1.0);
+  seen.transmittance = vec4(srgb(clear * path.transmittance) / white, 1.0);
+#ifdef SURFACE
+  seen.albedo = vec4(srgb(surface.reflectance) / white, 1.0);
+  seen.normal = vec4(surface.normal, 1.0);
+#else
+  seen.albedo = vec4(0.0);
+  seen.normal = vec4(0.0);
+#endif
+#endif
+  return seen;
+}
