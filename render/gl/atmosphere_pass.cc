@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <iterator>
 
 #include "model/shared/shared.h"
 #include "render/gl/shader.h"

@@ -328,6 +328,7 @@ class GlRenderer final : public FrameDrawer {
                       {},
                       [this, view] { atmosphere_.dispatch(view, shadow_maps()); },
                       lights});
+      // Not the G-buffer again, whose depth it tests against; the sky's view is still bound.
       lights_and_depth.emplace_back("depth");
       list.push_back(
           {"suns", kTableReads, lights_and_depth, [this, view] { atmosphere_.draw_suns(view); }});
