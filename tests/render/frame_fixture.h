@@ -42,6 +42,11 @@ inline Renderer& renderer() {
   return made;
 }
 
+inline Frame draw_layers(FrameOptions options, Renderer& with = renderer()) {
+  options.layers = true;
+  return with.draw(options);
+}
+
 // The named view in a picture of one sample per pixel.
 inline FrameOptions options_of(std::string_view name, int width, int height) {
   const NamedView& view = find_view(name);
