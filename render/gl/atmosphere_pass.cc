@@ -24,8 +24,8 @@ void add(const std::string& name, const Table& table, FrameGraph& graph) {
 
 // Rows and columns of the sky's view for each texel of the scattering table.
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
-glm::ivec3 sky_view_size(
-    const TableSizes& sizes) {  // columns of a sun, rows to the ground, rows to the sky
+// Columns of a sun, rows to the ground, rows to the sky.
+glm::ivec3 sky_view_size(const TableSizes& sizes) {
   return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
           (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
           (sizes.scattering_sky - 1) * kRowsPerTexel + 1};

@@ -91,7 +91,8 @@ class AtmospherePass {
   Defined defined_by(const FrameOptions& options) const;
   GLuint variant(const std::string& path, const Defined& what, const AtmosphereView& view);
   void bind_blocks(GLuint program, const AtmosphereView& view);
-  // What the two ways need, of which `sky` and `grainy` are programs.
+  // What both ways read; `sky` and `grainy` are programs of theirs that have all the uniform
+  // blocks.
   void bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky, GLuint grainy);
   void draw_triangle(GLuint program) const;
 

@@ -40,7 +40,7 @@ TEST_P(MappingRoundTrip, RaysThatGrazeTheGroundMeetItByTheHorizon) {
     for (const double mu : {tangent * (1 - 1e-7), tangent + 1e-6, 1e-9, 0.0}) {
       if (shared_.ray_hits_ground(h, mu, bottom_)) continue;
       const double d = shared_.distance_to_inner_sphere(bottom_, h, mu, 0);
-      EXPECT_NEAR(d / horizon, 1, 1e-9) << "h = " << h << ", mu = " << mu;
+      EXPECT_NEAR(d / horizon, 1, kRoundTrip) << "h = " << h << ", mu = " << mu;
     }
   }
 }

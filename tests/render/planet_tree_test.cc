@@ -17,9 +17,8 @@ namespace skyfit {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kRounding =
-    1e-3;  // m: positions of 1e7 m in double, of 1e5 m in float from a centre
-
+// m: positions of 1e7 m in double, of 1e5 m in float from a centre.
+constexpr double kRounding = 1e-3;
 constexpr double kGrazing = 1e-6;  // m: the sea, in double
 
 TerrainView view_at(double altitude_m, double zenith_deg, double azimuth_deg, double ratio,
