@@ -31,7 +31,7 @@ Number texture_from_unit(Number x, Number size) { return 0.5 / size + x * (1.0 -
 // higher up the texels of 32 are 0.1 to 0.2 of their height apart. Deviation: Bruneton 2017 takes sqrt(h), which is coarse
 // within the aerosol.
 Number unit_from_height(Number h, Number thickness) {
-  return log(1.0 + sqrt(max(h / (0.03 * thickness), Number(0.0)))) / 1.913018337454;  // log(1 + sqrt(1 / 0.03))
+  return log(1.0 + sqrt(max(h * (1.0 / (0.03 * thickness)), Number(0.0)))) * 0.522734142387;  // 1 / log(1 + sqrt(1 / 0.03))
 }
 
 Number height_from_unit(Number x_r, Number thickness) {
@@ -93,14 +93,14 @@ Number mu_s_from_sun_height(Number h, Number height, Number bottom) {
 // light has a kink there. Deviation: Bruneton 2017 takes distances to the top, which leaves 3 of 48 texels for suns
 // within 60 degrees of the zenith.
 Number sun_curve(Number t) {
-  Number x = (1.0053 - t) / 0.025;
+  Number x = 40.0 * (1.0053 - t);
   return log(x + sqrt(x * x + 1.0));  // asinh
 }
 
 Number unit_from_sun(Number height, Number lowest) {
   Number least = sun_curve(sqrt(1.0 - lowest));
   Number t = sqrt(max(1.0 - max(height, lowest), Number(0.0)));
-  return (sun_curve(t) - least) / (sun_curve(Number(0.0)) - least);
+  return (sun_curve(t) - least) * (1.0 / (sun_curve(Number(0.0)) - least));
 }
 
 Number sun_from_unit(Number x, Number lowest) {
@@ -135,7 +135,7 @@ Number unit_from_azimuth(Number cosine) { return acos(cosine) * 0.31830988618379
 
 // Rays to the sky, whose brightness changes fastest along the limb: coordinate of the square root of Bruneton's
 // distance, x = s at both ends, 1.8 times as coarse as s at the zenith and 5 times as fine at the horizon.
-Number sky_from_root(Number s) { return (1.8 - sqrt(max(3.24 - 3.2 * s, Number(0.0)))) / 1.6; }
+Number sky_from_root(Number s) { return 0.625 * (1.8 - sqrt(max(3.24 - 3.2 * s, Number(0.0)))); }
 Number root_from_sky(Number x) { return x * (1.8 - 0.8 * x); }
 
 // Texture coordinate of the view zenith in the scattering table, from the nadir to the zenith: rays to the ground have
@@ -146,10 +146,10 @@ Number texture_from_view(Number h, Number mu, bool hits_ground, Number ground_si
                          Number thickness) {
   if (hits_ground) {
     Number ground = pow(unit_from_ground_ray(h, mu, bottom), Number(0.4));
-    return (0.5 + ground * (ground_size - 1.0)) / (ground_size + sky_size);
+    return (0.5 + ground * (ground_size - 1.0)) * (1.0 / (ground_size + sky_size));
   }
   Number sky = sky_from_root(sqrt(unit_from_upward_ray(h, mu, bottom, thickness)));
-  return (ground_size + 0.5 + (1.0 - sky) * (sky_size - 1.0)) / (ground_size + sky_size);
+  return (ground_size + 0.5 + (1.0 - sky) * (sky_size - 1.0)) * (1.0 / (ground_size + sky_size));
 }
 
 Number mu_from_texture(Number u, Number h, Number ground_size, Number sky_size, Number bottom, Number thickness) {

@@ -176,7 +176,8 @@ bool AtmospherePass::has_sky_view(const FrameOptions& options) {
   return options.camera.altitude_m <= kAbove;
 }
 
-AtmospherePass::AtmospherePass() : empty_(make_vertex_array()) {}
+AtmospherePass::AtmospherePass(GraphicsDevice device)
+    : device_(device), empty_(make_vertex_array()) {}
 
 void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   tables_.atmosphere = tables.atmosphere;
@@ -216,6 +217,8 @@ AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) 
   Defined defined = atmosphere_defines(tables_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
+  const Atmosphere<double>& a = tables_.atmosphere;
+  if (options.camera.altitude_m <= a.top_radius_m - a.bottom_radius_m) defined.push_back("IN_AIR");
   return defined;
 }
 
@@ -257,7 +260,10 @@ void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
 
 void AtmospherePass::fill_volume(const AtmosphereView& view) {
   if (!volume_) volume_.emplace();
-  const GLuint id = program(kFillVolume, defined_by(view.options));
+  Defined defined = defined_by(view.options);
+  // It subtracts neighbouring points of the tables.
+  if (device_ == GraphicsDevice::kGpu) defined.push_back("EXACT_FILTER");
+  const GLuint id = program(kFillVolume, defined);
   bind_blocks(id, view);
   volume_->fill(id);
 }

@@ -31,8 +31,8 @@ namespace skyfit {
 inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance", "rayleigh_like",
                                                      "single_mie", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
-    "optical_depth", "irradiance", "rayleigh_like", "single_mie",   "phase",     "color",
-    "surface",       "depth",      "view_air",      "view_aerosol", "view_depth"};
+    "optical_depth", "irradiance", "rayleigh_like", "single_mie",   "phase",
+    "gbuffer",       "depth",      "view_air",      "view_aerosol", "view_depth"};
 
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",
                                                       "albedo", "normal"};
@@ -63,7 +63,7 @@ struct AtmosphereView {
 
 class AtmospherePass {
  public:
-  AtmospherePass();
+  explicit AtmospherePass(GraphicsDevice device);
 
   // The tables' values are read from the textures; the rest is kept.
   void set_tables(const AtmosphereTables& tables);
@@ -77,8 +77,8 @@ class AtmospherePass {
 
   // Either of two ways comes after the passes above of the same view, as far as it has them, and
   // compiles the variants that the options need, when they are new.
-  // As fragments. First the pixels are sorted by the G-buffer's depth; what that writes is the
-  // depth target of draw().
+  // As fragments. First the pixels are sorted by the G-buffer's depth, which their classes
+  // replace; it is the depth target of both.
   void classify(const AtmosphereView& view);
   void draw(const AtmosphereView& view, const ShadowPass& shadow_maps);
   // As compute shaders into images, but for the suns, whose depth target is the G-buffer's.
@@ -96,6 +96,7 @@ class AtmospherePass {
   void bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky, GLuint grainy);
   void draw_triangle(GLuint program) const;
 
+  GraphicsDevice device_;
   AtmosphereTables tables_;  // without the tables' values
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
   GlVertexArray empty_;

@@ -4,8 +4,7 @@
 namespace skyfit {
 
 void add_gbuffer(int width, int height, FrameGraph& graph) {
-  graph.add_target("color", GL_RGBA8, width, height);
-  graph.add_target("surface", GL_RGBA16F, width, height);
+  graph.add_target("gbuffer", GL_RGBA32UI, width, height);
   graph.add_target("depth", GL_DEPTH_COMPONENT32F, width, height);
 }
 

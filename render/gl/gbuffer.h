@@ -10,13 +10,13 @@
 
 namespace skyfit {
 
-inline const std::vector<std::string> kGBuffer = {"color", "surface", "depth"};
+inline const std::vector<std::string> kGBuffer = {"gbuffer", "depth"};
 
 // Its targets, in samples.
 void add_gbuffer(int width, int height, FrameGraph& graph);
 
 // Clears the depth of the pass that runs and sets the test against reversed depth, near / distance:
-// 0 where nothing is, where the other targets hold anything.
+// 0 where nothing is, where the other target holds anything.
 void clear_gbuffer();
 
 }  // namespace skyfit

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "render/gl/context.h"
@@ -10,14 +11,15 @@
 namespace skyfit {
 namespace {
 
-GlTexture make_texture(GLenum target) {
+// `filter`: whole numbers have none but the nearest.
+GlTexture make_texture(GLenum target, GLint filter = GL_LINEAR) {
   GLuint id = 0;
   glCreateTextures(target, 1, &id);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
     glTextureParameteri(id, axis, GL_CLAMP_TO_EDGE);
   }
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, filter);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, filter);
   return GlTexture(id);
 }
 
@@ -29,7 +31,8 @@ void FrameGraph::add_target(const std::string& name, GLenum format, int width, i
       found->second.height == height) {
     return;
   }
-  Texture texture{make_texture(GL_TEXTURE_2D), format, width, height};
+  const GLint filter = format == GL_RGBA32UI ? GL_NEAREST : GL_LINEAR;
+  Texture texture{make_texture(GL_TEXTURE_2D, filter), format, width, height};
   glTextureStorage2D(texture.object.id(), 1, format, width, height);
   check_gl("texture " + name);
   textures_.insert_or_assign(name, std::move(texture));
@@ -127,19 +130,29 @@ void FrameGraph::bind_image(const std::string& name, GLuint unit) const {
   glBindImageTexture(unit, target.object.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, target.format);
 }
 
-std::vector<float> FrameGraph::read_back(const std::string& name, GLenum format,
-                                         int channels) const {
+template <class T>
+std::vector<T> FrameGraph::read(const std::string& name, GLenum format, GLenum type,
+                                int channels) const {
   const Texture& source = texture(name);
-  std::vector<float> pixels(static_cast<std::size_t>(source.width) * source.height * channels);
-  const std::size_t bytes = pixels.size() * sizeof(float);
+  std::vector<T> pixels(static_cast<std::size_t>(source.width) * source.height * channels);
+  const std::size_t bytes = pixels.size() * sizeof(T);
   if (bytes > static_cast<std::size_t>(std::numeric_limits<GLsizei>::max())) {
     throw std::runtime_error(fmt::format("render: texture \"{}\" is too large to read back", name));
   }
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTextureImage(source.object.id(), 0, format, GL_FLOAT, static_cast<GLsizei>(bytes),
+  glGetTextureImage(source.object.id(), 0, format, type, static_cast<GLsizei>(bytes),
                     pixels.data());
   check_gl("reading back " + name);
   return pixels;
+}
+
+std::vector<float> FrameGraph::read_back(const std::string& name, GLenum format,
+                                         int channels) const {
+  return read<float>(name, format, GL_FLOAT, channels);
+}
+
+std::vector<std::uint32_t> FrameGraph::read_back_words(const std::string& name) const {
+  return read<std::uint32_t>(name, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4);
 }
 
 }  // namespace skyfit

@@ -5,6 +5,7 @@
 // compute shaders write are the image units 0, 1, ... in the order of `images`.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <span>
@@ -40,6 +41,8 @@ class FrameGraph {
 
   // `channels` floats per pixel, rows from the bottom to the top.
   std::vector<float> read_back(const std::string& name, GLenum format, int channels) const;
+  // Of a target of whole numbers, four words per pixel.
+  std::vector<std::uint32_t> read_back_words(const std::string& name) const;
 
  private:
   struct Texture {
@@ -49,6 +52,8 @@ class FrameGraph {
   };
   const Texture& texture(const std::string& name) const;
   GlFramebuffer framebuffer(const Pass& pass) const;
+  template <class T>
+  std::vector<T> read(const std::string& name, GLenum format, GLenum type, int channels) const;
   void bind_image(const std::string& name, GLuint unit) const;
 
   std::map<std::string, Texture> textures_;

@@ -47,7 +47,6 @@ void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   add_gbuffer(width, height, graph);
   graph.add_target("light", GL_RGBA32F, width, height);
   graph.add_target("distance", GL_R32F, width, height);
-  graph.add_target("class", GL_DEPTH_COMPONENT32F, width, height);
   if (!layers) return;
   for (const std::string& layer : kLayerWrites) graph.add_target(layer, GL_RGBA32F, width, height);
 }
@@ -123,7 +122,8 @@ class GlRenderer final : public FrameDrawer {
       : scene_(scene),
         device_(device),
         context_(make_context(device)),
-        materials_(scene.textures) {}
+        materials_(scene.textures),
+        atmosphere_(device) {}
 
   void set_atmosphere(const AtmosphereTables& tables) override {
     context_->make_current();
@@ -322,6 +322,7 @@ class GlRenderer final : public FrameDrawer {
     std::vector<std::string> lights = {"light", "distance"};
     if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
     std::vector<std::string> lights_and_depth = lights;
+    lights_and_depth.emplace_back("depth");
     if (device_ == GraphicsDevice::kGpu) {
       list.push_back({"atmosphere",
                       kAtmosphereReads,
@@ -329,13 +330,11 @@ class GlRenderer final : public FrameDrawer {
                       [this, view] { atmosphere_.dispatch(view, shadow_maps()); },
                       lights});
       // Not the G-buffer again, whose depth it tests against; the sky's view is still bound.
-      lights_and_depth.emplace_back("depth");
       list.push_back(
           {"suns", kTableReads, lights_and_depth, [this, view] { atmosphere_.draw_suns(view); }});
       return list;
     }
-    lights_and_depth.emplace_back("class");
-    list.push_back({"classes", {"depth"}, {"class"}, [this, view] { atmosphere_.classify(view); }});
+    list.push_back({"classes", {"depth"}, {"depth"}, [this, view] { atmosphere_.classify(view); }});
     list.push_back({"atmosphere", kAtmosphereReads, lights_and_depth,
                     [this, view] { atmosphere_.draw(view, shadow_maps()); }});
     return list;

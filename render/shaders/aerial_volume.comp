@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fills the volume of aerial_volume.glsl from the atmosphere's tables, for the first sun.
 #define VOLUME_WRITE
-#define EXACT_FILTER
 #include "render/shaders/aerial_volume.glsl"
 
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;

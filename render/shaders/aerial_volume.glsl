@@ -12,8 +12,8 @@ const vec3 kVolumeView = vec3(32.0, 18.0, 14.0);  // columns, rows of rays to th
 // The slices lie at the same shares of a ray's way to the ground, so that rays that go deep are not mixed with rays that
 // end before; of a ray that misses it, of the way to the farthest that is seen.
 float longest_path(ViewRay ray) {
-  return ray.hits_ground ? distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0)
-                         : min(distance_to_outer_sphere(bottom_km, ray.h, ray.mu, thickness_km), volume_km);
+  float to_top = distance_to_outer_sphere(bottom_km, ray.h, ray.mu, thickness_km);
+  return ray.hits_ground ? ray.to_ground : min(to_top, volume_km);
 }
 
 // Distance of a slice as a share of that way, and its inverse as a texture coordinate.
@@ -21,7 +21,7 @@ float slice_share(float slice) {
   float x = (slice + 0.5) / (kVolumeSize.z - 0.5);
   return x * x;
 }
-float slice_coordinate(float share) { return sqrt(share) * (kVolumeSize.z - 0.5) / kVolumeSize.z; }
+float slice_coordinate(float share) { return sqrt(share) * ((kVolumeSize.z - 0.5) / kVolumeSize.z); }
 
 #ifndef VOLUME_WRITE
 layout(binding = 14) uniform sampler3D air_volume;
@@ -34,7 +34,8 @@ struct VolumeLight {
 };
 
 VolumeLight volume_light(ViewRay ray, float d) {
-  vec3 place = vec3(place_in_view(ray, suns[0].xyz, kVolumeView), slice_coordinate(min(d / longest_path(ray), 1.0)));
+  float slice = slice_coordinate(min(d / longest_path(ray), 1.0));
+  vec3 place = vec3(place_in_view(ray, suns[0].xyz, kVolumeView), slice);
   return VolumeLight(Scattering(d * exp(texture(air_volume, place)), d * exp(texture(aerosol_volume, place))),
                    exp(-d * exp(texture(extinction_volume, place))));
 }

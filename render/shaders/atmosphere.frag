@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere as one pass over the G-buffer, as fragments.
+#define FLAT_CONSTANTS
 #include "render/shaders/pixel_light.glsl"
 
 noperspective in vec3 site_ray, planet_ray;  // pixel_ray.glsl

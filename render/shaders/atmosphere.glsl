@@ -3,6 +3,7 @@
 // unit solar irradiance. A point is its height above the bottom radius; see model/tables.h for what each table holds.
 // What stays the same for a renderer's life is defined, which saves the software renderer much of its time (it loads a uniform
 // anew at each use): see atmosphere_defines(), render/gl/atmosphere_pass.h.
+#include "render/shaders/pi.glsl"
 #include "model/shared/geometry.glsl"
 #include "model/shared/phase.glsl"
 #include "model/shared/mapping.glsl"
@@ -13,13 +14,21 @@ layout(binding = 2) uniform sampler3D rayleigh_like_table;
 layout(binding = 3) uniform sampler3D single_mie_table;
 layout(binding = 4) uniform sampler2D phase_table;  // logarithm of a tabulated phase function
 
-layout(std140, binding = 0) uniform Atmosphere {
-  float depolarisation;     // of the air
-  vec4 phase_parameters;    // g, g1, g2, weight; not of a tabulated phase function
-  vec4 ground_albedo;
-  vec4 air_scattering;      // 1/km at h = 0
-  vec4 aerosol_scattering;
-};
+// The air's depolarisation; g, g1, g2 and weight of a phase function that is not tabulated; scattering in 1/km at h = 0.
+#define ATMOSPHERE_CONSTANTS(HOW) \
+  HOW float depolarisation;       \
+  HOW vec4 phase_parameters;      \
+  HOW vec4 ground_albedo;         \
+  HOW vec4 air_scattering;        \
+  HOW vec4 aerosol_scattering;
+// A renderer in software looks up a uniform for each pixel anew, ten components in the time of a 2D fetch; an input that is
+// the same at a triangle's three corners is free. With FLAT_CONSTANTS constants come that way, see pixel_ray.glsl; `highp`
+// stands for no qualifier, since a macro's argument should not be empty.
+#ifdef FLAT_CONSTANTS
+in AtmosphereConstants { ATMOSPHERE_CONSTANTS(flat) };
+#else
+layout(std140, binding = 0) uniform Atmosphere { ATMOSPHERE_CONSTANTS(highp) };
+#endif
 
 const float bottom_km = BOTTOM_KM;
 const float thickness_km = THICKNESS_KM;
@@ -28,7 +37,6 @@ const vec2 irradiance_size = vec2(IRRADIANCE_SIZE);
 const vec4 scattering_size = vec4(SCATTERING_SIZE);  // mu_s, azimuth, rays to the ground, rays to the sky
 const float scattering_heights = float(SCATTERING_HEIGHTS);
 
-const float kPi = 3.14159265358979;
 const float kSunRadius = 0.004654793;       // rad, at 1 au
 const float kSunSolidAngle = 6.8069e-5;     // sr
 
@@ -62,7 +70,7 @@ float aerosol_phase(float nu) {
 #if PHASE_TYPE == 2
   return two_lobe_phase(LOBE_TYPE, phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
 #elif PHASE_TYPE == 3
-  float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) / kPi, float(textureSize(phase_table, 0).x));
+  float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) * kInversePi, float(textureSize(phase_table, 0).x));
   return exp(texture(phase_table, vec2(u, 0.5)).x);
 #else
   return lobe_phase(PHASE_TYPE, phase_parameters.x, nu);

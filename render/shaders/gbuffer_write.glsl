@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/shaders/gbuffer.glsl"
 
-layout(location = 0) out vec4 color;
-layout(location = 1) out vec4 surface;
+layout(location = 0) out uvec4 gbuffer;
 
-void write_gbuffer(vec3 normal, float material, vec4 reflectance) {
-  float largest = max(max(reflectance.x, reflectance.y), max(reflectance.z, max(reflectance.w, 1e-6)));
-  color = reflectance / largest;
-  surface = vec4(octahedral(normal), material, largest * kInversePi);
+void write_gbuffer(vec3 normal, float rock, vec4 reflectance) {
+  gbuffer = pack_ground(GroundSample(normal, rock, reflectance, gl_FragCoord.z));
 }

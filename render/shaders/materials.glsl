@@ -6,14 +6,20 @@
 layout(binding = 17) uniform sampler3D grains;
 layout(binding = 18) uniform sampler3D crags;
 
-layout(std140, binding = 5) uniform Materials {
-  vec3 grain_phase;  // texture coordinates of the camera, 0..1
-  float grains_per_km;
-  vec3 crag_phase;
-  float crags_per_km;
-  vec4 grain_mean;           // of the texture: its last mipmap
-  float finer_grain_levels;  // log2(grains_per_km / crags_per_km)
-};
+// Phases are texture coordinates of the camera, 0..1; the mean of the grains' texture is its last mipmap;
+// finer_grain_levels = log2(grains_per_km / crags_per_km).
+#define MATERIAL_CONSTANTS(HOW) \
+  HOW vec3 grain_phase;         \
+  HOW float grains_per_km;      \
+  HOW vec3 crag_phase;          \
+  HOW float crags_per_km;       \
+  HOW vec4 grain_mean;          \
+  HOW float finer_grain_levels;
+#ifdef FLAT_CONSTANTS
+in MaterialConstants { MATERIAL_CONSTANTS(flat) };
+#else
+layout(std140, binding = 5) uniform Materials { MATERIAL_CONSTANTS(highp) };
+#endif
 
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
 const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);

@@ -19,9 +19,7 @@ vec2 pixel_centre;  // that seen_at() is asked for
 #include "render/shaders/shadows.glsl"
 #endif
 
-layout(binding = 5) uniform sampler2D color;
-layout(binding = 6) uniform sampler2D surface_target;
-layout(binding = 7) uniform sampler2D depth;
+layout(binding = 5) uniform usampler2D gbuffer;
 
 const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // linear sRGB and luminance, cd/m^2
 
@@ -79,7 +77,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   lit *= 1.0 - cloud_shadow(surface.d * ray.direction, end, sun);
 #endif
   Place at = Place(height_after(bottom_km, camera_km, ray.direction.z, surface.d), end.mu, dot(surface.up, sun));
-  path.reflected = clear * path.transmittance * (surface.reflectance / kPi) *
+  path.reflected = clear * path.transmittance * (kInversePi * surface.reflectance) *
                    surface_irradiance(at, surface.normal, surface.up, sun, lit);
 #else
 PathLight light_of(int i, ViewRay ray, float clear) {
@@ -131,17 +129,17 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   pixel_centre = vec2(pixel) + 0.5;
 #endif
   float stretch = length(site_ray);
-  ViewRay ray = view_ray(site_ray / stretch);
+  ViewRay ray = view_ray(site_ray * (1.0 / stretch));
 #ifdef SURFACE
   Surface surface;
-  float along_axis = near_km / texelFetch(depth, pixel, 0).x;
+  GroundSample ground = unpack_ground(texelFetch(gbuffer, pixel, 0));
+  float along_axis = near_km / ground.depth;
   surface.d = along_axis * stretch;
-  vec4 shape = texelFetch(surface_target, pixel, 0);
-  surface.normal = from_octahedral(shape.xy);
-  float light_or_dark = add_material(along_axis * planet_ray, surface.d, ray.direction, shape.z, surface.normal);
-  surface.reflectance = min(texelFetch(color, pixel, 0) * (shape.w * kPi * light_or_dark), 1.0);
+  surface.normal = ground.normal;
+  float light_or_dark = add_material(along_axis * planet_ray, surface.d, ray.direction, ground.rock, surface.normal);
+  surface.reflectance = min(ground.reflectance * light_or_dark, 1.0);
   surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
-  if (ray.hits_ground) surface.d = min(surface.d, ray.entry + distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0));
+  if (ray.hits_ground) surface.d = min(surface.d, ray.entry + ray.to_ground);
   float d = surface.d;
 #else
   // A ray that misses the triangles but not the sphere grazes it.

@@ -1,11 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray through a pixel, for the fragments of a pass over the picture.
+// What the fragments of a pass over the picture get from the corners: the ray through a pixel, and what is the same for all.
 #include "render/shaders/view_ray.glsl"
+#include "render/shaders/materials.glsl"
 
 noperspective out vec3 site_ray;    // camera frame
 noperspective out vec3 planet_ray;  // planet's axes
 
+out ViewConstants { VIEW_CONSTANTS(flat) } view;
+out AtmosphereConstants { ATMOSPHERE_CONSTANTS(flat) } atmosphere;
+out MaterialConstants { MATERIAL_CONSTANTS(flat) } material;
+
 void pass_ray(vec2 screen) {
   site_ray = ray_through(screen);
   planet_ray = planet_from_site * site_ray;
+}
+
+void pass_constants() {
+  view.site_from_view = site_from_view;
+  view.planet_from_site = planet_from_site;
+  view.tangent = tangent;
+  view.camera_km = camera_km;
+  view.near_km = near_km;
+  view.pixel_angle = pixel_angle;
+  view.volume_km = volume_km;
+  view.suns = suns;
+  atmosphere.depolarisation = depolarisation;
+  atmosphere.phase_parameters = phase_parameters;
+  atmosphere.ground_albedo = ground_albedo;
+  atmosphere.air_scattering = air_scattering;
+  atmosphere.aerosol_scattering = aerosol_scattering;
+  material.grain_phase = grain_phase;
+  material.grains_per_km = grains_per_km;
+  material.crag_phase = crag_phase;
+  material.crags_per_km = crags_per_km;
+  material.grain_mean = grain_mean;
+  material.finer_grain_levels = finer_grain_levels;
 }

@@ -24,13 +24,14 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
   float sine = sqrt(max(1.0 - mu * mu, 0.0));
   vec2 sunward = length(sun.xy) > 1e-9 ? normalize(sun.xy) : vec2(1.0, 0.0);
   vec2 across = cos(turn) * sunward + sin(turn) * vec2(-sunward.y, sunward.x);
-  return ViewRay(vec3(sine * across, mu), true, hits_ground, 0.0, h, mu);
+  return ViewRay(vec3(sine * across, mu), true, hits_ground, 0.0, h, mu,
+                 distance_to_inner_sphere(bottom_km, h, mu, 0.0));
 }
 
 #if !defined(SKY_VIEW_WRITE) && !defined(VOLUME_WRITE)
-layout(binding = 8) uniform sampler2D view_air;      // logarithm of the amplitude
-layout(binding = 9) uniform sampler2D view_aerosol;  // the same of single scattering by the aerosol
-layout(binding = 10) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
+layout(binding = 7) uniform sampler2D view_air;      // logarithm of the amplitude
+layout(binding = 8) uniform sampler2D view_aerosol;  // the same of single scattering by the aerosol
+layout(binding = 9) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
 
 struct WholeRay {
   Scattering scattering;

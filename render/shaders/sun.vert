@@ -8,7 +8,8 @@ void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   // The disc's edge is softened over a pixel.
   vec2 offset = tan(kSunRadius + pixel_angle) * corner;
-  vec3 view = (sun + offset.x * right + offset.y * cross(right, sun)) * site_from_view;
-  pass_ray(view.xy / (tangent * -view.z));
-  gl_Position = vec4(view.xy / tangent, 0.0, -view.z);
+  vec3 eye = (sun + offset.x * right + offset.y * cross(right, sun)) * site_from_view;
+  pass_ray(eye.xy / (tangent * -eye.z));
+  pass_constants();
+  gl_Position = vec4(eye.xy / tangent, 0.0, -eye.z);
 }
