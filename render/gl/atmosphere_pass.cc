@@ -217,8 +217,6 @@ AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) 
   Defined defined = atmosphere_defines(tables_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
-  const Atmosphere<double>& a = tables_.atmosphere;
-  if (options.camera.altitude_m <= a.top_radius_m - a.bottom_radius_m) defined.push_back("IN_AIR");
   return defined;
 }
 

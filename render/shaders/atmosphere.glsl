@@ -3,6 +3,7 @@
 // unit solar irradiance. A point is its height above the bottom radius; see model/tables.h for what each table holds.
 // What stays the same for a renderer's life is defined, which saves the software renderer much of its time (it loads a uniform
 // anew at each use): see atmosphere_defines(), render/gl/atmosphere_pass.h.
+#include "render/shaders/constants.glsl"
 #include "render/shaders/pi.glsl"
 #include "model/shared/geometry.glsl"
 #include "model/shared/phase.glsl"
@@ -21,14 +22,7 @@ layout(binding = 4) uniform sampler2D phase_table;  // logarithm of a tabulated 
   HOW vec4 ground_albedo;         \
   HOW vec4 air_scattering;        \
   HOW vec4 aerosol_scattering;
-// A renderer in software looks up a uniform for each pixel anew, ten components in the time of a 2D fetch; an input that is
-// the same at a triangle's three corners is free. With FLAT_CONSTANTS constants come that way, see pixel_ray.glsl; `highp`
-// stands for no qualifier, since a macro's argument should not be empty.
-#ifdef FLAT_CONSTANTS
-in AtmosphereConstants { ATMOSPHERE_CONSTANTS(flat) };
-#else
-layout(std140, binding = 0) uniform Atmosphere { ATMOSPHERE_CONSTANTS(highp) };
-#endif
+CONSTANTS(0, Atmosphere, ATMOSPHERE_CONSTANTS)
 
 const float bottom_km = BOTTOM_KM;
 const float thickness_km = THICKNESS_KM;

@@ -15,11 +15,7 @@ layout(binding = 18) uniform sampler3D crags;
   HOW float crags_per_km;       \
   HOW vec4 grain_mean;          \
   HOW float finer_grain_levels;
-#ifdef FLAT_CONSTANTS
-in MaterialConstants { MATERIAL_CONSTANTS(flat) };
-#else
-layout(std140, binding = 5) uniform Materials { MATERIAL_CONSTANTS(highp) };
-#endif
+CONSTANTS(5, Materials, MATERIAL_CONSTANTS)
 
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
 const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);

@@ -6,9 +6,9 @@
 noperspective out vec3 site_ray;    // camera frame
 noperspective out vec3 planet_ray;  // planet's axes
 
-out ViewConstants { VIEW_CONSTANTS(flat) } view;
-out AtmosphereConstants { ATMOSPHERE_CONSTANTS(flat) } atmosphere;
-out MaterialConstants { MATERIAL_CONSTANTS(flat) } material;
+out View { VIEW_CONSTANTS(flat) } view;
+out Atmosphere { ATMOSPHERE_CONSTANTS(flat) } atmosphere;
+out Materials { MATERIAL_CONSTANTS(flat) } material;
 
 void pass_ray(vec2 screen) {
   site_ray = ray_through(screen);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A ray of the picture and the part of it that lies in the atmosphere (Sperlhofer 2011, 4.6.2): from the eye, or from
-// where it enters; IN_AIR says which. Camera frame: z up at the camera, x toward the sun, y to the left of it; kilometres.
+// where it enters. Camera frame: z up at the camera, x toward the sun, y to the left of it; kilometres.
 #include "render/shaders/atmosphere.glsl"
 
 #ifdef SECOND_SUN
@@ -20,11 +20,7 @@ const int kSuns = 1;
   HOW float pixel_angle;     \
   HOW float volume_km;       \
   HOW vec4 suns[kSuns];
-#ifdef FLAT_CONSTANTS
-in ViewConstants { VIEW_CONSTANTS(flat) };
-#else
-layout(std140, binding = 1) uniform View { VIEW_CONSTANTS(highp) };
-#endif
+CONSTANTS(1, View, VIEW_CONSTANTS)
 
 // The ray through a point of the picture, which runs from -1 to 1: of length 1 along the view's axis, so that it is linear
 // over the picture. Camera frame.
@@ -43,25 +39,22 @@ ViewRay view_ray(vec3 direction) {
   float r0 = bottom_km + camera_km;
   // The impact parameter keeps the digits that the cosine of the zenith angle would lose.
   float impact = r0 * length(direction.xy);
-  bool hits_ground = direction.z < 0.0 && impact < bottom_km;
-#ifdef IN_AIR
-  return ViewRay(direction, true, hits_ground, 0.0, camera_km, direction.z,
-                 distance_to_inner_sphere(bottom_km, camera_km, direction.z, 0.0));
-#else
-  float top = bottom_km + thickness_km;
-  float half_chord = sqrt(max((top - impact) * (top + impact), 0.0));
-  float mu = -half_chord / top;
-  return ViewRay(direction, direction.z < 0.0 && impact < top, hits_ground, -r0 * direction.z - half_chord, thickness_km, mu,
-                 distance_to_inner_sphere(bottom_km, thickness_km, mu, 0.0));
-#endif
+  ViewRay ray = ViewRay(direction, true, direction.z < 0.0 && impact < bottom_km, 0.0, camera_km, direction.z, 0.0);
+  if (camera_km > thickness_km) {
+    float top = bottom_km + thickness_km;
+    float half_chord = sqrt(max((top - impact) * (top + impact), 0.0));
+    ray.air = direction.z < 0.0 && impact < top;
+    ray.entry = -r0 * direction.z - half_chord;
+    ray.h = thickness_km;
+    ray.mu = -half_chord / top;
+  }
+  ray.to_ground = distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0);
+  return ray;
 }
 
 // Where the ray begins in the air, with the sun's height there.
 Place place_of(ViewRay ray, vec3 sun, float nu) {
-#ifdef IN_AIR
-  return Place(ray.h, ray.mu, sun.z);
-#else
+  if (ray.entry == 0.0) return Place(ray.h, ray.mu, sun.z);
   float r0 = bottom_km + camera_km;
   return Place(ray.h, ray.mu, clamp((r0 * sun.z + ray.entry * nu) / (bottom_km + ray.h), -1.0, 1.0));
-#endif
 }
