@@ -138,35 +138,76 @@ int patch_at(int column, int row) {
   return row / kPatchQuads * kPatchesPerSide + column / kPatchQuads;
 }
 
-BlockIndices make_indices() {
-  std::array<std::vector<std::uint16_t>, kPatches> patches;
-  const auto triangle = [&](int patch, int a, int b, int c) {
-    for (const int i : {a, b, c})
-      patches[static_cast<std::size_t>(patch)].push_back(static_cast<std::uint16_t>(i));
-  };
-  for (int row = 0; row < kBlockQuads; ++row) {
-    for (int column = 0; column < kBlockQuads; ++column) {
-      const int a = row * kSide + column, b = a + 1, c = a + kSide, d = c + 1;
-      triangle(patch_at(column, row), a, b, c);
-      triangle(patch_at(column, row), b, d, c);
+using Indices = std::vector<std::uint16_t>;
+
+// A triangle whose first two sides may have another vertex in their middle, -1 where they have not.
+void add_triangle(std::array<int, 3> corners, int in_first, int in_second, Indices& out) {
+  const auto [a, b, c] = corners;
+  std::vector<int> outline = {a, b, c};
+  if (in_second >= 0) outline.insert(outline.begin() + 2, in_second);
+  if (in_first >= 0) outline.insert(outline.begin() + 1, in_first);
+  // A fan about a vertex in a side, so that no triangle is a line.
+  const int middle = in_first >= 0 ? in_first : in_second >= 0 ? in_second : a;
+  std::ranges::rotate(outline, std::ranges::find(outline, middle));
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    for (const int vertex : {outline[0], outline[i], outline[i + 1]})
+      out.push_back(static_cast<std::uint16_t>(vertex));
+  }
+}
+
+// The quads of a patch, `step` of the block's on a side; of those along the whole sides the
+// vertices between, too.
+void add_quads(int patch, int step, unsigned whole_sides, Indices& out) {
+  const int first_column = patch % kPatchesPerSide * kPatchQuads;
+  const int first_row = patch / kPatchesPerSide * kPatchQuads;
+  const int end_column = first_column + kPatchQuads, end_row = first_row + kPatchQuads;
+  const auto at = [](int column, int row) { return row * kSide + column; };
+  for (int row = first_row; row < end_row; row += step) {
+    for (int column = first_column; column < end_column; column += step) {
+      const int right = column + step, upper = row + step, half = step / 2;
+      const auto middle = [&](unsigned side, bool along_it, int c, int r) {
+        return along_it && (whole_sides & side) != 0 ? at(c, r) : -1;
+      };
+      const int b = at(right, row), c = at(column, upper);
+      add_triangle({c, at(column, row), b},
+                   middle(kLeftSide, column == first_column, column, row + half),
+                   middle(kLowerSide, row == first_row, column + half, row), out);
+      add_triangle({b, at(right, upper), c},
+                   middle(kRightSide, right == end_column, right, row + half),
+                   middle(kUpperSide, upper == end_row, column + half, upper), out);
     }
   }
-  for (int i = 0; i < kSkirt; ++i) {
+}
+
+// What hangs from a patch.
+void add_skirt(int patch, int step, Indices& out) {
+  for (int i = 0; i < kSkirt; i += step) {
+    const int next = (i + step) % kSkirt;
     const auto [column, row] = border(i);
-    const auto [next_column, next_row] = border((i + 1) % kSkirt);
+    const auto [next_column, next_row] = border(next);
+    if (patch != patch_at(std::min({column, next_column, kBlockQuads - 1}),
+                          std::min({row, next_row, kBlockQuads - 1})))
+      continue;
     const int a = row * kSide + column, b = next_row * kSide + next_column;
-    const int below_a = kSide * kSide + i, below_b = kSide * kSide + (i + 1) % kSkirt;
-    const int patch = patch_at(std::min({column, next_column, kBlockQuads - 1}),
-                               std::min({row, next_row, kBlockQuads - 1}));
-    triangle(patch, a, below_a, b);
-    triangle(patch, b, below_a, below_b);
+    const int below_a = kSide * kSide + i, below_b = kSide * kSide + next;
+    add_triangle({a, below_a, b}, -1, -1, out);
+    add_triangle({b, below_a, below_b}, -1, -1, out);
   }
+}
+
+BlockIndices make_indices() {
   BlockIndices made;
-  for (std::size_t patch = 0; patch < kPatches; ++patch) {
-    made.patches[patch] = static_cast<std::uint32_t>(made.indices.size());
-    made.indices.insert(made.indices.end(), patches[patch].begin(), patches[patch].end());
+  for (std::size_t shape = 0; shape < kPatchShapes; ++shape) {
+    const int step = shape == kWholePatch ? 1 : 2;
+    const unsigned whole_sides = shape == kWholePatch ? 0 : static_cast<unsigned>(shape - 1);
+    for (int patch = 0; patch < kPatches; ++patch) {
+      made.patches[shape][static_cast<std::size_t>(patch)] =
+          static_cast<std::uint32_t>(made.indices.size());
+      add_quads(patch, step, whole_sides, made.indices);
+      add_skirt(patch, step, made.indices);
+    }
+    made.patches[shape][kPatches] = static_cast<std::uint32_t>(made.indices.size());
   }
-  made.patches[kPatches] = static_cast<std::uint32_t>(made.indices.size());
   return made;
 }
 

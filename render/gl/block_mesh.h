@@ -30,10 +30,24 @@ inline constexpr int kBlockVertices = (kBlockQuads + 1) * (kBlockQuads + 1) + 4 
 inline constexpr int kPatchesPerSide = 8;
 inline constexpr int kPatches = kPatchesPerSide * kPatchesPerSide;
 
-// Triangles of every block, counterclockwise from outside, patch by patch.
+// Where all vertices of a patch have become the coarser shape, every second one lies on the
+// triangles of the others: the patch is drawn without them, but for those on the sides of
+// neighbours that keep theirs.
+enum PatchSide : unsigned {
+  kLeftSide = 1,
+  kRightSide = 2,
+  kLowerSide = 4,
+  kUpperSide = 8
+};  // u or v = 0 or 1
+inline constexpr std::size_t kPatchShapes = 17;
+inline constexpr std::size_t kWholePatch = 0;
+constexpr std::size_t coarse_patch(unsigned whole_sides) { return 1 + whole_sides; }
+
+// Triangles of every block, counterclockwise from outside: of each shape patch by patch.
 struct BlockIndices {
   std::vector<std::uint16_t> indices;
-  std::array<std::uint32_t, kPatches + 1> patches;  // where each begins; the last is the end
+  // Where each patch begins; the last is the end.
+  std::array<std::array<std::uint32_t, kPatches + 1>, kPatchShapes> patches;
 };
 const BlockIndices& block_indices();
 

@@ -102,6 +102,16 @@ bool outside(std::span<const glm::dvec4> bounds, const PatchPoints& points, doub
   });
 }
 
+// No point of a patch is nearer to the camera.
+double nearest_m(const PatchPoints& points, double bulge) {
+  glm::dvec3 middle(0);
+  for (const glm::dvec3& p : points) middle += p;
+  const glm::dvec3 toward = glm::normalize(middle);
+  double nearest = 1e300;
+  for (const glm::dvec3& p : points) nearest = std::min(nearest, glm::dot(toward, p));
+  return nearest - bulge;
+}
+
 Outline outline_of(std::size_t block, std::size_t patch, const Corners& corners,
                    const PatchPoints& points, double bulge) {
   Outline outline;
@@ -186,7 +196,7 @@ std::vector<const Outline*> ordered(const Outlines& blocks, double Outline::*dis
 }
 
 // Drops the patches that nearer ones hide.
-void drop_hidden(const Outlines& blocks, double split_ratio, std::span<PatchSet> visible) {
+void drop_hidden(const Outlines& blocks, double split_ratio, std::span<BlockPatches> chosen) {
   std::vector<const Outline*> by_start, by_end;
   tbb::parallel_invoke([&] { by_start = ordered(blocks, &Outline::nearest); },
                        [&] { by_end = ordered(blocks, &Outline::farthest); });
@@ -195,38 +205,46 @@ void drop_hidden(const Outlines& blocks, double split_ratio, std::span<PatchSet>
   for (const Outline* patch : by_start) {
     for (; passed != by_end.end() && (*passed)->farthest <= patch->nearest; ++passed)
       horizon.raise(**passed);
-    if (horizon.hides(*patch)) visible[patch->block].reset(patch->patch);
+    if (horizon.hides(*patch)) chosen[patch->block].seen.reset(patch->patch);
   }
 }
 
 }  // namespace
 
-std::vector<PatchSet> visible_patches(const TerrainView& view,
-                                      std::span<const MeasuredBlock> blocks) {
+std::vector<BlockPatches> choose_patches(const TerrainView& view,
+                                         std::span<const MeasuredBlock> blocks) {
   const glm::dmat3 site_from_planet = view.axes.site_from_planet();
   const std::vector<glm::dvec4> bounds = view.bounds();
-  std::vector<PatchSet> visible(blocks.size());
-  if (!view.cull) {
-    for (PatchSet& patches : visible) patches.set();
-    return visible;
-  }
   const bool camera = view.planes.empty();
+  std::vector<BlockPatches> chosen(blocks.size());
   Outlines outlines(blocks.size());  // but for patches around the camera
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-    const auto& [block, heights] = blocks[i];
+    const auto& [block, heights, morphed_m] = blocks[i];
     const Corners corners(view, block, site_from_planet);
     const double bulge = bulge_m(block, view.radius_m);
     for (std::size_t patch = 0; patch < kPatches; ++patch) {
       const PatchPoints points = points_of(patch, corners, heights.patches[patch]);
-      if (outside(bounds, points, bulge)) continue;
-      visible[i].set(patch);
+      chosen[i].coarse[patch] = nearest_m(points, bulge) >= morphed_m;
+      if (view.cull && outside(bounds, points, bulge)) continue;
+      chosen[i].seen.set(patch);
       if (!camera) continue;
       const Outline outline = outline_of(i, patch, corners, points, bulge);
       if (outline.nearest > 0) outlines[i].push_back(outline);
     }
   });
-  drop_hidden(outlines, view.split_ratio, visible);
-  return visible;
+  if (view.cull) drop_hidden(outlines, view.split_ratio, chosen);
+  return chosen;
+}
+
+std::size_t shape_of(std::size_t patch, const PatchSet& coarse) {
+  if (!coarse[patch]) return kWholePatch;
+  const std::size_t column = patch % kPatchesPerSide, row = patch / kPatchesPerSide;
+  unsigned whole_sides = 0;
+  if (column > 0 && !coarse[patch - 1]) whole_sides |= kLeftSide;
+  if (column + 1 < kPatchesPerSide && !coarse[patch + 1]) whole_sides |= kRightSide;
+  if (row > 0 && !coarse[patch - kPatchesPerSide]) whole_sides |= kLowerSide;
+  if (row + 1 < kPatchesPerSide && !coarse[patch + kPatchesPerSide]) whole_sides |= kUpperSide;
+  return coarse_patch(whole_sides);
 }
 
 }  // namespace skyfit

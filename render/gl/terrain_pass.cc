@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "render/gl/buffers.h"
 #include "render/gl/shader.h"
@@ -74,30 +75,36 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m)
 void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& view,
                           TerrainDraw& draw) const {
   std::vector<MeasuredBlock> measured;
-  for (const CubeBlock& block : blocks) measured.push_back({block, store_.heights(block)});
-  const std::vector<PatchSet> visible = visible_patches(view, measured);
-  const auto& ends = block_indices().patches;
+  for (const CubeBlock& block : blocks)
+    measured.push_back({block, store_.heights(block), morph_range(block, view).second});
+  const std::vector<BlockPatches> chosen = choose_patches(view, measured);
   draw.hidden = 0;
   draw.triangles = 0;
   std::vector<BlockInstance> instances;
   std::vector<DrawCommand> commands;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    if (visible[i].none()) {
+    const auto& [seen, coarse] = chosen[i];
+    if (seen.none()) {
       ++draw.hidden;
       continue;
     }
+    std::optional<std::uint32_t> end;  // of the last run
     for (std::size_t patch = 0; patch < kPatches; ++patch) {
-      if (!visible[i][patch]) continue;
-      if (patch == 0 || !visible[i][patch - 1])
-        commands.push_back({0, 1, ends[patch], store_.first_vertex(blocks[i]),
+      if (!seen[patch]) continue;
+      const auto& places = block_indices().patches[shape_of(patch, coarse)];
+      if (places[patch] != end) {
+        commands.push_back({0, 1, places[patch], store_.first_vertex(blocks[i]),
                             static_cast<GLuint>(instances.size())});
-      commands.back().count += ends[patch + 1] - ends[patch];
-      draw.triangles += (ends[patch + 1] - ends[patch]) / 3;
+      }
+      end = places[patch + 1];
+      commands.back().count += *end - places[patch];
+      draw.triangles += (*end - places[patch]) / 3;
     }
     const glm::dvec3 centre = block_centre(blocks[i], radius_m_);
-    const auto [begin, end] = morph_range(blocks[i], view);
+    const auto [morph_begin, morph_end] = morph_range(blocks[i], view);
     instances.push_back({glm::vec3(1e-3 * (centre - view.camera())),
-                         static_cast<float>(1e-3 * begin), static_cast<float>(1e-3 * end)});
+                         static_cast<float>(1e-3 * morph_begin),
+                         static_cast<float>(1e-3 * morph_end)});
   }
   refill(draw.instances, std::span<const BlockInstance>(instances));
   refill(draw.commands, std::span<const DrawCommand>(commands));

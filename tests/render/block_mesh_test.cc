@@ -7,8 +7,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <random>
 #include <set>
 
+#include "render/gl/patches.h"
 #include "tests/render/terrain_fixture.h"
 
 namespace skyfit {
@@ -225,27 +227,78 @@ TEST(Skirt, HangsBelowTheBorder) {
   }
 }
 
+// The triangles of a block, three vertices each, whose patches of the set are coarse.
+std::vector<std::uint16_t> triangles_of(const PatchSet& coarse) {
+  const auto& [indices, shapes] = block_indices();
+  std::vector<std::uint16_t> all;
+  for (std::size_t patch = 0; patch < kPatches; ++patch) {
+    const auto& places = shapes[shape_of(patch, coarse)];
+    all.insert(all.end(), indices.begin() + places[patch], indices.begin() + places[patch + 1]);
+  }
+  return all;
+}
+
+// No patch, one, all, and some of the patches.
+const std::vector<PatchSet>& coarse_sets() {
+  static const std::vector<PatchSet> made = [] {
+    std::vector<PatchSet> sets(2);
+    sets[1].set(27);
+    std::mt19937 random(1);
+    for (const double share : {0.1, 0.5, 0.9, 1.0}) {
+      for (int i = 0; i < 4; ++i) {
+        PatchSet& set = sets.emplace_back();
+        for (std::size_t patch = 0; patch < kPatches; ++patch)
+          set[patch] = std::bernoulli_distribution(share)(random);
+      }
+    }
+    return sets;
+  }();
+  return made;
+}
+
 TEST(Triangles, FaceOutwardAndTheSkirtClosesTheBorder) {
-  const std::vector<std::uint16_t>& indices = block_indices().indices;
-  ASSERT_EQ(indices.size() % 3, 0u);
   const MadeBlock& made = stored_block({2, 0, 0, 0});
-  std::map<std::pair<int, int>, int> edges;
-  for (std::size_t i = 0; i < indices.size(); i += 3) {
-    const int a = indices[i], b = indices[i + 1], c = indices[i + 2];
-    for (const auto& edge : {std::pair(a, b), {b, c}, {c, a}}) ++edges[edge];
-    if (std::max({a, b, c}) >= kBlockSide * kBlockSide) continue;  // of the skirt
-    const auto at = [&](int k) { return made.fine(made.vertices[static_cast<std::size_t>(k)]); };
-    EXPECT_GT(glm::dot(glm::cross(at(b) - at(a), at(c) - at(a)), at(a)), 0);
+  for (const PatchSet& coarse : coarse_sets()) {
+    const std::vector<std::uint16_t> indices = triangles_of(coarse);
+    ASSERT_EQ(indices.size() % 3, 0u);
+    std::map<std::pair<int, int>, int> edges;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+      const int a = indices[i], b = indices[i + 1], c = indices[i + 2];
+      for (const auto& edge : {std::pair(a, b), {b, c}, {c, a}}) ++edges[edge];
+      if (std::max({a, b, c}) >= kBlockSide * kBlockSide) continue;  // of the skirt
+      const auto at = [&](int k) { return made.fine(made.vertices[static_cast<std::size_t>(k)]); };
+      EXPECT_GT(glm::dot(glm::cross(at(b) - at(a), at(c) - at(a)), at(a)), 0);
+    }
+    // Every directed edge occurs once; those without an opposite are the skirt's lower border.
+    for (const auto& [edge, count] : edges) {
+      EXPECT_EQ(count, 1);
+      if (edges.contains({edge.second, edge.first})) continue;
+      EXPECT_GE(std::min(edge.first, edge.second), kBlockSide * kBlockSide);
+    }
   }
-  // Every directed edge occurs once; those without an opposite are the skirt's lower border.
-  int open = 0;
-  for (const auto& [edge, count] : edges) {
-    EXPECT_EQ(count, 1);
-    if (edges.contains({edge.second, edge.first})) continue;
-    ++open;
-    EXPECT_GE(std::min(edge.first, edge.second), kBlockSide * kBlockSide);
+}
+
+// Of the coarser shape, whose triangles a patch keeps that drops every second vertex.
+TEST(Triangles, OfCoarsePatchesAreThoseOfTheCoarserShape) {
+  const CubeBlock block{4, 7, 40, 90};
+  const MadeBlock& made = stored_block(block);
+  const auto at = [&](int column, int row) { return made.coarse(made.at(column, row)); };
+  for (int row = 0; row <= kBlockQuads; ++row) {
+    for (int column = 0; column <= kBlockQuads; ++column) {
+      const int c = column % 2, r = row % 2;
+      EXPECT_LT(
+          glm::distance(at(column, row), 0.5 * (at(column + c, row - r) + at(column - c, row + r))),
+          tolerance_m(block.level))
+          << column << ", " << row;
+    }
   }
-  EXPECT_EQ(open, 4 * kBlockQuads);
+  const std::size_t all = triangles_of({}).size();
+  EXPECT_EQ(all, 6u * (kBlockQuads * kBlockQuads + 4 * kBlockQuads));
+  PatchSet coarse;
+  coarse.set();
+  EXPECT_EQ(triangles_of(coarse).size(), 6u * (kBlockQuads * kBlockQuads / 4 + 2 * kBlockQuads));
+  // A patch within others keeps what it shares with them: 16 of its 32 triangles.
+  EXPECT_EQ(all - triangles_of(coarse_sets()[1]).size(), 3u * 16);
 }
 
 }  // namespace

@@ -131,6 +131,46 @@ TEST_F(Patches, ThatAreLeftOutChangeNoPixel) {
   EXPECT_LT(drawn, whole / 2);
 }
 
+// A coarse patch has no vertex that still shows the finer shape.
+TEST(Coarse, PatchesAreBeyondTheDistance) {
+  TerrainView view = shot_of(eyes().front()).view;
+  for (const double above : {1.0, 2e3, 50e3}) {
+    view.altitude_m = above + relief().height_m(view.axes.z, 0.3);
+    std::vector<MeasuredBlock> blocks;
+    std::vector<MadeBlock> made;
+    for (const int level : {6, 8, 10}) {
+      const CubeBlock block = block_at(view.axes.z, level);
+      const double arc = block_arc_m(level, kEarth);
+      for (const double morphed : {0.3 * arc, 0.6 * arc}) {
+        std::vector<BlockVertex> vertices(kBlockVertices);
+        const BlockHeights heights = make_block(block, relief(), kEarth, vertices);
+        blocks.push_back({block, heights, morphed});
+        made.push_back({vertices, heights.whole, block_centre(block, kEarth)});
+      }
+    }
+    const std::vector<BlockPatches> chosen = choose_patches(view, blocks);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      int beyond = 0;
+      for (std::size_t patch = 0; patch < kPatches; ++patch) {
+        double nearest = 1e300;
+        for (int k = 0; k < 25; ++k) {
+          const int column = 4 * static_cast<int>(patch % kPatchesPerSide) + k % 5;
+          const int row = 4 * static_cast<int>(patch / kPatchesPerSide) + k / 5;
+          nearest = std::min(nearest,
+                             glm::distance(made[i].fine(made[i].at(column, row)), view.camera()));
+        }
+        beyond += nearest >= blocks[i].morphed_m ? 1 : 0;
+        if (chosen[i].coarse[patch]) {
+          EXPECT_GE(nearest, blocks[i].morphed_m - 1);
+        }
+      }
+      const auto coarse = static_cast<int>(chosen[i].coarse.count());
+      EXPECT_LE(coarse, beyond);
+      EXPECT_GE(coarse, 0.8 * beyond) << "level " << blocks[i].block.level;
+    }
+  }
+}
+
 // Ground behind a ridge is hidden from its foot and seen from above it.
 TEST(Horizon, HidesWhatLiesBehindARidge) {
   TerrainView view;
@@ -154,7 +194,7 @@ TEST(Horizon, HidesWhatLiesBehindARidge) {
     }
     std::vector<MeasuredBlock> measured;
     for (const CubeBlock& block : found) {
-      measured.push_back({block, {{height, height}, {}}});
+      measured.push_back({block, {{height, height}, {}}, 1e30});
       measured.back().heights.patches.fill({height, height});
     }
     return measured;
@@ -163,9 +203,9 @@ TEST(Horizon, HidesWhatLiesBehindARidge) {
   const auto share_seen = [&](const std::vector<MeasuredBlock>& behind) {
     std::vector<MeasuredBlock> blocks = behind;
     blocks.insert(blocks.end(), ridge.begin(), ridge.end());
-    const std::vector<PatchSet> visible = visible_patches(view, blocks);
+    const std::vector<BlockPatches> chosen = choose_patches(view, blocks);
     std::size_t patches = 0;
-    for (std::size_t i = 0; i < behind.size(); ++i) patches += visible[i].count();
+    for (std::size_t i = 0; i < behind.size(); ++i) patches += chosen[i].seen.count();
     return static_cast<double>(patches) / static_cast<double>(behind.size() * kPatches);
   };
   const std::vector<MeasuredBlock> plain = blocks_at(9, 3, 0), summit = blocks_at(9, 3, 3000);

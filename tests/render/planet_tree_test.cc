@@ -195,7 +195,7 @@ TEST(Culling, DrawsAtMostAThirdOfTheTrianglesOfTheValley) {
   view.cull = false;
   const auto all = static_cast<double>(select_blocks(view, stored_heights).blocks.size());
   const auto drawn = static_cast<double>(culled.blocks.size());
-  const double triangles = static_cast<double>(block_indices().indices.size()) / 3;
+  const double triangles = static_cast<double>(block_indices().patches[kWholePatch].back()) / 3;
   std::printf(
       "[ culled ] %.0f of %.0f blocks drawn, %.0f and %.0f triangles (%.1f %%); %d nodes "
       "outside, %d behind\n",
