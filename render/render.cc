@@ -67,6 +67,8 @@ FrameStatistics Renderer::draw_unread(const FrameOptions& options) {
   return drawer_->draw_unread(options);
 }
 
+FrameStatistics Renderer::wait() { return drawer_->wait(); }
+
 Frame Renderer::draw(const FrameOptions& options, const std::function<void(double)>& progress) {
   require_ready(options);
   Frame frame = drawer_->draw(options, progress);

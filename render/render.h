@@ -155,7 +155,7 @@ struct FrameStatistics {
   int blocks_hidden = 0;  // every patch of theirs outside the frustum or behind nearer ground
   int blocks_made = 0;    // that were not in the store of an earlier frame
   std::vector<PassTime> passes;  // by the device's timers
-  double milliseconds = 0;       // of the whole frame, reading back not counted
+  double milliseconds = 0;       // from the frame's begin to its end, reading back not counted
 };
 
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
@@ -200,8 +200,13 @@ class Renderer {
   // refuses and for a camera below the ground.
   Frame draw(const FrameOptions& options, const std::function<void(double)>& progress = {});
 
-  // The same, but the frame stays on the device: what showing one there takes. Errors as above.
+  // The same for frames that are shown one after another on the device. Waits for the frame before,
+  // not for this one, which is drawn while the next is prepared. The statistics are those of the
+  // frame before, of this one when there is none. Errors as above.
   FrameStatistics draw_unread(const FrameOptions& options);
+  // For the last of these frames, whose statistics it returns; throws std::logic_error when nothing
+  // has been drawn since the last draw().
+  FrameStatistics wait();
 
  private:
   void require_ready(const FrameOptions& options) const;

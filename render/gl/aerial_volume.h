@@ -19,7 +19,7 @@ class AerialVolume {
   void bind(GLuint unit) const;
 
  private:
-  std::array<GlTexture, 3> volumes_;
+  std::array<GlTexture, 3> textures_;  // two of scattering, one of extinction
 };
 
 }  // namespace skyfit

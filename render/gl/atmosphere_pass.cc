@@ -88,9 +88,18 @@ double pixel_rad(const FrameOptions& options) {
   return options.camera.vertical_fov / (options.height * options.samples_per_side);
 }
 
+double grainless_m(const AtmosphereView& view) {
+  return Materials::grainless_distance_m(pixel_rad(view.options));
+}
+
 double grainless_depth(const AtmosphereView& view) {
-  const double grainless_km = 1e-3 * Materials::grainless_distance_m(pixel_rad(view.options));
-  return view.projection.near_km / grainless_km;
+  return view.projection.near_km / (1e-3 * grainless_m(view));
+}
+
+// The classes go by the distance along the view's axis, which is shorter.
+bool sees_grains(const AtmosphereView& view) {
+  const double corner = std::hypot(1.0, view.projection.tangent.x, view.projection.tangent.y);
+  return !view.only_ground || view.nearest_m < corner * grainless_m(view);
 }
 
 glm::vec4 second_sun(const SecondSun& sun) {
@@ -315,14 +324,20 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
   glDepthFunc(GL_EQUAL);
   glDepthRange(kSkyClass, 1);
   draw_triangle(sky);
+  draw_suns(view);
+  // What takes longest comes last: before another program samples what has been drawn, Mesa's
+  // renderer waits for all that is on its way.
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
   glDepthRange(kGrainlessClass, 1);
   draw_triangle(grainless);
-  glDepthRange(kGrainyClass, 1);
-  draw_triangle(grainy);
+  if (sees_grains(view)) {
+    glDepthRange(kGrainyClass, 1);
+    draw_triangle(grainy);
+  }
   glDepthRange(0, 1);
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
-  draw_suns(view);
 }
 
 void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shadow_maps) {
@@ -333,8 +348,9 @@ void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shad
   const auto groups = [&](int pixels) {
     return static_cast<GLuint>((pixels * view.options.samples_per_side + kGroup - 1) / kGroup);
   };
-  for (const auto& [id, pixel_class] :
-       {std::pair(sky, kSkyClass), {grainless, kGrainlessClass}, {grainy, kGrainyClass}}) {
+  std::vector<std::pair<GLuint, double>> classes = {{sky, kSkyClass}, {grainless, kGrainlessClass}};
+  if (sees_grains(view)) classes.emplace_back(grainy, kGrainyClass);
+  for (const auto& [id, pixel_class] : classes) {
     const Uniforms uniforms(id);
     uniforms.set("pixel_class", pixel_class);
     uniforms.set("grainless_depth", grainless_depth(view));

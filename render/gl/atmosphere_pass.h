@@ -55,6 +55,7 @@ struct AtmosphereView {
   const std::array<ShadowView, kShadowMaps>* shadows;  // null: none
   double farthest_km;  // of the ground that is seen: the length of the volume
   bool only_ground;    // is seen: no meshes, no moon
+  double nearest_m;    // of the ground that is seen, or less
   const Materials& materials;
 
   // The volume holds one sun's light before the ground, for an eye in the lower air.

@@ -23,6 +23,7 @@ constexpr int kSide = kMaterialSide;
 constexpr double kGrainPeriod = 1.5, kCragPeriod = 190;  // m: a unit of each texture
 constexpr int kLastLevel = 6;                            // mipmap of one texel
 static_assert(1 << kLastLevel == kSide);
+constexpr int kFlatLevel = 5;  // the first mipmap that holds nothing but the mean
 constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
 
 std::size_t texel(int x, int y, int z) {
@@ -137,6 +138,11 @@ std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels) {
     for (const float value : values)
       rounded.push_back(static_cast<std::uint8_t>(std::lround(value)));
   }
+  const MaterialTexels mean = mipmaps.back();
+  for (std::size_t level = kFlatLevel; level < kLastLevel; ++level) {
+    for (std::size_t i = 0; i < mipmaps[level].size(); ++i)
+      mipmaps[level][i] = mean[i % mean.size()];
+  }
   return mipmaps;
 }
 
@@ -172,7 +178,9 @@ Materials::Materials(const std::filesystem::path& directory)
   glGetTextureImage(grains_.id(), kLastLevel, GL_RGBA, GL_FLOAT, sizeof grain_mean_, &grain_mean_);
 }
 
-double Materials::grainless_distance_m(double pixel_rad) { return kGrainPeriod / pixel_rad; }
+double Materials::grainless_distance_m(double pixel_rad) {
+  return kGrainPeriod / kSide * (1 << kFlatLevel) / pixel_rad;
+}
 
 void Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit,
                      UniformBuffers& buffers) const {

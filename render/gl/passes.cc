@@ -23,7 +23,24 @@ GlTexture make_texture(GLenum target, GLint filter = GL_LINEAR) {
   return GlTexture(id);
 }
 
+std::int64_t nanoseconds(const GlQuery& stamp) {
+  GLint64 value = 0;
+  glGetQueryObjecti64v(stamp.id(), GL_QUERY_RESULT, &value);
+  return value;
+}
+
 }  // namespace
+
+std::vector<PassTime> StartedPasses::times() const {
+  std::vector<PassTime> made;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::int64_t took = nanoseconds(stamps[i + 1]) - nanoseconds(stamps[i]);
+    made.push_back({names[i], 1e-6 * static_cast<double>(took)});
+  }
+  return made;
+}
+
+std::int64_t StartedPasses::end() const { return nanoseconds(stamps.back()); }
 
 void FrameGraph::add_target(const std::string& name, GLenum format, int width, int height) {
   const auto found = textures_.find(name);
@@ -83,12 +100,12 @@ GlFramebuffer FrameGraph::framebuffer(const Pass& pass) const {
   return made;
 }
 
-std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
-  std::vector<GlQuery> stamps;  // before the first pass and after each
+StartedPasses FrameGraph::run(std::span<const Pass> passes) const {
+  StartedPasses started;
   const auto stamp = [&] {
     GLuint query = 0;
     glCreateQueries(GL_TIMESTAMP, 1, &query);
-    stamps.emplace_back(query);
+    started.stamps.emplace_back(query);
     glQueryCounter(query, GL_TIMESTAMP);
   };
   stamp();
@@ -101,6 +118,8 @@ std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
     for (std::size_t unit = 0; unit < pass.images.size(); ++unit) {
       bind_image(pass.images[unit], static_cast<GLuint>(unit));
     }
+    // The frame before may still use what this one writes.
+    if (!pass.images.empty()) glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     pass.draw();
     if (!pass.images.empty()) {
       glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
@@ -108,17 +127,10 @@ std::vector<PassTime> FrameGraph::run(std::span<const Pass> passes) const {
     }
     check_gl("pass " + pass.name);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    started.names.push_back(pass.name);
     stamp();
   }
-  const auto nanoseconds = [&](std::size_t i) {
-    GLuint64 value = 0;
-    glGetQueryObjectui64v(stamps[i].id(), GL_QUERY_RESULT, &value);
-    return static_cast<double>(value);
-  };
-  std::vector<PassTime> times;
-  for (std::size_t i = 0; i < passes.size(); ++i)
-    times.push_back({passes[i].name, 1e-6 * (nanoseconds(i + 1) - nanoseconds(i))});
-  return times;
+  return started;
 }
 
 void FrameGraph::bind(const std::string& name, GLuint unit) const {

@@ -24,6 +24,16 @@ struct Pass {
   std::vector<std::string> images = {};
 };
 
+// Passes that the device may not have run yet.
+struct StartedPasses {
+  std::vector<std::string> names;
+  std::vector<GlQuery> stamps;  // the device's clock before the first pass and after each
+
+  // Wait for the device. The time that each took; its clock at the end, ns.
+  std::vector<PassTime> times() const;
+  std::int64_t end() const;
+};
+
 class FrameGraph {
  public:
   // Textures by name; float formats filter linearly and clamp to their edges. A target of the same
@@ -32,10 +42,9 @@ class FrameGraph {
   void add_table(const std::string& name, int width, int height, int depth,
                  std::span<const float> rgba);
 
-  // Runs the passes in order and returns the time that each took by the device's timers. Throws
-  // std::runtime_error that names the pass: an unknown texture, an incomplete framebuffer, an
-  // OpenGL error.
-  std::vector<PassTime> run(std::span<const Pass> passes) const;
+  // Hands the passes to the device, which runs them in order. Throws std::runtime_error that names
+  // the pass: an unknown texture, an incomplete framebuffer, an OpenGL error.
+  StartedPasses run(std::span<const Pass> passes) const;
 
   void bind(const std::string& name, GLuint unit) const;
 

@@ -224,9 +224,11 @@ std::vector<BlockPatches> choose_patches(const TerrainView& view,
     const double bulge = bulge_m(block, view.radius_m);
     for (std::size_t patch = 0; patch < kPatches; ++patch) {
       const PatchPoints points = points_of(patch, corners, heights.patches[patch]);
-      chosen[i].coarse[patch] = nearest_m(points, bulge) >= morphed_m;
+      const double nearest = nearest_m(points, bulge);
+      chosen[i].coarse[patch] = nearest >= morphed_m;
       if (view.cull && outside(bounds, points, bulge)) continue;
       chosen[i].seen.set(patch);
+      chosen[i].nearest_m = std::min(chosen[i].nearest_m, nearest);
       if (!camera) continue;
       const Outline outline = outline_of(i, patch, corners, points, bulge);
       if (outline.nearest > 0) outlines[i].push_back(outline);

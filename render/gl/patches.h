@@ -7,6 +7,7 @@
 #pragma once
 
 #include <bitset>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct MeasuredBlock {
 struct BlockPatches {
   PatchSet seen;    // empty where nothing of the block is
   PatchSet coarse;  // all their vertices have become the coarser shape
+  double nearest_m = std::numeric_limits<double>::infinity();  // no point of what is seen is nearer
 };
 
 // Of each block. Views with `planes`, which are no camera's, have no horizon. Never leaves out what

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <stdexcept>
@@ -111,9 +110,11 @@ BlockSelection affordable_blocks(TerrainView& view, BlockStore& store) {
   }
 }
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+// Of the device, ns.
+std::int64_t device_clock() {
+  GLint64 now = 0;
+  glGetInteger64v(GL_TIMESTAMP, &now);
+  return now;
 }
 
 class GlRenderer final : public FrameDrawer {
@@ -163,7 +164,8 @@ class GlRenderer final : public FrameDrawer {
     const FrameOptions sampled = affordable(options);
     const int samples = sampled.samples_per_side;
     Frame frame;
-    frame.statistics = draw_samples(sampled, report);
+    before_.reset();
+    frame.statistics = start_frame(sampled, true, report).wait();
     report(0.9);
     frame.width = options.width;
     frame.height = options.height;
@@ -175,7 +177,17 @@ class GlRenderer final : public FrameDrawer {
   }
 
   FrameStatistics draw_unread(const FrameOptions& options) override {
-    return draw_samples(affordable(options), [](double) {});
+    StartedFrame started = start_frame(affordable(options), false, [](double) {});
+    glFlush();
+    const FrameStatistics statistics = (before_ ? *before_ : started).wait();
+    before_ = std::move(started);
+    return statistics;
+  }
+
+  FrameStatistics wait() override {
+    if (!before_) throw std::logic_error("render: no frame to wait for");
+    context_->make_current();
+    return before_->wait();
   }
 
  private:
@@ -213,18 +225,31 @@ class GlRenderer final : public FrameDrawer {
     return sampled;
   }
 
-  FrameStatistics draw_samples(const FrameOptions& options,
-                               const std::function<void(double)>& report) {
+  // What the device draws while the next frame is prepared.
+  struct StartedFrame {
+    FrameStatistics statistics;
+    std::int64_t begin;  // by the device's clock, ns
+    StartedPasses passes;
+
+    FrameStatistics wait() const {
+      FrameStatistics finished = statistics;
+      finished.passes = passes.times();
+      finished.milliseconds = 1e-6 * static_cast<double>(passes.end() - begin);
+      return finished;
+    }
+  };
+
+  // `read`: distances are wanted, too.
+  StartedFrame start_frame(const FrameOptions& options, bool read,
+                           const std::function<void(double)>& report) {
     const int samples = options.samples_per_side;
     add_targets(options.width * samples, options.height * samples, options.layers, graph_);
     atmosphere_.add_sky_view(options, graph_);
-    const auto start = std::chrono::steady_clock::now();
+    const std::int64_t begin = device_clock();
     FrameStatistics statistics;
     prepare_scene(options, statistics);
     report(0.7);
-    statistics.passes = graph_.run(passes(options));
-    statistics.milliseconds = milliseconds_since(start);
-    return statistics;
+    return {statistics, begin, graph_.run(passes(options, read))};
   }
 
   // What stands where in a frame.
@@ -294,13 +319,14 @@ class GlRenderer final : public FrameDrawer {
     statistics.triangles += moon_->triangles();
   }
 
-  std::vector<Pass> passes(const FrameOptions& options) {
+  std::vector<Pass> passes(const FrameOptions& options, bool read) {
     const AtmosphereView view{options,
                               current_.projection,
                               current_.axes,
                               options.shadows ? &current_.shadows : nullptr,
                               current_.farthest_km,
                               current_.meshes.empty() && !current_.moon,
+                              current_.blocks.nearest_m,
                               materials_};
     std::vector<Pass> list;
     if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
@@ -319,7 +345,8 @@ class GlRenderer final : public FrameDrawer {
       list.push_back(
           {"aerial volume", kTableReads, {}, [this, view] { atmosphere_.fill_volume(view); }});
     }
-    std::vector<std::string> lights = {"light", "distance"};
+    std::vector<std::string> lights = {"light"};
+    if (read || options.layers || device_ == GraphicsDevice::kGpu) lights.emplace_back("distance");
     if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
     std::vector<std::string> lights_and_depth = lights;
     lights_and_depth.emplace_back("depth");
@@ -381,6 +408,7 @@ class GlRenderer final : public FrameDrawer {
   std::optional<ShadowPass> shadow_pass_;  // made when first used
   AtmospherePass atmosphere_;
   FrameScene current_;
+  std::optional<StartedFrame> before_;  // the last one of draw_unread()
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 
 #include "render/gl/buffers.h"
@@ -80,14 +81,16 @@ void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& 
   const std::vector<BlockPatches> chosen = choose_patches(view, measured);
   draw.hidden = 0;
   draw.triangles = 0;
+  draw.nearest_m = std::numeric_limits<double>::infinity();
   std::vector<BlockInstance> instances;
   std::vector<DrawCommand> commands;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const auto& [seen, coarse] = chosen[i];
+    const auto& [seen, coarse, nearest_m] = chosen[i];
     if (seen.none()) {
       ++draw.hidden;
       continue;
     }
+    draw.nearest_m = std::min(draw.nearest_m, nearest_m);
     std::optional<std::uint32_t> end;  // of the last run
     for (std::size_t patch = 0; patch < kPatches; ++patch) {
       if (!seen[patch]) continue;

@@ -21,6 +21,7 @@ struct TerrainDraw {
   int runs = 0;                // of patches that follow each other: a command each
   int blocks = 0, hidden = 0;  // in part or as a whole; with no patch that is seen
   std::int64_t triangles = 0;
+  double nearest_m = 0;  // nothing of it is nearer to the camera
 };
 
 class TerrainPass {

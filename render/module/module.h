@@ -18,10 +18,11 @@ class FrameDrawer {
   virtual double ground_height_m(const std::optional<Site>& site) const = 0;
   virtual Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) = 0;
   virtual FrameStatistics draw_unread(const FrameOptions& options) = 0;
+  virtual FrameStatistics wait() = 0;
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 3;
+  static constexpr int kRevision = 4;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice);
   void (*write_exr)(const Frame&, const std::filesystem::path&);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light scattered into paths from the eye and their transmittance in a volume of 32 x 32 x 16 (Bodare & Sandberg 2014,
-// 6.4.2). Deviations: the directions are those of sky_view.glsl, by the azimuth from the sun and apart above and below the
+// 6.4.2); of the transmittance one slice across, for it is the same in all azimuths. Deviations: the directions are those of sky_view.glsl, by the azimuth from the sun and apart above and below the
 // horizon, which a volume over the frustum would mix (half of the light of a pixel beside it); the volume holds the
 // logarithms of means per kilometre, smooth where a path begins, and the two kinds of scattering apart, so that the phase
 // functions stay those of the pixel.
@@ -26,7 +26,7 @@ float slice_coordinate(float share) { return sqrt(share) * ((kVolumeSize.z - 0.5
 #ifndef VOLUME_WRITE
 layout(binding = 14) uniform sampler3D air_volume;
 layout(binding = 15) uniform sampler3D aerosol_volume;
-layout(binding = 16) uniform sampler3D extinction_volume;
+layout(binding = 16) uniform sampler2D extinction_volume;  // rows and slices
 
 struct VolumeLight {
   Scattering scattering;
@@ -37,6 +37,6 @@ VolumeLight volume_light(ViewRay ray, float d) {
   float slice = slice_coordinate(min(d / longest_path(ray), 1.0));
   vec3 place = vec3(place_in_view(ray, suns[0].xyz, kVolumeView), slice);
   return VolumeLight(Scattering(d * exp(texture(air_volume, place)), d * exp(texture(aerosol_volume, place))),
-                   exp(-d * exp(texture(extinction_volume, place))));
+                   exp(-d * exp(texture(extinction_volume, place.yz))));
 }
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorts the pixels by what the atmosphere's pass has to do for them.
-uniform float grainless_depth;  // beyond it no grain of the ground is as large as a pixel
+uniform float grainless_depth;  // beyond it a pixel sees nothing but the grains' mean
 
 // Of a pixel of that depth.
 float class_of(float seen) {

@@ -64,11 +64,20 @@ TEST(Gpu, FramesThatStayOnTheDeviceAreTheSameWork) {
   const FrameOptions options = options_of("valley", 96, 60);
   const FrameStatistics read = renderer().draw(options).statistics,
                         unread = renderer().draw_unread(options);
+  EXPECT_GT(read.milliseconds, 0);
   EXPECT_EQ(unread.triangles, read.triangles);
   EXPECT_EQ(unread.blocks_drawn, read.blocks_drawn);
   ASSERT_EQ(unread.passes.size(), read.passes.size());
   for (std::size_t i = 0; i < read.passes.size(); ++i)
     EXPECT_EQ(unread.passes[i].pass, read.passes[i].pass);
+  // The statistics come a frame later.
+  const FrameOptions other = options_of("limb", 96, 60);
+  EXPECT_EQ(renderer().draw_unread(other).triangles, read.triangles);
+  const FrameStatistics last = renderer().wait();
+  EXPECT_EQ(last.triangles, renderer().draw(other).statistics.triangles);
+  EXPECT_NE(last.triangles, read.triangles);
+  EXPECT_GT(last.milliseconds, 0);
+  EXPECT_THROW(renderer().wait(), std::logic_error);
   FrameOptions below = options;
   below.camera.altitude_m = -1e4;
   EXPECT_THROW(renderer().draw_unread(below), std::invalid_argument);

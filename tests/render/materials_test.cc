@@ -82,6 +82,20 @@ TEST_P(EveryMaterial, NeitherDarkensNorTiltsTheGround) {
   EXPECT_EQ(mipmaps.back().size(), 4u);
 }
 
+// So that where grains are no longer looked up nothing of them is left.
+TEST_P(EveryMaterial, FadesToItsMeanBeforeTheLastMipmap) {
+  const std::vector<MaterialTexels> mipmaps = mipmaps_of(make_texture(GetParam()));
+  const MaterialTexels& two = mipmaps[5];
+  ASSERT_EQ(two.size(), 4u * 8);
+  for (std::size_t i = 0; i < two.size(); ++i) EXPECT_EQ(two[i], mipmaps.back()[i % 4]);
+  const auto [low, high] = std::minmax_element(mipmaps[4].begin(), mipmaps[4].end());
+  EXPECT_LT(*low, *high);
+  // The mipmap whose texels are a pixel at that distance, seen head on.
+  constexpr double kPixel = 1e-3, kGrainUnit = 1.5;
+  EXPECT_NEAR(Materials::grainless_distance_m(kPixel) * kPixel * kSide / kGrainUnit, std::exp2(5.0),
+              1e-9);
+}
+
 TEST_P(EveryMaterial, OfAnotherSizeIsRefusedInOneLine) {
   const TemporaryDirectory directory;
   const auto file =
