@@ -96,12 +96,6 @@ double grainless_depth(const AtmosphereView& view) {
   return view.projection.near_km / (1e-3 * grainless_m(view));
 }
 
-// The classes go by the distance along the view's axis, which is shorter.
-bool sees_grains(const AtmosphereView& view) {
-  const double corner = std::hypot(1.0, view.projection.tangent.x, view.projection.tangent.y);
-  return !view.only_ground || view.nearest_m < corner * grainless_m(view);
-}
-
 glm::vec4 second_sun(const SecondSun& sun) {
   const double s = std::sin(sun.zenith);
   return {s * std::cos(sun.azimuth), -s * std::sin(sun.azimuth), std::cos(sun.zenith),
@@ -178,8 +172,10 @@ void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuff
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
   return options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
-         options.camera.altitude_m <= std::min(kVolumeAbove, thickness);
+         options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
 }
+
+bool AtmosphereView::sees_grains() const { return !only_ground || nearest_m < grainless_m(*this); }
 
 bool AtmospherePass::has_sky_view(const FrameOptions& options) {
   return options.camera.altitude_m <= kAbove;
@@ -289,7 +285,9 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
 
 void AtmospherePass::classify(const AtmosphereView& view) {
   const GLuint classes = program(kClasses, class_defines());
-  Uniforms(classes).set("grainless_depth", grainless_depth(view));
+  const Uniforms uniforms(classes);
+  uniforms.set("grainless_depth", grainless_depth(view));
+  uniforms.set("tangent", view.projection.tangent);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   draw_triangle(classes);
@@ -329,11 +327,14 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
   // renderer waits for all that is on its way.
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
-  glDepthRange(kGrainlessClass, 1);
-  draw_triangle(grainless);
-  if (sees_grains(view)) {
+  if (view.sees_grains()) {
+    glDepthRange(kGrainlessClass, 1);
+    draw_triangle(grainless);
     glDepthRange(kGrainyClass, 1);
     draw_triangle(grainy);
+  } else {
+    glDepthFunc(GL_LESS);  // than any depth: the pixels have no classes
+    draw_triangle(grainless);
   }
   glDepthRange(0, 1);
   glDepthMask(GL_TRUE);
@@ -349,7 +350,7 @@ void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shad
     return static_cast<GLuint>((pixels * view.options.samples_per_side + kGroup - 1) / kGroup);
   };
   std::vector<std::pair<GLuint, double>> classes = {{sky, kSkyClass}, {grainless, kGrainlessClass}};
-  if (sees_grains(view)) classes.emplace_back(grainy, kGrainyClass);
+  if (view.sees_grains()) classes.emplace_back(grainy, kGrainyClass);
   for (const auto& [id, pixel_class] : classes) {
     const Uniforms uniforms(id);
     uniforms.set("pixel_class", pixel_class);

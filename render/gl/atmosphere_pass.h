@@ -56,10 +56,13 @@ struct AtmosphereView {
   double farthest_km;  // of the ground that is seen: the length of the volume
   bool only_ground;    // is seen: no meshes, no moon
   double nearest_m;    // of the ground that is seen, or less
+  double highest_m;    // of all ground
   const Materials& materials;
 
-  // The volume holds one sun's light before the ground, for an eye in the lower air.
+  // The volume holds one sun's light before the ground, for an eye in the lower air; VOLUME
+  // promises the shaders that both are in the air.
   bool volume(const AtmosphereTables& tables) const;
+  bool sees_grains() const;  // of the ground, in some pixel
 };
 
 class AtmospherePass {
@@ -78,8 +81,8 @@ class AtmospherePass {
 
   // Either of two ways comes after the passes above of the same view, as far as it has them, and
   // compiles the variants that the options need, when they are new.
-  // As fragments. First the pixels are sorted by the G-buffer's depth, which their classes
-  // replace; it is the depth target of both.
+  // As fragments. Where grains are seen, the pixels are first sorted by the G-buffer's depth, which
+  // their classes replace; it is the depth target of both.
   void classify(const AtmosphereView& view);
   void draw(const AtmosphereView& view, const ShadowPass& shadow_maps);
   // As compute shaders into images, but for the suns, whose depth target is the G-buffer's.

@@ -54,8 +54,8 @@ ObjectMesh moon_mesh(const Moon& moon) {
       sum += light * std::sin(theta);
       area += std::sin(theta);
       const auto reflectance = static_cast<float>(light);
-      mesh.vertices.push_back({glm::vec3(p), glm::vec3(p),
-                               {reflectance, reflectance, reflectance, reflectance}});
+      mesh.vertices.push_back(
+          {glm::vec3(p), glm::vec3(p), {reflectance, reflectance, reflectance, reflectance}});
     }
   }
   const auto scale = static_cast<float>(moon.reflectance * area / sum);
@@ -100,12 +100,13 @@ void ObjectPass::submit(const Model& model) const {
   glDrawElements(GL_TRIANGLES, model.index_count, GL_UNSIGNED_INT, nullptr);
 }
 
-void ObjectPass::draw(const Model& model, const ObjectPlace& place,
-                      const Projection& projection) const {
+void ObjectPass::draw(const Model& model, const ObjectPlace& place, const Projection& projection,
+                      const SiteAxes& axes) const {
   const Uniforms uniforms(program_.id());
   uniforms.set("site_from_object", glm::mat3(place.site_from_object));
   uniforms.set("offset_km", glm::vec3(place.offset_km));
   uniforms.set("view_from_site", projection.view_from_site);
+  uniforms.set("planet_from_site", glm::mat3(axes.planet_from_site()));
   uniforms.set("tangent", projection.tangent);
   uniforms.set("near_km", projection.near_km);
   glUseProgram(program_.id());
@@ -116,7 +117,8 @@ void ObjectPass::draw_depth(const Model& model, const ObjectPlace& place,
                             const glm::dmat4& clip_from_site) const {
   glm::dmat4 site_from_object(place.site_from_object);
   site_from_object[3] = glm::dvec4(place.offset_km, 1);
-  Uniforms(depth_program_.id()).set("clip_from_object", glm::mat4(clip_from_site * site_from_object));
+  Uniforms(depth_program_.id())
+      .set("clip_from_object", glm::mat4(clip_from_site * site_from_object));
   glUseProgram(depth_program_.id());
   submit(model);
 }

@@ -36,7 +36,8 @@ class ObjectPass {
   };
   static Model upload_mesh(const ObjectMesh& mesh);
 
-  void draw(const Model& model, const ObjectPlace& place, const Projection& projection) const;
+  void draw(const Model& model, const ObjectPlace& place, const Projection& projection,
+            const SiteAxes& axes) const;
 
   // `clip_from_site`: of positions relative to the camera, km.
   void draw_depth(const Model& model, const ObjectPlace& place,

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <numbers>
-#include <utility>
 
 namespace skyfit {
 namespace {
@@ -33,11 +35,10 @@ double turn_near(double about, double turn) {
 // A patch as the camera sees it: metres, in the site's axes about the camera. Nothing of
 // its surface lies beyond these bounds.
 struct Outline {
-  std::size_t block = 0, patch = 0;
-  double nearest = 0, farthest = 0;  // horizontally; nearest <= 0: may be around the camera
-  double from = 0, to = 0;           // turns of its corners
-  double reach = 0;                  // by how much its sides may bulge out of them or in
-  double lowest = 0, highest = 0;    // slopes: height above the camera's by horizontal distance
+  float nearest = 0, farthest = 0;  // horizontally; nearest <= 0: may be around the camera
+  double from = 0, to = 0;          // turns of its corners
+  double reach = 0;                 // by how much its sides may bulge out of them or in
+  double lowest = 0, highest = 0;   // slopes: height above the camera's by horizontal distance
 };
 
 // The corners of a block's patches.
@@ -104,32 +105,35 @@ bool outside(std::span<const glm::dvec4> bounds, const PatchPoints& points, doub
 
 // No point of a patch is nearer to the camera.
 double nearest_m(const PatchPoints& points, double bulge) {
-  glm::dvec3 middle(0);
-  for (const glm::dvec3& p : points) middle += p;
-  const glm::dvec3 toward = glm::normalize(middle);
-  double nearest = 1e300;
+  glm::dvec3 toward(0);
+  for (const glm::dvec3& p : points) toward += p;
+  double nearest = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& p : points) nearest = std::min(nearest, glm::dot(toward, p));
-  return nearest - bulge;
+  return nearest / glm::length(toward) - bulge;
 }
 
-Outline outline_of(std::size_t block, std::size_t patch, const Corners& corners,
-                   const PatchPoints& points, double bulge) {
+float rounded_down(double x) {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+float rounded_up(double x) { return -rounded_down(-x); }
+
+Outline outline_of(std::size_t patch, const Corners& corners, const PatchPoints& points,
+                   double bulge) {
   Outline outline;
-  outline.block = block;
-  outline.patch = patch;
   glm::dvec2 middle(0);
   for (const glm::dvec3& p : points) middle += 0.125 * glm::dvec2(p);
-  double half_width = 0, low = 1e300, high = -1e300;
+  double square = 0, low = 1e300, high = -1e300;
   for (const glm::dvec3& p : points) {
-    half_width = std::max(half_width, glm::distance(middle, glm::dvec2(p)));
+    const glm::dvec2 off = glm::dvec2(p) - middle;
+    square = std::max(square, glm::dot(off, off));
     low = std::min(low, p.z);
     high = std::max(high, p.z);
   }
-  half_width += bulge;
+  const double half_width = std::sqrt(square) + bulge, distance = glm::length(middle);
   low -= bulge;
   high += bulge;
-  outline.nearest = glm::length(middle) - half_width;
-  outline.farthest = glm::length(middle) + half_width;
+  outline.nearest = rounded_down(distance - half_width);
+  outline.farthest = rounded_up(distance + half_width);
   if (outline.nearest <= 0) return outline;
   outline.lowest = low / (low > 0 ? outline.farthest : outline.nearest);
   outline.highest = high / (high > 0 ? outline.nearest : outline.farthest);
@@ -152,27 +156,37 @@ class Horizon {
 
   // Raises the sectors that the patch fills from side to side.
   void raise(const Outline& patch) {
-    const auto first = static_cast<std::ptrdiff_t>(std::ceil(sector(patch.from + patch.reach)));
-    const auto end = static_cast<std::ptrdiff_t>(std::floor(sector(patch.to - patch.reach)));
-    for (std::ptrdiff_t i = first; i < end; ++i) at(i) = std::max(at(i), patch.lowest);
+    const double first = std::ceil(sector(patch.from + patch.reach));
+    const double end = std::floor(sector(patch.to - patch.reach));
+    all_of(first, end - first, [&](double& slope) {
+      slope = std::max(slope, patch.lowest);
+      return true;
+    });
   }
 
   bool hides(const Outline& patch) {
-    const auto first = static_cast<std::ptrdiff_t>(std::floor(sector(patch.from - patch.reach)));
-    const auto last = static_cast<std::ptrdiff_t>(std::floor(sector(patch.to + patch.reach)));
-    for (std::ptrdiff_t i = first; i <= last; ++i) {
-      if (at(i) < patch.highest) return false;
-    }
-    return true;
+    const double first = std::floor(sector(patch.from - patch.reach));
+    const double last = std::floor(sector(patch.to + patch.reach));
+    return all_of(first, last + 1 - first, [&](double slope) { return slope >= patch.highest; });
   }
 
  private:
   double sector(double turn) const {
     return turn / kFullTurn * static_cast<double>(slopes_.size());
   }
-  double& at(std::ptrdiff_t i) {
+
+  // Whether f is true of `count` sectors from `first` on, which may be turns away; stops where it
+  // is not.
+  template <class F>
+  bool all_of(double first, double count, F&& f) {
     const auto n = static_cast<std::ptrdiff_t>(slopes_.size());
-    return slopes_[static_cast<std::size_t>((i % n + n) % n)];
+    std::ptrdiff_t i = static_cast<std::ptrdiff_t>(first) % n;
+    if (i < 0) i += n;
+    for (auto left = static_cast<std::ptrdiff_t>(count); left > 0; --left) {
+      if (!f(slopes_[static_cast<std::size_t>(i)])) return false;
+      if (++i == n) i = 0;
+    }
+    return true;
   }
 
   std::vector<double> slopes_;
@@ -182,30 +196,35 @@ class Horizon {
 // twelve sectors.
 constexpr double kSectorsPerRatio = 600;
 
-using Outlines = std::vector<std::vector<Outline>>;  // of each block's patches
+using Outlines = std::vector<Outline>;  // of all patches of all blocks, kPatches of each
 
-// The patches in the order of one of their distances.
-std::vector<const Outline*> ordered(const Outlines& blocks, double Outline::*distance) {
-  std::vector<std::pair<double, const Outline*>> order;
-  for (const std::vector<Outline>& patches : blocks)
-    for (const Outline& patch : patches) order.emplace_back(patch.*distance, &patch);
-  std::ranges::sort(order);
-  std::vector<const Outline*> patches;
-  for (const auto& [key, patch] : order) patches.push_back(patch);
-  return patches;
+// The numbers of the patches ahead of the camera in the order of one of their distances: the bits
+// of a positive number grow with it.
+std::vector<std::uint32_t> ordered(const Outlines& patches, float Outline::*distance) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (patches[i].nearest > 0)
+      keys.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(patches[i].*distance)} << 32 | i);
+  }
+  std::ranges::sort(keys);
+  std::vector<std::uint32_t> order;
+  order.reserve(keys.size());
+  for (const std::uint64_t key : keys) order.push_back(static_cast<std::uint32_t>(key));
+  return order;
 }
 
 // Drops the patches that nearer ones hide.
-void drop_hidden(const Outlines& blocks, double split_ratio, std::span<BlockPatches> chosen) {
-  std::vector<const Outline*> by_start, by_end;
-  tbb::parallel_invoke([&] { by_start = ordered(blocks, &Outline::nearest); },
-                       [&] { by_end = ordered(blocks, &Outline::farthest); });
+void drop_hidden(const Outlines& patches, double split_ratio, std::span<BlockPatches> chosen) {
+  std::vector<std::uint32_t> by_start, by_end;
+  tbb::parallel_invoke([&] { by_start = ordered(patches, &Outline::nearest); },
+                       [&] { by_end = ordered(patches, &Outline::farthest); });
   Horizon horizon(static_cast<int>(kSectorsPerRatio * split_ratio));
   auto passed = by_end.begin();
-  for (const Outline* patch : by_start) {
-    for (; passed != by_end.end() && (*passed)->farthest <= patch->nearest; ++passed)
-      horizon.raise(**passed);
-    if (horizon.hides(*patch)) chosen[patch->block].seen.reset(patch->patch);
+  for (const std::uint32_t i : by_start) {
+    for (; passed != by_end.end() && patches[*passed].farthest <= patches[i].nearest; ++passed)
+      horizon.raise(patches[*passed]);
+    if (horizon.hides(patches[i])) chosen[i / kPatches].seen.reset(i % kPatches);
   }
 }
 
@@ -217,7 +236,7 @@ std::vector<BlockPatches> choose_patches(const TerrainView& view,
   const std::vector<glm::dvec4> bounds = view.bounds();
   const bool camera = view.planes.empty();
   std::vector<BlockPatches> chosen(blocks.size());
-  Outlines outlines(blocks.size());  // but for patches around the camera
+  Outlines outlines(blocks.size() * kPatches);  // of those that are seen
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
     const auto& [block, heights, morphed_m] = blocks[i];
     const Corners corners(view, block, site_from_planet);
@@ -229,9 +248,7 @@ std::vector<BlockPatches> choose_patches(const TerrainView& view,
       if (view.cull && outside(bounds, points, bulge)) continue;
       chosen[i].seen.set(patch);
       chosen[i].nearest_m = std::min(chosen[i].nearest_m, nearest);
-      if (!camera) continue;
-      const Outline outline = outline_of(i, patch, corners, points, bulge);
-      if (outline.nearest > 0) outlines[i].push_back(outline);
+      if (camera) outlines[i * kPatches + patch] = outline_of(patch, corners, points, bulge);
     }
   });
   if (view.cull) drop_hidden(outlines, view.split_ratio, chosen);

@@ -327,6 +327,7 @@ class GlRenderer final : public FrameDrawer {
                               current_.farthest_km,
                               current_.meshes.empty() && !current_.moon,
                               current_.blocks.nearest_m,
+                              ground_->highest_m(),
                               materials_};
     std::vector<Pass> list;
     if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
@@ -361,7 +362,10 @@ class GlRenderer final : public FrameDrawer {
           {"suns", kTableReads, lights_and_depth, [this, view] { atmosphere_.draw_suns(view); }});
       return list;
     }
-    list.push_back({"classes", {"depth"}, {"depth"}, [this, view] { atmosphere_.classify(view); }});
+    if (view.sees_grains()) {
+      list.push_back(
+          {"classes", {"depth"}, {"depth"}, [this, view] { atmosphere_.classify(view); }});
+    }
     list.push_back({"atmosphere", kAtmosphereReads, lights_and_depth,
                     [this, view] { atmosphere_.draw(view, shadow_maps()); }});
     return list;
@@ -371,9 +375,10 @@ class GlRenderer final : public FrameDrawer {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     for (const Placed& mesh : current_.meshes)
-      objects_.draw(*mesh.model, mesh.place, current_.projection);
+      objects_.draw(*mesh.model, mesh.place, current_.projection, current_.axes);
     if (current_.moon)
-      objects_.draw(*current_.moon->model, current_.moon->place, current_.projection);
+      objects_.draw(*current_.moon->model, current_.moon->place, current_.projection,
+                    current_.axes);
   }
 
   const ShadowPass& shadow_maps() {

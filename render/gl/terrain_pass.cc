@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <limits>
-#include <optional>
 
 #include "render/gl/buffers.h"
 #include "render/gl/shader.h"
@@ -52,10 +51,8 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m)
       program_(terrain_program("render/shaders/terrain.vert", "render/shaders/terrain.frag")),
       depth_program_(
           terrain_program("render/shaders/terrain_depth.vert", "render/shaders/depth_only.frag")),
-      indices_(upload(std::span(block_indices().indices))),
       layout_(make_vertex_array()) {
   const GLuint id = layout_.id();
-  glVertexArrayElementBuffer(id, indices_.id());
   const auto attribute = [id](GLuint slot, GLuint binding, int size, GLenum type, GLboolean normal,
                               std::size_t offset) {
     glEnableVertexArrayAttrib(id, slot);
@@ -84,6 +81,8 @@ void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& 
   draw.nearest_m = std::numeric_limits<double>::infinity();
   std::vector<BlockInstance> instances;
   std::vector<DrawCommand> commands;
+  std::vector<std::uint16_t> indices;
+  indices.reserve(blocks.size() * block_indices().patches[kWholePatch].back());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const auto& [seen, coarse, nearest_m] = chosen[i];
     if (seen.none()) {
@@ -91,17 +90,15 @@ void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& 
       continue;
     }
     draw.nearest_m = std::min(draw.nearest_m, nearest_m);
-    std::optional<std::uint32_t> end;  // of the last run
+    commands.push_back({0, 1, static_cast<GLuint>(indices.size()), store_.first_vertex(blocks[i]),
+                        static_cast<GLuint>(instances.size())});
     for (std::size_t patch = 0; patch < kPatches; ++patch) {
       if (!seen[patch]) continue;
       const auto& places = block_indices().patches[shape_of(patch, coarse)];
-      if (places[patch] != end) {
-        commands.push_back({0, 1, places[patch], store_.first_vertex(blocks[i]),
-                            static_cast<GLuint>(instances.size())});
-      }
-      end = places[patch + 1];
-      commands.back().count += *end - places[patch];
-      draw.triangles += (*end - places[patch]) / 3;
+      const auto& all = block_indices().indices;
+      indices.insert(indices.end(), all.begin() + places[patch], all.begin() + places[patch + 1]);
+      commands.back().count += places[patch + 1] - places[patch];
+      draw.triangles += (places[patch + 1] - places[patch]) / 3;
     }
     const glm::dvec3 centre = block_centre(blocks[i], radius_m_);
     const auto [morph_begin, morph_end] = morph_range(blocks[i], view);
@@ -110,31 +107,33 @@ void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& 
                          static_cast<float>(1e-3 * morph_end)});
   }
   refill(draw.instances, std::span<const BlockInstance>(instances));
+  refill(draw.indices, std::span<const std::uint16_t>(indices));
   refill(draw.commands, std::span<const DrawCommand>(commands));
-  draw.runs = static_cast<int>(commands.size());
-  draw.blocks = static_cast<int>(instances.size());
+  draw.blocks = static_cast<int>(commands.size());
 }
 
 void TerrainPass::submit(const TerrainDraw& draw) const {
-  if (draw.runs == 0) return;
+  if (draw.blocks == 0) return;
   glVertexArrayVertexBuffer(layout_.id(), 0, store_.vertices(), 0, sizeof(BlockVertex));
   glVertexArrayVertexBuffer(layout_.id(), 1, draw.instances.id(), 0, sizeof(BlockInstance));
+  glVertexArrayElementBuffer(layout_.id(), draw.indices.id());
   glBindVertexArray(layout_.id());
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draw.commands.id());
   glEnable(GL_CULL_FACE);
-  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, nullptr, draw.runs, 0);
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, nullptr, draw.blocks, 0);
   glDisable(GL_CULL_FACE);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
 void TerrainPass::draw(const TerrainDraw& draw, const Projection& projection,
                        const SiteAxes& axes) const {
-  const glm::dmat3 site_from_planet = axes.site_from_planet();
+  const glm::dmat3 view_from_planet =
+      glm::dmat3(projection.view_from_site) * axes.site_from_planet();
+  const glm::dmat3 clip_from_view(1 / projection.tangent.x, 0, 0,  //
+                                  0, 1 / projection.tangent.y, 0,  //
+                                  0, 0, -1);
   const Uniforms uniforms(program_.id());
-  uniforms.set("site_from_planet", glm::mat3(site_from_planet));
-  uniforms.set("view_from_planet",
-               glm::mat3(glm::dmat3(projection.view_from_site) * site_from_planet));
-  uniforms.set("tangent", projection.tangent);
+  uniforms.set("clip_from_planet", glm::mat3(clip_from_view * view_from_planet));
   uniforms.set("near_km", projection.near_km);
   glUseProgram(program_.id());
   submit(draw);

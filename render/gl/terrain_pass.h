@@ -17,9 +17,8 @@ namespace skyfit {
 
 // Blocks ready to be drawn, relative to a camera.
 struct TerrainDraw {
-  GlBuffer instances, commands;
-  int runs = 0;                // of patches that follow each other: a command each
-  int blocks = 0, hidden = 0;  // in part or as a whole; with no patch that is seen
+  GlBuffer instances, commands, indices;  // of each block one
+  int blocks = 0, hidden = 0;             // in part or as a whole; with no patch that is seen
   std::int64_t triangles = 0;
   double nearest_m = 0;  // nothing of it is nearer to the camera
 };
@@ -45,7 +44,6 @@ class TerrainPass {
   double radius_m_;
   BlockStore store_;
   GlProgram program_, depth_program_;
-  GlBuffer indices_;
   GlVertexArray layout_;
 };
 

@@ -20,8 +20,9 @@ uniform float pixel_class;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(light);
-  if (any(greaterThanEqual(pixel, size)) || class_of(texelFetch(depth, pixel, 0).x) != pixel_class) return;
+  if (any(greaterThanEqual(pixel, size))) return;
   vec3 site_ray = ray_through(2.0 * (vec2(pixel) + 0.5) / vec2(size) - 1.0);
+  if (class_of(texelFetch(depth, pixel, 0).x, length(site_ray)) != pixel_class) return;
   Seen seen = seen_at(pixel, site_ray, planet_from_site * site_ray);
   imageStore(light, pixel, seen.light);
   imageStore(distance_km, pixel, vec4(seen.distance_km));

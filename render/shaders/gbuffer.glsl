@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The G-buffer of Sperlhofer 2011, 4.4: colour at the four wavelengths, scaled to a largest component of 1, in eight bits
-// each; normal in the camera frame and that largest reflectance / pi; depth. Deviations: the normal takes two components
+// each; normal in the planet's axes and that largest reflectance / pi; depth. Deviations: the normal takes two components
 // (an octahedron, Meyer et al. 2010), the third is the share of the second material, -1 where there is none of either; all
 // are packed into one target of four words, which a renderer in software reads sooner than a target each.
 #include "render/shaders/pi.glsl"

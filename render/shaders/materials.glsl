@@ -22,7 +22,7 @@ const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);
 const vec2 kGrainContrast = vec2(1.0, 0.8), kCragContrast = vec2(0.4, 0.5);
 
 // Tilts the normal and returns the factor of the reflectance. `place` is relative to the camera, km, in the planet's axes,
-// `ray` and `normal` are in the camera frame; rock < 0: neither material.
+// as `ray` and `normal` are; rock < 0: neither material.
 float add_material(vec3 place, float d, vec3 ray, float rock, inout vec3 normal) {
   // Between the two mipmaps whose texels are about a pixel, seen at a slant.
   float texels = 64.0 * d * pixel_angle * inversesqrt(max(abs(dot(ray, normal)), 0.1));
@@ -36,7 +36,6 @@ float add_material(vec3 place, float d, vec3 ray, float rock, inout vec3 normal)
   float rocky = max(rock, 0.0), land = rock < 0.0 ? 0.0 : 1.0;
   vec3 gradient = (255.0 / 127.0) * (mix(kGrainSlope.x, kGrainSlope.y, rocky) * (grain.xyz - 127.0 / 255.0) +
                                      mix(kCragSlope.x, kCragSlope.y, rocky) * (crag.xyz - 127.0 / 255.0));
-  gradient = gradient * planet_from_site;  // the transpose: from the planet's axes
   // What of the gradient lies in the surface tilts its normal.
   normal = normalize(normal - land * (gradient - dot(gradient, normal) * normal));
   return 1.0 + land * (mix(kGrainContrast.x, kGrainContrast.y, rocky) * (2.0 * grain.w - 1.0) +

@@ -2,7 +2,7 @@
 // A thing beside the ground into the G-buffer; a face seen from behind turns its normal to the eye.
 #include "render/shaders/gbuffer_write.glsl"
 
-in vec3 site_normal;
+in vec3 planet_normal;
 in vec4 object_reflectance;
 
-void main() { write_gbuffer(gl_FrontFacing ? site_normal : -site_normal, -1.0, object_reflectance); }
+void main() { write_gbuffer(gl_FrontFacing ? planet_normal : -planet_normal, -1.0, object_reflectance); }

@@ -7,15 +7,16 @@ layout(location = 2) in vec4 reflectance;
 uniform mat3 site_from_object;  // scales to kilometres
 uniform vec3 offset_km;         // from the camera
 uniform mat3 view_from_site;
+uniform mat3 planet_from_site;
 uniform vec2 tangent;
 uniform float near_km;
 
-out vec3 site_normal;
+out vec3 planet_normal;
 out vec4 object_reflectance;
 
 void main() {
   vec3 view = view_from_site * (site_from_object * position + offset_km);
   gl_Position = vec4(view.xy / tangent, near_km, -view.z);
-  site_normal = site_from_object * normal;
+  planet_normal = planet_from_site * (site_from_object * normal);
   object_reflectance = reflectance;
 }

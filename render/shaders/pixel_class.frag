@@ -11,4 +11,8 @@ layout(binding = 0) uniform sampler2D depth;
 float depth_here() { return texelFetch(depth, ivec2(gl_FragCoord.xy), 0).x; }
 #endif
 
-void main() { gl_FragDepth = class_of(depth_here()); }
+uniform vec2 tangent;  // of half the field of view
+
+in vec2 screen;
+
+void main() { gl_FragDepth = class_of(depth_here(), length(vec3(screen * tangent, 1.0))); }

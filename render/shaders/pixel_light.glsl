@@ -76,7 +76,11 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
 #ifdef CLOUDS
   lit *= 1.0 - cloud_shadow(surface.d * ray.direction, end, sun);
 #endif
+#ifdef VOLUME
+  Place at = end;
+#else
   Place at = Place(height_after(bottom_km, camera_km, ray.direction.z, surface.d), end.mu, dot(surface.up, sun));
+#endif
   path.reflected = clear * path.transmittance * (kInversePi * surface.reflectance) *
                    surface_irradiance(at, surface.normal, surface.up, sun, lit);
 #else
@@ -136,7 +140,9 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   float along_axis = near_km / ground.depth;
   surface.d = along_axis * stretch;
   surface.normal = ground.normal;
-  float light_or_dark = add_material(along_axis * planet_ray, surface.d, ray.direction, ground.rock, surface.normal);
+  float light_or_dark =
+      add_material(along_axis * planet_ray, surface.d, planet_ray * (1.0 / stretch), ground.rock, surface.normal);
+  surface.normal = surface.normal * planet_from_site;  // by the transpose: into the camera frame
   surface.reflectance = min(ground.reflectance * light_or_dark, 1.0);
   surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
   if (ray.hits_ground) surface.d = min(surface.d, ray.entry + ray.to_ground);

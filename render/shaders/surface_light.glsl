@@ -4,12 +4,16 @@
 
 // A point above the atmosphere is lit through the air that the sun's rays cross on their way.
 Place where_light_enters(Place at) {
+#ifdef VOLUME  // the ground is in the air
+  return at;
+#else
   if (at.h <= thickness_km) return at;
   float r = bottom_km + at.h, top = bottom_km + thickness_km;
   float impact = r * sqrt(max(1.0 - at.mu_s * at.mu_s, 0.0));
   bool crosses = at.mu_s < 0.0 && impact < top;
   float half_chord = sqrt(max((top - impact) * (top + impact), 0.0));
   return Place(thickness_km, at.mu, crosses ? -half_chord / top : 1.0);
+#endif
 }
 
 // The irradiance of a surface that faces `normal`; `lit` is the part of the sun's beam that nothing shades.

@@ -6,19 +6,16 @@ layout(location = 3) in vec4 coarse_normal;
 layout(location = 4) in vec4 fine_reflectance;
 layout(location = 5) in vec4 coarse_reflectance;
 
-uniform mat3 site_from_planet;
-uniform mat3 view_from_planet;
-uniform vec2 tangent;  // of half the field of view, horizontal and vertical
+uniform mat3 clip_from_planet;  // x, y and w
 uniform float near_km;
 
-out vec4 ground_normal;  // camera frame; share of rock, -1 in water
+out vec4 ground_normal;  // share of rock, -1 in water
 out vec4 ground_reflectance;
 
 void main() {
   float t = morph();
-  vec3 view = view_from_planet * (mix(fine_km, coarse_km, t) + offset_km);
-  gl_Position = vec4(view.xy / tangent, near_km, -view.z);
-  vec4 normal = mix(fine_normal, coarse_normal, t);
-  ground_normal = vec4(site_from_planet * normal.xyz, normal.w);
+  vec3 clip = clip_from_planet * (mix(fine_km, coarse_km, t) + offset_km);
+  gl_Position = vec4(clip.xy, near_km, clip.z);
+  ground_normal = mix(fine_normal, coarse_normal, t);
   ground_reflectance = mix(fine_reflectance, coarse_reflectance, t);
 }

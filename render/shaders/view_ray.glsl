@@ -40,6 +40,7 @@ ViewRay view_ray(vec3 direction) {
   // The impact parameter keeps the digits that the cosine of the zenith angle would lose.
   float impact = r0 * length(direction.xy);
   ViewRay ray = ViewRay(direction, true, direction.z < 0.0 && impact < bottom_km, 0.0, camera_km, direction.z, 0.0);
+#ifndef VOLUME  // the eye is in the air
   if (camera_km > thickness_km) {
     float top = bottom_km + thickness_km;
     float half_chord = sqrt(max((top - impact) * (top + impact), 0.0));
@@ -48,6 +49,7 @@ ViewRay view_ray(vec3 direction) {
     ray.h = thickness_km;
     ray.mu = -half_chord / top;
   }
+#endif
   ray.to_ground = distance_to_inner_sphere(bottom_km, ray.h, ray.mu, 0.0);
   return ray;
 }
