@@ -139,9 +139,10 @@ std::vector<ShaderStage> stages_of(const std::string& path,
                                    const std::vector<std::string>& defined) {
   if (path == kFillVolume || path == kCompute) return {{GL_COMPUTE_SHADER, path}};
   const bool disc = std::ranges::find(defined, kDisc) != defined.end();
-  const char* const vertex = path != kFragments ? "render/shaders/fullscreen.vert"
-                             : disc             ? "render/shaders/sun.vert"
-                                                : "render/shaders/atmosphere.vert";
+  const char* const vertex = path == kClasses     ? "render/shaders/pixel_class.vert"
+                             : path != kFragments ? "render/shaders/fullscreen.vert"
+                             : disc               ? "render/shaders/sun.vert"
+                                                  : "render/shaders/atmosphere.vert";
   return {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, path}};
 }
 

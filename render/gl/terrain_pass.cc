@@ -43,6 +43,23 @@ std::pair<double, double> morph_range(const CubeBlock& block, const TerrainView&
   return {std::max(0.75, diagonals) * end, end};
 }
 
+// The numbers of a block's patches, as far as whole rows and columns can be in that order.
+std::array<std::size_t, kPatches> near_to_far(const CubeBlock& block, const TerrainView& view) {
+  const auto toward = [&](double u, double v) {
+    return glm::dot(view.camera(), block_direction(block, u, v));
+  };
+  const bool from_right = toward(1, 0.5) > toward(0, 0.5);
+  const bool from_above = toward(0.5, 1) > toward(0.5, 0);
+  constexpr std::size_t kLast = kPatchesPerSide - 1;
+  std::array<std::size_t, kPatches> patches{};
+  for (std::size_t i = 0; i < kPatches; ++i) {
+    const std::size_t column = i % kPatchesPerSide, row = i / kPatchesPerSide;
+    patches[i] =
+        (from_above ? kLast - row : row) * kPatchesPerSide + (from_right ? kLast - column : column);
+  }
+  return patches;
+}
+
 }  // namespace
 
 TerrainPass::TerrainPass(const Ground& ground, double radius_m)
@@ -92,7 +109,7 @@ void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& 
     draw.nearest_m = std::min(draw.nearest_m, nearest_m);
     commands.push_back({0, 1, static_cast<GLuint>(indices.size()), store_.first_vertex(blocks[i]),
                         static_cast<GLuint>(instances.size())});
-    for (std::size_t patch = 0; patch < kPatches; ++patch) {
+    for (const std::size_t patch : near_to_far(blocks[i], view)) {
       if (!seen[patch]) continue;
       const auto& places = block_indices().patches[shape_of(patch, coarse)];
       const auto& all = block_indices().indices;

@@ -16,13 +16,13 @@ layout(rgba32f, binding = 5) writeonly uniform image2D albedo_layer;
 layout(rgba32f, binding = 6) writeonly uniform image2D normal_layer;
 #endif
 
-uniform float pixel_class;
+uniform float pixel_class, grainless_depth;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(light);
   if (any(greaterThanEqual(pixel, size))) return;
   vec3 site_ray = ray_through(2.0 * (vec2(pixel) + 0.5) / vec2(size) - 1.0);
-  if (class_of(texelFetch(depth, pixel, 0).x, length(site_ray)) != pixel_class) return;
+  if (class_of(texelFetch(depth, pixel, 0).x, grainless_depth, site_ray) != pixel_class) return;
   Seen seen = seen_at(pixel, site_ray, planet_from_site * site_ray);
   imageStore(light, pixel, seen.light);
   imageStore(distance_km, pixel, vec4(seen.distance_km));

@@ -11,8 +11,7 @@ layout(binding = 0) uniform sampler2D depth;
 float depth_here() { return texelFetch(depth, ivec2(gl_FragCoord.xy), 0).x; }
 #endif
 
-uniform vec2 tangent;  // of half the field of view
+noperspective in vec2 slope;
+flat in float grainless;
 
-in vec2 screen;
-
-void main() { gl_FragDepth = class_of(depth_here(), length(vec3(screen * tangent, 1.0))); }
+void main() { gl_FragDepth = class_of(depth_here(), grainless, vec3(slope, 1.0)); }
