@@ -8,7 +8,7 @@ namespace {
 constexpr int kWidth = 32, kHeight = 32, kDepth = 16;
 constexpr int kGroup = 8;
 
-GlTexture made(GLenum target) {
+GlTexture new_texture(GLenum target) {
   GLuint id = 0;
   glCreateTextures(target, 1, &id);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
@@ -21,7 +21,8 @@ GlTexture made(GLenum target) {
 }  // namespace
 
 AerialVolume::AerialVolume()
-    : textures_{made(GL_TEXTURE_3D), made(GL_TEXTURE_3D), made(GL_TEXTURE_2D)} {
+    : textures_{new_texture(GL_TEXTURE_3D), new_texture(GL_TEXTURE_3D),
+                new_texture(GL_TEXTURE_2D)} {
   for (const std::size_t scattering : {0, 1})
     glTextureStorage3D(textures_[scattering].id(), 1, GL_RGBA32F, kWidth, kHeight, kDepth);
   glTextureStorage2D(textures_[2].id(), 1, GL_RGBA32F, kHeight, kDepth);

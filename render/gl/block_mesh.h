@@ -34,11 +34,11 @@ inline constexpr int kPatches = kPatchesPerSide * kPatchesPerSide;
 // triangles of the others: the patch is drawn without them, but for those on the sides of
 // neighbours that keep theirs.
 enum PatchSide : unsigned {
-  kLeftSide = 1,
+  kLeftSide = 1,  // u = 0
   kRightSide = 2,
-  kLowerSide = 4,
-  kUpperSide = 8
-};  // u or v = 0 or 1
+  kLowerSide = 4,  // v = 0
+  kUpperSide = 8,
+};
 inline constexpr std::size_t kPatchShapes = 17;
 inline constexpr std::size_t kWholePatch = 0;
 constexpr std::size_t coarse_patch(unsigned whole_sides) { return 1 + whole_sides; }

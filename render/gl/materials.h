@@ -28,9 +28,9 @@ MaterialTexels make_texture(Texture texture);
 // cannot be read or written or has another size.
 MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory);
 
-// The texture and its mipmaps down to one texel: means of 2 x 2 x 2 texels, each rounded once; of
-// 2 x 2 x 2 texels in all, which hold next to nothing of the noise, the mean of all. Drivers round
-// those of bytes in their own way and level by level, which tilts the distant ground.
+// The texture and its mipmaps down to one texel: means of 2 x 2 x 2 texels, each rounded once.
+// Drivers round those of bytes in their own way and level by level, which tilts the distant ground.
+// The last but one, whose texels hold next to nothing of the noise, is the mean of all as well.
 std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels);
 
 class Materials {

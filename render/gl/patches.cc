@@ -35,7 +35,7 @@ double turn_near(double about, double turn) {
 // A patch as the camera sees it: metres, in the site's axes about the camera. Nothing of
 // its surface lies beyond these bounds.
 struct Outline {
-  float nearest = 0, farthest = 0;  // horizontally; nearest <= 0: may be around the camera
+  float nearest = 0, farthest = 0;  // horizontally; nearest = 0: may be around the camera
   double from = 0, to = 0;          // turns of its corners
   double reach = 0;                 // by how much its sides may bulge out of them or in
   double lowest = 0, highest = 0;   // slopes: height above the camera's by horizontal distance
@@ -134,7 +134,10 @@ Outline outline_of(std::size_t patch, const Corners& corners, const PatchPoints&
   high += bulge;
   outline.nearest = rounded_down(distance - half_width);
   outline.farthest = rounded_up(distance + half_width);
-  if (outline.nearest <= 0) return outline;
+  if (outline.nearest <= bulge) {
+    outline.nearest = 0;
+    return outline;
+  }
   outline.lowest = low / (low > 0 ? outline.farthest : outline.nearest);
   outline.highest = high / (high > 0 ? outline.nearest : outline.farthest);
   outline.reach = bulge / outline.nearest;

@@ -104,6 +104,20 @@ const std::vector<Eye>& eyes() {
   return made;
 }
 
+// From the eye to what the pixels show.
+double nearest_m(const std::vector<float>& depth, const Projection& projection) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int row = 0; row < kHeight; ++row) {
+    for (int column = 0; column < kWidth; ++column) {
+      const float seen = depth[static_cast<std::size_t>(row) * kWidth + column];
+      const double x = projection.tangent.x * ((2.0 * column + 1) / kWidth - 1);
+      const double y = projection.tangent.y * ((2.0 * row + 1) / kHeight - 1);
+      nearest = std::min(nearest, 1e3 * projection.near_km / seen * std::hypot(1.0, x, y));
+    }
+  }
+  return nearest;
+}
+
 TEST_F(Patches, ThatAreLeftOutChangeNoPixel) {
   std::int64_t drawn = 0, whole = 0;
   int seen = 0;
@@ -122,6 +136,7 @@ TEST_F(Patches, ThatAreLeftOutChangeNoPixel) {
       different += same ? 0 : 1;
       seen += all.depth[i] > 0 ? 1 : 0;
     }
+    EXPECT_LE(some.draw.nearest_m, nearest_m(all.depth, shot.projection) * (1 + 1e-6)) << eye.name;
     EXPECT_EQ(different, 0) << eye.name << ", " << eye.above_ground_m << " m, azimuth "
                             << eye.azimuth;
   }
