@@ -40,7 +40,7 @@ std::vector<PassTime> StartedPasses::times() const {
   return made;
 }
 
-std::int64_t StartedPasses::end() const { return nanoseconds(stamps.back()); }
+std::int64_t StartedPasses::end_ns() const { return nanoseconds(stamps.back()); }
 
 void FrameGraph::add_target(const std::string& name, GLenum format, int width, int height) {
   const auto found = textures_.find(name);

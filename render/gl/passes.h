@@ -29,9 +29,9 @@ struct StartedPasses {
   std::vector<std::string> names;
   std::vector<GlQuery> stamps;  // the device's clock before the first pass and after each
 
-  // Wait for the device. The time that each took; its clock at the end, ns.
+  // Wait for the device. The time that each took; its clock at the end.
   std::vector<PassTime> times() const;
-  std::int64_t end() const;
+  std::int64_t end_ns() const;
 };
 
 class FrameGraph {

@@ -19,6 +19,7 @@
 #include "render/gl/resolve.h"
 #include "render/gl/shadow_pass.h"
 #include "render/gl/terrain_pass.h"
+#include "render/gl/terrain_view.h"
 
 namespace skyfit {
 namespace {
@@ -50,68 +51,7 @@ void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   for (const std::string& layer : kLayerWrites) graph.add_target(layer, GL_RGBA32F, width, height);
 }
 
-// How finely the planet is drawn: near the ground a quad spans options.samples_per_quad samples of
-// the picture, but no block is split beyond 50 times its size (Sperlhofer 2011, C = 50); 9 levels
-// and, near the camera, as many more as show details of a third of a metre.
-constexpr double kLargestRatio = 50, kSmallestRatio = 1.8;
-// A view from above holds fewer levels of the tree, so that each can be finer for the same number
-// of blocks; that from 2 m holds this many.
-constexpr double kLevelsFromGround = 19;
-constexpr int kFewestLevels = 9;
-constexpr double kFinestQuad = 0.3;  // m
-
-int levels_of(double radius) {
-  int levels = kFewestLevels;
-  while (block_arc_m(levels, radius) / kBlockQuads > kFinestQuad) ++levels;
-  return levels;
-}
-
-// To where a view from the height touches the bottom sphere.
-double horizon_m(double radius, double height) { return std::sqrt(height * (2 * radius + height)); }
-
-TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, const Ground& ground,
-                         double radius, double ground_distance_m) {
-  const double aspect = static_cast<double>(options.width) / options.height;
-  TerrainView view;
-  view.axes = axes;
-  view.altitude_m = options.camera.altitude_m;
-  view.basis = view_basis(options.camera);
-  const double tall = std::tan(0.5 * options.camera.vertical_fov);
-  view.tangent = {tall * aspect, tall};
-  view.radius_m = radius;
-  view.highest_m = ground.highest_m();
-  const double sample = 2 * tall / (options.height * options.samples_per_side);
-  const double height = std::max(ground_distance_m, 2.0);
-  const double horizon = horizon_m(radius, height) + horizon_m(radius, view.highest_m);
-  const double levels = 2 + std::log2(std::max(horizon / height, 1.0));
-  const double finer = std::sqrt(kLevelsFromGround / std::min(levels, kLevelsFromGround));
-  view.split_ratio = std::clamp(finer / (kBlockQuads * options.samples_per_quad * sample),
-                                kSmallestRatio, kLargestRatio);
-  view.levels = levels_of(radius);
-  return view;
-}
-
-// Coarser where a picture asks for more blocks than memory should hold.
-BlockSelection affordable_blocks(TerrainView& view, BlockStore& store) {
-  const HeightsOf heights_of = [&](std::span<const CubeBlock> blocks) {
-    store.provide(blocks);
-    std::vector<HeightRange> heights;
-    for (const CubeBlock& block : blocks) heights.push_back(store.heights(block).whole);
-    return heights;
-  };
-  for (;;) {
-    try {
-      return select_blocks(view, heights_of);
-    } catch (const std::length_error&) {
-      if (view.split_ratio <= kSmallestRatio) throw;
-      view.split_ratio = std::max(0.8 * view.split_ratio, kSmallestRatio);
-      store.begin_frame();
-    }
-  }
-}
-
-// Of the device, ns.
-std::int64_t device_clock() {
+std::int64_t device_clock_ns() {
   GLint64 now = 0;
   glGetInteger64v(GL_TIMESTAMP, &now);
   return now;
@@ -228,13 +168,13 @@ class GlRenderer final : public FrameDrawer {
   // What the device draws while the next frame is prepared.
   struct StartedFrame {
     FrameStatistics statistics;
-    std::int64_t begin;  // by the device's clock, ns
+    std::int64_t begin_ns;  // by the device's clock
     StartedPasses passes;
 
     FrameStatistics wait() const {
       FrameStatistics finished = statistics;
       finished.passes = passes.times();
-      finished.milliseconds = 1e-6 * static_cast<double>(passes.end() - begin);
+      finished.milliseconds = 1e-6 * static_cast<double>(passes.end_ns() - begin_ns);
       return finished;
     }
   };
@@ -245,11 +185,11 @@ class GlRenderer final : public FrameDrawer {
     const int samples = options.samples_per_side;
     add_targets(options.width * samples, options.height * samples, options.layers, graph_);
     atmosphere_.add_sky_view(options, graph_);
-    const std::int64_t begin = device_clock();
+    const std::int64_t begin_ns = device_clock_ns();
     FrameStatistics statistics;
     prepare_scene(options, statistics);
     report(0.7);
-    return {statistics, begin, graph_.run(passes(options, read))};
+    return {statistics, begin_ns, graph_.run(passes(options, read))};
   }
 
   // What stands where in a frame.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light scattered into paths from the eye and their transmittance in a volume of 32 x 32 x 16 (Bodare & Sandberg 2014,
-// 6.4.2); of the transmittance one slice across, for it is the same in all azimuths. Deviations: the directions are those of sky_view.glsl, by the azimuth from the sun and apart above and below the
-// horizon, which a volume over the frustum would mix (half of the light of a pixel beside it); the volume holds the
-// logarithms of means per kilometre, smooth where a path begins, and the two kinds of scattering apart, so that the phase
-// functions stay those of the pixel.
+// 6.4.2); of the transmittance one slice across, for it is the same in all azimuths. Deviations: the directions are those of
+// sky_view.glsl, by the azimuth from the sun and apart above and below the horizon, which a volume over the frustum would
+// mix (half of the light of a pixel beside it); the volume holds the logarithms of means per kilometre, smooth where a path
+// begins, and the two kinds of scattering apart, so that the phase functions stay those of the pixel.
 #include "render/shaders/sky_view.glsl"
 
 const vec3 kVolumeSize = vec3(32.0, 32.0, 16.0);

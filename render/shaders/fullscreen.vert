@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // One triangle over the whole picture; screen runs from -1 to 1.
+#include "render/shaders/whole_picture.glsl"
+
 out vec2 screen;
 
 void main() {
-  screen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  screen = corner_beyond_picture();
   gl_Position = vec4(screen, 0.0, 1.0);
 }

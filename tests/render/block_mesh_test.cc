@@ -270,11 +270,21 @@ TEST(Triangles, FaceOutwardAndTheSkirtClosesTheBorder) {
       EXPECT_GT(glm::dot(glm::cross(at(b) - at(a), at(c) - at(a)), at(a)), 0);
     }
     // Every directed edge occurs once; those without an opposite are the skirt's lower border.
+    int open = 0;
     for (const auto& [edge, count] : edges) {
       EXPECT_EQ(count, 1);
       if (edges.contains({edge.second, edge.first})) continue;
+      ++open;
       EXPECT_GE(std::min(edge.first, edge.second), kBlockSide * kBlockSide);
     }
+    int border = 0;
+    constexpr std::size_t kLast = kPatchesPerSide - 1;
+    for (std::size_t i = 0; i <= kLast; ++i) {
+      for (const std::size_t patch :
+           {i, kLast * kPatchesPerSide + i, i * kPatchesPerSide, i * kPatchesPerSide + kLast})
+        border += coarse[patch] ? 2 : 4;
+    }
+    EXPECT_EQ(open, border);
   }
 }
 

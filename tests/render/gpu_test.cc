@@ -83,5 +83,15 @@ TEST(Gpu, FramesThatStayOnTheDeviceAreTheSameWork) {
   EXPECT_THROW(renderer().draw_unread(below), std::invalid_argument);
 }
 
+// What a frame writes the one before may still read.
+TEST(Gpu, FramesOnTheirWayDoNotDisturbEachOther) {
+  const FrameOptions valley = options_of("valley", 96, 60), sunset = options_of("sunset", 96, 60);
+  const std::vector<float> alone = renderer().draw(valley).luminance;
+  for (int i = 0; i < 3; ++i) {
+    renderer().draw_unread(sunset);
+    EXPECT_EQ(renderer().draw(valley).luminance, alone);
+  }
+}
+
 }  // namespace
 }  // namespace skyfit

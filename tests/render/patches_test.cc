@@ -9,10 +9,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <set>
 
 #include "render/gl/gbuffer.h"
 #include "render/gl/terrain_pass.h"
+#include "render/gl/terrain_view.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/terrain_fixture.h"
 
@@ -59,12 +61,7 @@ class Patches : public ::testing::Test {
   Picture picture(const Shot& shot, bool cull) {
     TerrainView view = shot.view;
     store().begin_frame();
-    const BlockSelection selection = select_blocks(view, [&](std::span<const CubeBlock> blocks) {
-      store().provide(blocks);
-      std::vector<HeightRange> heights;
-      for (const CubeBlock& block : blocks) heights.push_back(store().heights(block).whole);
-      return heights;
-    });
+    const BlockSelection selection = affordable_blocks(view, store());
     view.cull = cull;
     Picture made;
     terrain_.prepare(selection.blocks, view, made.draw);
