@@ -101,7 +101,8 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       .option(
           "--aerial", options.aerial, "pixel|volume",
           "The air before the ground, by pixel or, faster, from a volume of 32 x 32 x 16; by pixel "
-          "with meshes, a moon or a second sun and from above 12 km")
+          "with meshes, a moon or a second sun, from above 12 km and where ground may rise above "
+          "the air")
       ->capture_default_str();
   group.flag("--gpu", options.gpu, "Draw through EGL, on a GPU where there is one");
   group.option("--exposure", options.exposure, "K",

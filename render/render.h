@@ -108,7 +108,7 @@ struct CloudLayer {
 enum class AerialPerspective {
   kPerPixel,  // two look-ups of every pixel
   // A volume of 32 x 32 x 16 before the ground, Bodare & Sandberg 2014, 6.4.2. With meshes, a moon
-  // or a second sun, and from above 12 km, as above.
+  // or a second sun, from above 12 km and where ground may rise above the atmosphere, as above.
   kVolume,
 };
 
