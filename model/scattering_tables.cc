@@ -35,12 +35,17 @@ class ScatteringBuilder {
   }
 
   void build(const std::function<void(double)>& progress) {
-    const TableSizes& s = tables_.sizes;
-    const int rows = s.scattering_ground + s.scattering_sky;
-    for (int r = 0; r < s.scattering_r; ++r) {
-      tbb::parallel_for(0, rows, [&](int mu) { scatter(mu, r); });
-      if (progress) progress((r + 1.0) / s.scattering_r);
+    const RayTexels texels = tables_.sizes.scattering();
+    const std::size_t slice = static_cast<std::size_t>(texels.rows()) * texels.row();
+    const int heights = tables_.sizes.scattering_r;
+    for (int r = 0; r < heights; ++r) {
+      scatter(texels, kLevelsPerTexel * r, tables_.rayleigh_like, tables_.single_mie,
+              slice * static_cast<std::size_t>(r));
+      if (progress) progress((r + 1.0) / (heights + 1));
     }
+    scatter(tables_.sizes.outside(), static_cast<int>(heights_.size()) - 1, tables_.sky_rays.air,
+            tables_.sky_rays.aerosol, 0);
+    if (progress) progress(1);
   }
 
  private:
@@ -156,11 +161,19 @@ class ScatteringBuilder {
     return out;
   }
 
-  void scatter(int mu_index, int r_index) {
-    const TexelRay texel =
-        texel_ray(shells_, tables_.sizes, mu_index, heights_[kLevelsPerTexel * r_index]);
+  // All rays that begin at a level, into the texels from `first` on.
+  void scatter(const RayTexels& texels, int level, Table& air, Table& aerosol,
+               std::size_t first) const {
+    tbb::parallel_for(0, texels.rows(), [&](int row) {
+      const std::size_t at = 4 * (first + static_cast<std::size_t>(row) * texels.row());
+      scatter_row(texels, row, level, &air.rgba[at], &aerosol.rgba[at]);
+    });
+  }
+
+  void scatter_row(const RayTexels& texels, int row, int level, float* air, float* aerosol) const {
+    const TexelRay texel = texel_ray(shells_, texels, row, heights_[level]);
     const std::vector<TexelSun> suns =
-        texel_suns(tables_.sizes, shells_.bottom_radius, texel.sun_point.height);
+        texel_suns(texels, shells_.bottom_radius, texel.sun_point.height);
     const std::size_t cells = suns.size();
     std::vector<float> mu_s(cells), nu(cells), phase(cells), single(8 * cells),
         multiple(16 * cells);
@@ -174,17 +187,15 @@ class ScatteringBuilder {
           shared.rayleigh_phase(tables_.atmosphere.rayleigh.depolarisation, nu[i]));
     }
     const std::vector<LevelNode> nodes =
-        level_path(shells_, optics_, heights_, texel.ray, kLevelsPerTexel * r_index);
+        level_path(shells_, optics_, heights_, texel.ray, level);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       kernels::add_node(kernel_node(nodes, i, texel.sun_point, scratch), mu_s.data(), nu.data(),
                         cells, single.data(), multiple.data());
     }
-    const std::size_t row = static_cast<std::size_t>(r_index) * tables_.rayleigh_like.height +
-                            static_cast<std::size_t>(mu_index);
     kernels::store_cells(
         single.data(), multiple.data(), phase.data(), cells,
-        static_cast<float>(1e3 / texel.ray.length), static_cast<float>(kDarkestScattering),
-        &tables_.rayleigh_like.rgba[4 * cells * row], &tables_.single_mie.rgba[4 * cells * row]);
+        static_cast<float>(1e3 / texel.ray.length), static_cast<float>(kDarkestScattering), air,
+        aerosol);
   }
 
   const Shells& shells_;

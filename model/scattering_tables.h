@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the two scattering tables of model/tables.h.
+// Makes the scattering tables of model/tables.h and those for an eye outside of model/sky_rays.h.
 #pragma once
 
 #include <functional>

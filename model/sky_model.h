@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "model/atmosphere.h"
 #include "model/parameters.h"
 #include "model/photometry.h"
+#include "model/sky_rays.h"
 
 namespace skyfit {
 
@@ -79,6 +81,13 @@ class SkyModel {
   virtual ScatteredLight scattered_light(const Atmosphere<double>& atmosphere,
                                          std::span<const WavelengthNode> wavelengths,
                                          std::span<const SkyPoint> points) const;
+
+  // The model's own tables of rays to the sky, at the four nodes of a colour rule, after prepare()
+  // with the same; empty by a model that has none. Throws as radiance() does.
+  virtual std::optional<SkyRayTables> sky_rays(const Atmosphere<double>&,
+                                               std::span<const WavelengthNode, 4>) const {
+    return {};
+  }
 
   // The atmosphere as the model sees it: without what it leaves out.
   virtual Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const { return atmosphere; }

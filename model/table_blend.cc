@@ -76,6 +76,7 @@ Atmosphere<double> interpolated_atmosphere(const Atmosphere<double>& a, const At
 AtmosphereTables interpolated_tables(const AtmosphereTables& a, const AtmosphereTables& b,
                                      double share) {
   require_same(a.color.nodes == b.color.nodes, "wavelengths of tables");
+  require_same(a.sky_rays.mapping == b.sky_rays.mapping, "sky model of tables");
   return {interpolated_atmosphere(a.atmosphere, b.atmosphere, share),
           a.color,
           a.sizes,
@@ -83,7 +84,9 @@ AtmosphereTables interpolated_tables(const AtmosphereTables& a, const Atmosphere
           interpolated(a.irradiance, b.irradiance, share),
           interpolated(a.rayleigh_like, b.rayleigh_like, share),
           interpolated(a.single_mie, b.single_mie, share),
-          interpolated(a.phase, b.phase, share)};
+          interpolated(a.phase, b.phase, share),
+          {a.sky_rays.mapping, interpolated(a.sky_rays.air, b.sky_rays.air, share),
+           interpolated(a.sky_rays.aerosol, b.sky_rays.aerosol, share)}};
 }
 
 }  // namespace skyfit

@@ -10,6 +10,8 @@
 namespace skyfit {
 namespace {
 
+Shared<double> shared;  // stateless
+
 constexpr double kSunRadius = 0.004654793;  // rad, at 1 au
 
 struct Planet {
@@ -50,14 +52,55 @@ void accumulate(const Table& table, const Between& x, const Between& y, const Be
 }
 
 double height_coordinate(const AtmosphereTables& tables, double height, int size) {
-  Shared<double> shared;
   return shared.texture_from_unit(shared.unit_from_height(height, Planet(tables).thickness), size);
 }
 
 double sun_coordinate(double sun_height, int size) {
-  Shared<double> shared;
   return shared.texture_from_unit(shared.unit_from_sun(sun_height, kTableLowestSun), size);
 }
+
+// A whole ray as the tables of mean amplitudes see it.
+struct TableRay {
+  TableRay(const AtmosphereTables& of, const TablePlace& begin, double nu_of_ray, bool ground)
+      : tables(of), planet(of), from(begin), nu(nu_of_ray), hits_ground(ground) {
+    const TablePlace at =
+        place_along(tables, from, nu,
+                    shared.distance_to_sun_point(from.height, from.mu, hits_ground, planet.bottom,
+                                                 planet.thickness));
+    azimuth = shared.unit_from_azimuth(shared.cosine_of_azimuth(at.mu, at.mu_s, nu));
+    sun = shared.sun_height(at.height, at.mu_s, planet.bottom);
+  }
+
+  Between view(const RayTexels& texels) const {
+    return {shared.texture_from_view(from.height, from.mu, hits_ground, texels.ground, texels.sky,
+                                     planet.bottom, planet.thickness),
+            texels.rows()};
+  }
+
+  // From the logarithms of the amplitudes.
+  NodeValues radiance(const NodeValues& rayleigh, const NodeValues& mie) const {
+    const Atmosphere<double>& a = tables.atmosphere;
+    const double rayleigh_phase = shared.rayleigh_phase(a.rayleigh.depolarisation, nu),
+                 mie_phase = aerosol_phase(a.mie.phase, nu);
+    const double length =
+        hits_ground
+            ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
+            : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
+                                              planet.thickness);
+    const double light = 1e-3 * length * deep_twilight(sun, kTableLowestSun);
+    NodeValues sum;
+    for (std::size_t k = 0; k < 4; ++k)
+      sum[k] = light * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);
+    return sum;
+  }
+
+  const AtmosphereTables& tables;
+  Planet planet;
+  TablePlace from;
+  double nu;
+  bool hits_ground;
+  double azimuth, sun;  // 0..1; by sun_height() of model/shared/mapping.glsl
+};
 
 }  // namespace
 
@@ -66,7 +109,7 @@ double deep_twilight(double sun, double lowest) {
 }
 
 double horizon_cosine(double bottom, double height) {
-  return -Shared<double>{}.horizon_distance(height, bottom) / (bottom + height);
+  return -shared.horizon_distance(height, bottom) / (bottom + height);
 }
 
 double visible_sun(double bottom, double height, double mu_s) {
@@ -80,7 +123,7 @@ TablePlace place_along(const AtmosphereTables& tables, const TablePlace& from, d
                        double distance) {
   const Planet p(tables);
   const double h =
-      std::max(Shared<double>{}.height_after(p.bottom, from.height, from.mu, distance), 0.0);
+      std::max(shared.height_after(p.bottom, from.height, from.mu, distance), 0.0);
   const double r = p.bottom + h, r0 = p.bottom + from.height;
   return {std::min(h, p.thickness), std::clamp((r0 * from.mu + distance) / r, -1.0, 1.0),
           std::clamp((r0 * from.mu_s + distance * nu) / r, -1.0, 1.0)};
@@ -98,7 +141,6 @@ NodeValues lookup_transmittance(const AtmosphereTables& tables, const TablePlace
 }
 
 NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, double mu) {
-  Shared<double> shared;
   const Planet p(tables);
   const Table& table = tables.optical_depth;
   NodeValues sum{};
@@ -122,7 +164,7 @@ NodeValues lookup_sun_transmittance(const AtmosphereTables& tables, double heigh
 
 NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, double mu_s) {
   const Table& table = tables.irradiance;
-  const double sun = Shared<double>{}.sun_height(height, mu_s, tables.atmosphere.bottom_radius_m);
+  const double sun = shared.sun_height(height, mu_s, tables.atmosphere.bottom_radius_m);
   NodeValues sum{};
   accumulate(table, Between(sun_coordinate(sun, table.width), table.width),
              Between(height_coordinate(tables, height, table.height), table.height),
@@ -132,21 +174,13 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
 
 NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
                            double nu, bool hits_ground) {
-  Shared<double> shared;
-  const Planet p(tables);
+  const TableRay ray(tables, {height, mu, mu_s}, nu, hits_ground);
   const TableSizes& s = tables.sizes;
-  const TablePlace at =
-      place_along(tables, {height, mu, mu_s}, nu,
-                  shared.distance_to_sun_point(height, mu, hits_ground, p.bottom, p.thickness));
-  const double turn = shared.unit_from_azimuth(shared.cosine_of_azimuth(at.mu, at.mu_s, nu)) *
-                      (s.scattering_azimuth - 1);
+  const double turn = ray.azimuth * (s.scattering_azimuth - 1);
   const int first = std::min(static_cast<int>(turn), s.scattering_azimuth - 2);
-  const Between v(shared.texture_from_view(height, mu, hits_ground, s.scattering_ground,
-                                           s.scattering_sky, p.bottom, p.thickness),
-                  s.scattering_ground + s.scattering_sky);
+  const Between v = ray.view(s.scattering());
   const Between w(height_coordinate(tables, height, s.scattering_r), s.scattering_r);
-  const double sun = shared.sun_height(at.height, at.mu_s, p.bottom);
-  Between u(sun_coordinate(sun, s.scattering_mu_s), s.scattering_mu_s);
+  Between u(sun_coordinate(ray.sun, s.scattering_mu_s), s.scattering_mu_s);
   u.low += first * s.scattering_mu_s;
   u.high += first * s.scattering_mu_s;
   NodeValues rayleigh{}, mie{};
@@ -156,17 +190,20 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
     u.low += s.scattering_mu_s;
     u.high += s.scattering_mu_s;
   }
-  const double rayleigh_phase =
-      shared.rayleigh_phase(tables.atmosphere.rayleigh.depolarisation, nu);
-  const double mie_phase = aerosol_phase(tables.atmosphere.mie.phase, nu);
-  const double length_km =
-      1e-3 * (hits_ground ? shared.distance_to_inner_sphere(p.bottom, height, mu, 0.0)
-                          : shared.distance_to_outer_sphere(p.bottom, height, mu, p.thickness));
-  const double light = length_km * deep_twilight(sun, kTableLowestSun);
-  NodeValues sum;
-  for (std::size_t k = 0; k < 4; ++k)
-    sum[k] = light * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);
-  return sum;
+  return ray.radiance(rayleigh, mie);
+}
+
+NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double mu, double mu_s,
+                                        double nu) {
+  const TableRay ray(tables, {Planet(tables).thickness, mu, mu_s}, nu, false);
+  const RayTexels texels = tables.sizes.outside();
+  const Between u(sun_coordinate(ray.sun, texels.mu_s), texels.mu_s),
+      v(shared.texture_from_unit(ray.azimuth, texels.azimuth), texels.azimuth),
+      w = ray.view(texels);
+  NodeValues rayleigh{}, mie{};
+  accumulate(tables.sky_rays.air, u, v, w, 1, rayleigh);
+  accumulate(tables.sky_rays.aerosol, u, v, w, 1, mie);
+  return ray.radiance(rayleigh, mie);
 }
 
 }  // namespace skyfit

@@ -43,4 +43,9 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
 NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
                            double nu, bool hits_ground);
 
+// The same of a ray that enters at the top and misses the ground, from the tables of
+// SkyRayMapping::kFromOutside; cosines where it enters.
+NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double mu, double mu_s,
+                                        double nu);
+
 }  // namespace skyfit

@@ -25,12 +25,15 @@ void refuse_derivatives(std::span<const Parameter> derivatives) {
     throw std::invalid_argument("tables model: has no derivatives; the reference model has");
 }
 
-NodeValues radiance_of(const AtmosphereTables& tables, const literature::View& view) {
+NodeValues radiance_of(const AtmosphereTables& tables, const literature::View& view,
+                       double eye_m) {
   const TablePlace place{view.ray.entry_height, view.ray.entry_mu, view.mu_s};
   NodeValues sum{};
   if (view.ray.length > 0) {
-    sum =
-        lookup_radiance(tables, place.height, place.mu, place.mu_s, view.nu, view.ray.hits_ground);
+    const bool from_outside = eye_m > view.ray.entry_height && !view.ray.hits_ground;
+    sum = from_outside ? lookup_radiance_from_outside(tables, place.mu, place.mu_s, view.nu)
+                       : lookup_radiance(tables, place.height, place.mu, place.mu_s, view.nu,
+                                         view.ray.hits_ground);
   }
   if (!view.ray.hits_ground) return sum;
   const TablePlace ground = place_along(tables, place, view.nu, view.ray.length);
@@ -66,7 +69,7 @@ SkyValues TableModel::radiance(const Atmosphere<double>& atmosphere,
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
       const literature::View view = literature::view_of(atmosphere, points[i]);
       for (std::size_t four = 0; four < kept->tables.size(); ++four) {
-        const NodeValues l = radiance_of(kept->tables[four], view);
+        const NodeValues l = radiance_of(kept->tables[four], view, points[i].altitude_m);
         std::copy_n(l.begin(), std::min<std::size_t>(4, wavelengths.size() - 4 * four),
                     &values.value[i * wavelengths.size() + 4 * four]);
       }
@@ -103,7 +106,8 @@ std::size_t TableModel::prepare(const Atmosphere<double>& atmosphere,
   std::size_t bytes = 0;
   for (const AtmosphereTables& t : made->tables) {
     for (const Table* table :
-         {&t.optical_depth, &t.irradiance, &t.rayleigh_like, &t.single_mie, &t.phase})
+         {&t.optical_depth, &t.irradiance, &t.rayleigh_like, &t.single_mie, &t.phase,
+          &t.sky_rays.air, &t.sky_rays.aerosol})
       bytes += table->rgba.size() * sizeof(float);
   }
   const std::lock_guard lock(mutex_);

@@ -99,21 +99,21 @@ void make_irradiance(double top, AtmosphereTables& tables) {
   });
 }
 
-// One slice of the scattering tables from a model's light.
-void tabulate_slice(const SkyModel& model, const Shells& shells, int slice, double height,
-                    AtmosphereTables& tables) {
-  const TableSizes& sizes = tables.sizes;
+// A model's light on all rays from a height, into the texels from `first` on.
+void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                   const ColorRule& color, const Shells& shells, const RayTexels& texels,
+                   double height, Table& rayleigh_like, Table& single_mie, std::size_t first) {
   std::vector<SkyPoint> points;
   std::vector<double> length_km, nus;
-  for (int row = 0; row < sizes.scattering_ground + sizes.scattering_sky; ++row) {
-    const TexelRay texel = texel_ray(shells, sizes, row, height);
+  for (int row = 0; row < texels.rows(); ++row) {
+    const TexelRay texel = texel_ray(shells, texels, row, height);
     const double r0 = shells.bottom_radius + texel.ray.entry_height,
                  r = shells.bottom_radius + texel.sun_point.height, mu = texel.sun_point.mu;
     // A ray along the horizon is kept on its side of it.
     constexpr double kSide = 1e-9;
     const double start_mu =
         std::clamp(texel.ray.entry_mu + (texel.ray.hits_ground ? -kSide : kSide), -1.0, 1.0);
-    for (const TexelSun& sun : texel_suns(sizes, shells.bottom_radius, texel.sun_point.height)) {
+    for (const TexelSun& sun : texel_suns(texels, shells.bottom_radius, texel.sun_point.height)) {
       const double nu =
           std::clamp(mu * sun.mu_s + std::sqrt(std::max(1 - mu * mu, 0.0)) * sun.across, -1.0, 1.0);
       const double mu_s = std::clamp((r * sun.mu_s - texel.sun_point.s * nu) / r0, -1.0, 1.0);
@@ -123,19 +123,17 @@ void tabulate_slice(const SkyModel& model, const Shells& shells, int slice, doub
       nus.push_back(nu);
     }
   }
-  const ScatteredLight light = model.scattered_light(tables.atmosphere, tables.color.nodes, points);
-  const std::size_t first = 4 * points.size() * static_cast<std::size_t>(slice);
+  const ScatteredLight light = model.scattered_light(atmosphere, color.nodes, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double air_phase =
-                     shared.rayleigh_phase(tables.atmosphere.rayleigh.depolarisation, nus[i]),
-                 aerosol = aerosol_phase(tables.atmosphere.mie.phase, nus[i]);
+    const double air_phase = shared.rayleigh_phase(atmosphere.rayleigh.depolarisation, nus[i]),
+                 aerosol = aerosol_phase(atmosphere.mie.phase, nus[i]);
     for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
       const auto logarithm = [&](double radiance, double phase) {
         return static_cast<float>(
             std::log(std::max(radiance / (phase * length_km[i]), kDarkestScattering)));
       };
-      tables.rayleigh_like.rgba[first + k] = logarithm(light.air[k], air_phase);
-      tables.single_mie.rgba[first + k] = logarithm(light.aerosol[k], aerosol);
+      rayleigh_like.rgba[4 * first + k] = logarithm(light.air[k], air_phase);
+      single_mie.rgba[4 * first + k] = logarithm(light.aerosol[k], aerosol);
     }
   }
 }
@@ -143,11 +141,22 @@ void tabulate_slice(const SkyModel& model, const Shells& shells, int slice, doub
 void tabulate(const SkyModel& model, const Shells& shells, AtmosphereTables& tables,
               const std::function<void(double)>& progress) {
   model.prepare(tables.atmosphere, tables.color.nodes);
+  const RayTexels texels = tables.sizes.scattering();
+  const std::size_t slice = static_cast<std::size_t>(texels.rows()) * texels.row();
   const int slices = tables.sizes.scattering_r;
   for (int i = 0; i < slices; ++i) {
-    tabulate_slice(model, shells, i, height_of_row(i, slices, shells.top), tables);
-    progress((i + 1.0) / slices);
+    tabulate_rays(model, tables.atmosphere, tables.color, shells, texels,
+                  height_of_row(i, slices, shells.top), tables.rayleigh_like, tables.single_mie,
+                  slice * static_cast<std::size_t>(i));
+    progress((i + 1.0) / (slices + 1));
   }
+  if (std::optional<SkyRayTables> own = model.sky_rays(tables.atmosphere, tables.color.nodes)) {
+    tables.sky_rays = std::move(*own);
+  } else {
+    tabulate_rays(model, tables.atmosphere, tables.color, shells, tables.sizes.outside(),
+                  shells.top, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
+  }
+  progress(1);
 }
 
 // `model`: null for the reference's light.
@@ -162,10 +171,12 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const Shells shells = shells_of(atmosphere);
   const NodeOptics optics =
       optics_of(model != nullptr ? model->seen(atmosphere) : atmosphere, color);
-  const int width = sizes.scattering_mu_s * sizes.scattering_azimuth;
-  const int height = sizes.scattering_ground + sizes.scattering_sky;
-  tables.rayleigh_like = make_table(width, height, sizes.scattering_r);
-  tables.single_mie = make_table(width, height, sizes.scattering_r);
+  const RayTexels texels = sizes.scattering(), outside = sizes.outside();
+  tables.rayleigh_like =
+      make_table(texels.mu_s * texels.azimuth, texels.rows(), sizes.scattering_r);
+  tables.single_mie = tables.rayleigh_like;
+  tables.sky_rays.air = make_table(outside.mu_s, outside.azimuth, outside.rows());
+  tables.sky_rays.aerosol = tables.sky_rays.air;
   constexpr double kBefore = 0.15, kScattering = 0.75;  // shares of the time
   const auto of_scattering = [&](double part) {
     if (progress) progress(kBefore + kScattering * part);

@@ -10,22 +10,30 @@
 
 #include "model/atmosphere.h"
 #include "model/photometry.h"
+#include "model/sky_rays.h"
 
 namespace skyfit {
 
 using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blue to red
+
+// Texels of a table of view rays at one height: rays to the ground and to the sky, suns, azimuths.
+struct RayTexels {
+  int ground = 0, sky = 0, mu_s = 0, azimuth = 0;
+  int rows() const { return ground + sky; }
+  std::size_t row() const { return static_cast<std::size_t>(mu_s) * azimuth; }  // texels of one
+};
 
 struct TableSizes {
   int optical_depth_mu = 256, optical_depth_r = 128;
   int irradiance_mu_s = 64, irradiance_r = 16;
   int scattering_r = 32, scattering_ground = 22, scattering_sky = 70;  // rays to ground and to sky
   int scattering_mu_s = 64, scattering_azimuth = 24;
-};
+  int outside_sky = 100, outside_mu_s = 96, outside_azimuth = 48;  // SkyRayMapping::kFromOutside
 
-// width varies fastest; depth = 1 for 2D.
-struct Table {
-  int width = 0, height = 0, depth = 0;
-  std::vector<float> rgba;
+  RayTexels scattering() const {
+    return {scattering_ground, scattering_sky, scattering_mu_s, scattering_azimuth};
+  }
+  RayTexels outside() const { return {0, outside_sky, outside_mu_s, outside_azimuth}; }
 };
 
 // The lowest sun that the tables hold, by sun_height() of model/shared/mapping.glsl: on the ground
@@ -58,6 +66,7 @@ struct AtmosphereTables {
   Table single_mie;     // single aerosol scattering / aerosol phase function (pure number)
   Table phase;  // x: scattering angle, from 0 to pi; logarithm of a tabulated phase function of
                 // the aerosol (1/sr). One texel, which is not read, for the other kinds
+  SkyRayTables sky_rays;
 };
 
 // Of the reference's light. Progress in 0..1; may be empty.

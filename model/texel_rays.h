@@ -15,14 +15,14 @@ struct TexelRay {
 };
 
 // Which half of the table `row` is in says whether its ray ends on the ground; `height` is that of
-// the texel's slice.
-TexelRay texel_ray(const Shells& shells, const TableSizes& sizes, int row, double height);
+// the table's rays.
+TexelRay texel_ray(const Shells& shells, const RayTexels& texels, int row, double height);
 
 // Cosine of the sun's zenith angle at the sun point, and sine of that angle times the cosine of the
 // azimuth, of the cells of a row whose sun point has this height: [azimuth][sun].
 struct TexelSun {
   double mu_s, across;
 };
-std::vector<TexelSun> texel_suns(const TableSizes& sizes, double bottom_radius, double height);
+std::vector<TexelSun> texel_suns(const RayTexels& texels, double bottom_radius, double height);
 
 }  // namespace skyfit

@@ -5,7 +5,7 @@
 // Left out: the azimuth between view and sun within the tables, light that the ground reflects into
 // the air, the direction of what is scattered more than once, refraction, and the frustum volumes
 // of its renderer: a view down reads the tables too, so that both halves are
-// kept here (BodareTables::sky_half() is what the paper keeps). Suns below 101
+// kept here (BodareTables::sky_rays() is what the paper keeps). Suns below 101
 // deg fade by e per degree; best near the sun's vertical plane.
 #pragma once
 
@@ -16,6 +16,7 @@ namespace skyfit {
 
 struct BodareMethod {
   static constexpr std::string_view kName = "bodare";
+  static constexpr SkyRayMapping kSkyRays = SkyRayMapping::kBodare;
   static constexpr int kBatch = literature::kTablesAtOnce;
   using Geometry = literature::BodareGeometry;
   template <int N>

@@ -20,7 +20,6 @@ double theta_of(int i) { return kPi * (i + 0.5) / kTheta; }
 
 }  // namespace
 
-double elek_rayleigh_phase(double nu) { return 0.8 * (1.4 + 0.5 * nu) / (4 * kPi); }
 
 BodareGeometry::BodareGeometry(const Atmosphere<double>& atmosphere)
     : shells_(shells_of(atmosphere)), rays_(static_cast<std::size_t>(Sizes::height) * Sizes::view) {
@@ -122,7 +121,7 @@ void BodareTables<N>::make_mean_phases() {
         const double nu =
             std::clamp(z * mu_s + sine * sun_sine * std::cos(kPi * (f + 0.5) / kPhi), -1.0, 1.0);
         add_scaled(2 * kPi / kPhi, aerosol_phase(air_.phase, nu), mean_aerosol_[at]);
-        mean_air_[at] += 2 * kPi / kPhi * elek_rayleigh_phase(nu);
+        mean_air_[at] += 2 * kPi / kPhi * Shared<double>{}.elek_rayleigh_phase(nu);
       }
       add_scaled(sine * kPi / kTheta, mean_aerosol_[at], sum);
     }
@@ -257,7 +256,7 @@ RayLight<N> BodareTables<N>::light(const View& view) const {
   RayLight<N> light;
   if (ray.length > 0) {
     const InScatter in = in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, ray.hits_ground);
-    light.air = elek_rayleigh_phase(view.nu) * in.air;
+    light.air = Shared<double>{}.elek_rayleigh_phase(view.nu) * in.air;
     light.aerosol = aerosol_phase(air_.phase, view.nu) * in.aerosol;
   }
   if (ray.hits_ground) {
@@ -268,17 +267,17 @@ RayLight<N> BodareTables<N>::light(const View& view) const {
 }
 
 template <int N>
-BodareSkyHalf BodareTables<N>::sky_half() const {
-  BodareSkyHalf half;
+SkyRayTexels BodareTables<N>::sky_rays() const {
+  SkyRayTexels sky{Sizes::sun, kHalf, Sizes::height, {}, {}};
   for (int i = 0; i < Sizes::height; ++i) {
     for (int v = kHalf; v < Sizes::view; ++v) {
       for (int s = 0; s < Sizes::sun; ++s) {
-        half.air.push_back(static_cast<float>(air_sum_.at({i, v, s}).v));
-        half.aerosol.push_back(static_cast<float>(aerosol_sum_.at({i, v, s}).v));
+        sky.air.push_back(static_cast<float>(air_sum_.at({i, v, s}).v));
+        sky.aerosol.push_back(static_cast<float>(aerosol_sum_.at({i, v, s}).v));
       }
     }
   }
-  return half;
+  return sky;
 }
 
 template <int N>

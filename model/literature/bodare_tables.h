@@ -25,8 +25,6 @@ struct BodareSizes {
   static constexpr int height = 32, view = 128, sun = 32;  // the second half of the views: the sky
 };
 
-double elek_rayleigh_phase(double nu);  // 1/sr, not normalised
-
 class BodareGeometry {
  public:
   explicit BodareGeometry(const Atmosphere<double>& atmosphere);
@@ -51,13 +49,6 @@ class BodareGeometry {
  private:
   Shells shells_;
   std::vector<Ray> rays_;
-};
-
-// What rendering keeps of finished tables, in single precision: the in-scatter of rays to the sky
-// without phase functions, 32 x 64 x 32, [height][view][sun], views from the horizon to the zenith.
-struct BodareSkyHalf {
-  static constexpr int views = BodareSizes::view / 2;
-  std::vector<float> air, aerosol;
 };
 
 template <int N>
@@ -89,7 +80,7 @@ class BodareTables {
   InScatter in_scatter(double height, double mu, double mu_s, bool ground) const;
   Dual<N> ground_irradiance(double mu_s) const;  // by the sky
 
-  BodareSkyHalf sky_half() const;  // of the values
+  SkyRayTexels sky_rays() const;  // [height][view][sun], views from the horizon to the zenith
 
   // Of finished tables: all rays, and the light on the ground.
   std::size_t bytes() const;

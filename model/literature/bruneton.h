@@ -18,6 +18,7 @@ namespace skyfit {
 
 struct BrunetonMethod {
   static constexpr std::string_view kName = "bruneton";
+  static constexpr SkyRayMapping kSkyRays = SkyRayMapping::kBruneton;
   static constexpr int kBatch = literature::kTablesAtOnce;
   using Geometry = literature::BrunetonGeometry;
   template <int N>

@@ -89,6 +89,8 @@ class BrunetonTables {
   // On the horizontal, facing up; with derivatives (N > 0) of the ground alone, height 0.
   Dual<N> sky_irradiance(double height, double mu_s) const;
 
+  SkyRayTexels sky_rays() const;  // [r][mu][nu][mu_s]; rays along the horizon are the first of mu
+
   std::size_t bytes() const;
 
  private:

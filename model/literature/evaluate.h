@@ -83,6 +83,13 @@ struct RayLight {
   Dual<N> sum() const { return air + aerosol + ground; }
 };
 
+// What a renderer reads of a model's tables: those of rays to the sky, without phase functions, in
+// single precision.
+struct SkyRayTexels {
+  int width = 0, height = 0, depth = 0;  // width varies fastest
+  std::vector<float> air, aerosol;
+};
+
 // The atmosphere as models without absorption see it.
 template <class T>
 Atmosphere<T> without_absorption(Atmosphere<T> atmosphere) {

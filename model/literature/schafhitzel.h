@@ -12,6 +12,7 @@ namespace skyfit {
 
 struct SchafhitzelMethod {
   static constexpr std::string_view kName = "schafhitzel";
+  static constexpr SkyRayMapping kSkyRays = SkyRayMapping::kSchafhitzel;
   static constexpr int kBatch = literature::kTablesAtOnce;
   using Geometry = literature::SchafhitzelGeometry;
   template <int N>

@@ -115,6 +115,16 @@ RayLight<N> SchafhitzelTables<N>::light(const View& view) const {
 }
 
 template <int N>
+SkyRayTexels SchafhitzelTables<N>::sky_rays() const {
+  SkyRayTexels sky{kSize, kSize, kSize, {}, {}};
+  for (std::size_t i = 0; i < air_table_.count(); ++i) {
+    sky.air.push_back(static_cast<float>(air_table_[i].v));
+    sky.aerosol.push_back(static_cast<float>(aerosol_table_[i].v));
+  }
+  return sky;
+}
+
+template <int N>
 std::size_t SchafhitzelTables<N>::bytes() const {
   return air_table_.bytes() + aerosol_table_.bytes() + air_phase_.bytes() + aerosol_phase_.bytes();
 }

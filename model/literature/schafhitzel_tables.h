@@ -49,6 +49,8 @@ class SchafhitzelTables {
   };
   InScatter in_scatter(double height, double view_zenith, double sun_zenith) const;
 
+  SkyRayTexels sky_rays() const;  // [height][view][sun]: all views, the horizon is between texels
+
   std::size_t bytes() const;
 
  private:

@@ -3,7 +3,8 @@
 //   kName, kBatch (derivatives at once),
 //   Geometry(Atmosphere<double>): all that does not depend on the wavelength,
 //   Tables<N>(geometry, optics, views): the tables, of which those that the views need may do,
-//   with light(view) and bytes(); no views: all of them,
+//   with light(view), sky_rays() and bytes(); no views: all of them,
+//   kSkyRays: how sky_rays() are read,
 //   see(Atmosphere<T>): the atmosphere as the method sees it,
 //   can_fit(Parameter).
 #pragma once
@@ -13,6 +14,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include "model/literature/evaluate.h"
@@ -63,7 +65,7 @@ class TabulatedModel final : public SkyModel {
                                  std::span<const WavelengthNode> wavelengths,
                                  std::span<const SkyPoint> points) const override {
     check_request(Method::kName, atmosphere, points, {});
-    const std::shared_ptr<const Kept> kept = kept_for(atmosphere);
+    const std::shared_ptr<const Kept> kept = prepared(atmosphere);
     ScatteredLight light;
     light.air.resize(points.size() * wavelengths.size());
     light.aerosol.resize(light.air.size());
@@ -71,16 +73,32 @@ class TabulatedModel final : public SkyModel {
       tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
         const View view = view_of(atmosphere, points[i]);
         for (std::size_t w = 0; w < wavelengths.size(); ++w) {
-          const Tables<0>* tables = kept ? kept->at(wavelengths[w]) : nullptr;
-          if (tables == nullptr)
-            throw std::logic_error("scattered_light: expected tables that prepare() made");
-          const RayLight<0> of_ray = tables->light(view);
+          const RayLight<0> of_ray = kept->prepared(wavelengths[w]).light(view);
           light.air[i * wavelengths.size() + w] = of_ray.air.v;
           light.aerosol[i * wavelengths.size() + w] = of_ray.aerosol.v;
         }
       });
     });
     return light;
+  }
+
+  std::optional<SkyRayTables> sky_rays(const Atmosphere<double>& atmosphere,
+                                       std::span<const WavelengthNode, 4> nodes) const override {
+    const std::shared_ptr<const Kept> kept = prepared(atmosphere);
+    SkyRayTables tables{Method::kSkyRays, {}, {}};
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+      const SkyRayTexels texels = kept->prepared(nodes[node]).sky_rays();
+      if (node == 0) {
+        tables.air = {texels.width, texels.height, texels.depth,
+                      std::vector<float>(4 * texels.air.size())};
+        tables.aerosol = tables.air;
+      }
+      for (std::size_t i = 0; i < texels.air.size(); ++i) {
+        tables.air.rgba[4 * i + node] = texels.air[i];
+        tables.aerosol.rgba[4 * i + node] = texels.aerosol[i];
+      }
+    }
+    return tables;
   }
 
   std::size_t prepare(const Atmosphere<double>& atmosphere,
@@ -119,10 +137,19 @@ class TabulatedModel final : public SkyModel {
       const auto found = std::find(nodes.begin(), nodes.end(), node);
       return found == nodes.end() ? nullptr : tables[found - nodes.begin()].get();
     }
+    const Tables<0>& prepared(const WavelengthNode& node) const {
+      if (const Tables<0>* tables_of_node = at(node)) return *tables_of_node;
+      throw std::logic_error("tabulated model: expected a wavelength that prepare() was told of");
+    }
   };
   std::shared_ptr<const Kept> kept_for(const Atmosphere<double>& atmosphere) const {
     const std::lock_guard lock(mutex_);
     return kept_ && kept_->atmosphere == atmosphere ? kept_ : nullptr;
+  }
+
+  std::shared_ptr<const Kept> prepared(const Atmosphere<double>& atmosphere) const {
+    if (std::shared_ptr<const Kept> kept = kept_for(atmosphere)) return kept;
+    throw std::logic_error("tabulated model: expected an atmosphere that prepare() was told of");
   }
 
   int threads_;

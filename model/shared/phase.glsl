@@ -14,6 +14,11 @@ Number rayleigh_second_moment(Number depolarisation) {
   return (1.0 - depolarisation) / (5.0 * (2.0 + depolarisation));
 }
 
+// Modified Rayleigh scattering of Elek 2009, as published: it integrates to 1.12.
+Number elek_rayleigh_phase(Number nu) {
+  return 0.0636619772367581343 * (1.4 + 0.5 * nu);  // (8 / 10) / (4 pi)
+}
+
 // Henyey & Greenstein 1941; its mean cosine is g.
 Number henyey_greenstein_phase(Number g, Number nu) {
   Number d = 1.0 + g * g - 2.0 * g * nu;

@@ -18,6 +18,8 @@
 namespace skyfit {
 namespace {
 
+Table without_values(const Table& table) { return {table.width, table.height, table.depth, {}}; }
+
 void add(const std::string& name, const Table& table, FrameGraph& graph) {
   graph.add_table(name, table.width, table.height, table.depth, table.rgba);
 }
@@ -52,7 +54,7 @@ constexpr double kSkyClass = 0, kGrainlessClass = 0.5, kGrainyClass = 1;
 constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 
 // After those of kAtmosphereReads.
-constexpr GLuint kShadowUnit = 11, kCloudUnit = 13, kVolumeUnit = 14, kMaterialUnit = 17;
+constexpr GLuint kShadowUnit = 12, kCloudUnit = 14, kVolumeUnit = 15, kMaterialUnit = 18;
 
 // Densities of air and aerosol relative to h = 0, over the heights of the tables.
 GlTexture density_texture(const Atmosphere<double>& a) {
@@ -122,6 +124,10 @@ glm::vec4 scattering_per_km(const AtmosphereTables& tables, const PowerLaw<doubl
   return values;
 }
 
+double thickness_m(const AtmosphereTables& tables) {
+  return tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
+}
+
 // Columns: a node each.
 std::array<double, 16> light_from_nodes(const ColorRule& color) {
   std::array<double, 16> columns{};
@@ -154,6 +160,8 @@ void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
   add("rayleigh_like", tables.rayleigh_like, graph);
   add("single_mie", tables.single_mie, graph);
   add("phase", tables.phase, graph);
+  add("sky_ray_air", tables.sky_rays.air, graph);
+  add("sky_ray_aerosol", tables.sky_rays.aerosol, graph);
 }
 
 void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
@@ -171,9 +179,14 @@ void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuff
 }
 
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
-  const double thickness = tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
+  const double thickness = thickness_m(tables);
   return options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
          options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
+}
+
+bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
+  return tables.sky_rays.mapping != SkyRayMapping::kFromOutside ||
+         options.camera.altitude_m > thickness_m(tables);
 }
 
 bool AtmosphereView::sees_grains() const { return !only_ground || nearest_m < grainless_m(*this); }
@@ -189,6 +202,8 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   tables_.atmosphere = tables.atmosphere;
   tables_.color = tables.color;
   tables_.sizes = tables.sizes;
+  tables_.sky_rays.mapping = tables.sky_rays.mapping;
+  tables_.sky_rays.air = without_values(tables.sky_rays.air);
   densities_ = density_texture(tables.atmosphere);
 }
 
@@ -197,6 +212,7 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
   const AerosolPhase<double>& phase = a.mie.phase;
   const TableSizes& s = tables.sizes;
   const glm::ivec3 sky_view = sky_view_size(s);
+  const Table& sky_rays = tables.sky_rays.air;
   return {fmt::format("PHASE_TYPE {}", static_cast<int>(phase.type)),
           fmt::format("LOBE_TYPE {}", static_cast<int>(phase.lobe)),
           fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
@@ -208,6 +224,7 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
                       s.scattering_ground, s.scattering_sky),
           fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
           fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
+          fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
           fmt::format("LIGHT_FROM_NODES {:.9g}", fmt::join(light_from_nodes(tables.color), ", "))};
 }
 
@@ -277,6 +294,9 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
   Defined defined = defined_by(view.options);
   if (path == kCompute) std::ranges::copy(class_defines(), std::back_inserter(defined));
   defined.insert(defined.end(), what.begin(), what.end());
+  const bool surface = std::ranges::find(what, kSurface) != what.end();
+  if (!surface && view.sky_rays(tables_))
+    defined.push_back(fmt::format("SKY_RAYS {}", static_cast<int>(tables_.sky_rays.mapping)));
   if (view.volume(tables_)) defined.push_back("VOLUME");
   if (view.options.layers) defined.push_back("LAYERS");
   if (view.options.clouds) defined.push_back("CLOUDS");

@@ -27,12 +27,13 @@
 
 namespace skyfit {
 
-// The texture units of render/shaders/atmosphere.glsl, of pixel_light.glsl and of sky_view.glsl.
+// The texture units of render/shaders/atmosphere.glsl, pixel_light.glsl, sky_view.glsl and
+// sky_rays.glsl.
 inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance", "rayleigh_like",
                                                      "single_mie", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
-    "optical_depth", "irradiance", "rayleigh_like", "single_mie",   "phase",
-    "gbuffer",       "depth",      "view_air",      "view_aerosol", "view_depth"};
+    "optical_depth", "irradiance", "rayleigh_like", "single_mie",  "phase",          "gbuffer",
+    "depth",         "view_air",   "view_aerosol",  "view_depth", "sky_ray_air", "sky_ray_aerosol"};
 
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",
                                                       "albedo", "normal"};
@@ -62,6 +63,8 @@ struct AtmosphereView {
   // The volume holds one sun's light before the ground, for an eye in the lower air; VOLUME
   // promises the shaders that both are in the air.
   bool volume(const AtmosphereTables& tables) const;
+  // Whole rays to the sky have tables of their own.
+  bool sky_rays(const AtmosphereTables& tables) const;
   bool sees_grains() const;  // of the ground, in some pixel
 };
 

@@ -24,9 +24,9 @@ float slice_share(float slice) {
 float slice_coordinate(float share) { return sqrt(share) * ((kVolumeSize.z - 0.5) / kVolumeSize.z); }
 
 #ifndef VOLUME_WRITE
-layout(binding = 14) uniform sampler3D air_volume;
-layout(binding = 15) uniform sampler3D aerosol_volume;
-layout(binding = 16) uniform sampler2D extinction_volume;  // rows and slices
+layout(binding = 15) uniform sampler3D air_volume;
+layout(binding = 16) uniform sampler3D aerosol_volume;
+layout(binding = 17) uniform sampler2D extinction_volume;  // rows and slices
 
 struct VolumeLight {
   Scattering scattering;

@@ -118,13 +118,26 @@ struct Scattering {
   vec4 rayleigh_like, single_mie;
 };
 
+// A whole ray as the tables see it: coordinates of azimuth and sun, 0..1, and the factor of the mean that they hold.
+struct TableRay {
+  float azimuth, sun, light;
+};
+
+TableRay table_ray(Place from, float nu, bool hits_ground) {
+  Place at = place_along(from, nu, distance_to_sun_point(from.h, from.mu, hits_ground, bottom_km, thickness_km));
+  float sun = sun_height(at.h, at.mu_s, bottom_km);
+  float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
+                                : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);
+  return TableRay(unit_from_azimuth(cosine_of_azimuth(at.mu, at.mu_s, nu)), unit_from_sun(sun, LOWEST_SUN),
+                  length_km * deep_twilight(sun));
+}
+
 // Along the whole ray from a place, to the top or to the ground.
 Scattering scattering(Place from, float nu, bool hits_ground) {
-  Place at = place_along(from, nu, distance_to_sun_point(from.h, from.mu, hits_ground, bottom_km, thickness_km));
-  float turn = unit_from_azimuth(cosine_of_azimuth(at.mu, at.mu_s, nu)) * (scattering_size.y - 1.0);
+  TableRay ray = table_ray(from, nu, hits_ground);
+  float turn = ray.azimuth * (scattering_size.y - 1.0);
   float first = min(floor(turn), scattering_size.y - 2.0);
-  float sun = sun_height(at.h, at.mu_s, bottom_km);
-  float u_sun = texture_from_unit(unit_from_sun(sun, LOWEST_SUN), scattering_size.x);
+  float u_sun = texture_from_unit(ray.sun, scattering_size.x);
   vec3 near = vec3((first + u_sun) / scattering_size.y,
                    texture_from_view(from.h, from.mu, hits_ground, scattering_size.z, scattering_size.w, bottom_km,
                                      thickness_km),
@@ -133,10 +146,7 @@ Scattering scattering(Place from, float nu, bool hits_ground) {
   vec4 rayleigh_like = mix(look_up(rayleigh_like_table, near), look_up(rayleigh_like_table, far), turn - first);
   vec4 single_mie = mix(look_up(single_mie_table, near), look_up(single_mie_table, far), turn - first);
   // The tables hold logarithms of the mean over the ray.
-  float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
-                                : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);
-  float light = length_km * deep_twilight(sun);
-  return Scattering(light * exp(rayleigh_like), light * exp(single_mie));
+  return Scattering(ray.light * exp(rayleigh_like), ray.light * exp(single_mie));
 }
 
 vec4 radiance(Scattering s, float nu) {

@@ -4,7 +4,7 @@
 #include "render/shaders/view_ray.glsl"
 #include "render/shaders/surface_light.glsl"
 
-layout(binding = 13) uniform sampler3D cloud_noise;  // mean 1/2, deviation 1/6
+layout(binding = 14) uniform sampler3D cloud_noise;  // mean 1/2, deviation 1/6
 
 layout(std140, binding = 4) uniform Clouds {
   float cloud_km;         // height

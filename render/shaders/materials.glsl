@@ -3,8 +3,8 @@
 // noise in the planet's axes, so that no surface has a seam.
 #include "render/shaders/view_ray.glsl"
 
-layout(binding = 17) uniform sampler3D grains;
-layout(binding = 18) uniform sampler3D crags;
+layout(binding = 18) uniform sampler3D grains;
+layout(binding = 19) uniform sampler3D crags;
 
 // Phases are texture coordinates of the camera, 0..1; the mean of the grains' texture is its last mipmap;
 // finer_grain_levels = log2(grains_per_km / crags_per_km).

@@ -3,8 +3,8 @@
 // each of a larger part of the terrain about the camera.
 #include "render/shaders/view_ray.glsl"
 
-layout(binding = 11) uniform sampler2DArrayShadow shadow_maps;
-layout(binding = 12) uniform sampler2D densities;  // over height: of the air, of the aerosol, relative to h = 0
+layout(binding = 12) uniform sampler2DArrayShadow shadow_maps;
+layout(binding = 13) uniform sampler2D densities;  // over height: of the air, of the aerosol, relative to h = 0
 
 const int kShadowMaps = 3;
 layout(std140, binding = 3) uniform Shadows {

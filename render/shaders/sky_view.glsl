@@ -29,6 +29,9 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
 }
 
 #if !defined(SKY_VIEW_WRITE) && !defined(VOLUME_WRITE)
+#ifdef SKY_RAYS
+#include "render/shaders/sky_rays.glsl"
+#endif
 layout(binding = 7) uniform sampler2D view_air;      // logarithm of the amplitude
 layout(binding = 8) uniform sampler2D view_aerosol;  // the same of single scattering by the aerosol
 layout(binding = 9) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
@@ -39,7 +42,9 @@ struct WholeRay {
 };
 
 WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
-#ifdef FROM_ABOVE
+#if defined(SKY_RAYS)
+  return WholeRay(sky_ray_scattering(start, nu), optical_depth_to_top(ray.h, ray.mu));
+#elif defined(FROM_ABOVE)
   return WholeRay(scattering(start, nu, ray.hits_ground),
                   optical_depth_to_top(ray.h, ray.mu));
 #else

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr TableSizes kSmall = {64, 32, 16, 8, 16, 16, 24, 16, 8};
+constexpr TableSizes kSmall = {64, 32, 16, 8, 16, 16, 24, 16, 8, 24, 16, 8};
 
 Atmosphere<double> shipped(const char* name) {
   return parse_preset(refs::shipped_preset_json(name), name).atmosphere;

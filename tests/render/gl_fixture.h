@@ -22,7 +22,7 @@ inline Preset shipped(const std::string& name) {
   return parse_preset(refs::shipped_preset_json(name), name);
 }
 
-inline constexpr TableSizes kSmallTables = {256, 128, 16, 8, 16, 16, 24, 16, 8};
+inline constexpr TableSizes kSmallTables = {256, 128, 16, 8, 16, 16, 24, 16, 8, 24, 16, 8};
 
 inline AtmosphereTables tables_of(const Preset& preset, const TableSizes& sizes) {
   return compute_tables(preset.atmosphere, color_rule(refs::standard_spectral_data()), sizes, 2,

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr TableSizes kTiny = {16, 16, 8, 4, 4, 4, 8, 8, 4};
+constexpr TableSizes kTiny = {16, 16, 8, 4, 4, 4, 8, 8, 4, 8, 8, 4};
 
 Preset preset(double aerosol) {
   Preset preset = parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear");

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of whole rays that miss the ground from the tables of model/sky_rays.h. SKY_RAYS: which of its mappings.
+#include "render/shaders/atmosphere.glsl"
+#include "model/shared/bodare_mapping.glsl"
+#include "model/shared/bruneton_mapping.glsl"
+
+layout(binding = 10) uniform sampler3D sky_ray_air;
+layout(binding = 11) uniform sampler3D sky_ray_aerosol;
+
+const vec3 sky_ray_size = vec3(SKY_RAY_SIZE);
+
+Scattering sky_ray_texels(vec3 at) { return Scattering(look_up(sky_ray_air, at), look_up(sky_ray_aerosol, at)); }
+
+vec3 texture_from_units(vec3 unit) {
+  return 0.5 / sky_ray_size + clamp(unit, vec3(0.0), vec3(1.0)) * (1.0 - 1.0 / sky_ray_size);
+}
+
+#if SKY_RAYS == 0  // from outside
+Scattering sky_ray_scattering(Place from, float nu) {
+  TableRay ray = table_ray(from, nu, false);
+  vec3 at = texture_from_units(vec3(ray.sun, ray.azimuth, 0.0));
+  at.z = texture_from_view(from.h, from.mu, false, 0.0, sky_ray_size.z, bottom_km, thickness_km);
+  Scattering means = sky_ray_texels(at);
+  return Scattering(ray.light * exp(means.rayleigh_like), ray.light * exp(means.single_mie));
+}
+#elif SKY_RAYS == 1  // Bruneton
+Scattering sky_ray_scattering(Place from, float nu) {
+  const float kNu = 8.0;
+  float turn = bruneton_unit_from_nu(nu) * (kNu - 1.0);
+  float first = min(floor(turn), kNu - 2.0);
+  vec3 near = texture_from_units(vec3(0.0, unit_from_upward_ray(from.h, from.mu, bottom_km, thickness_km),
+                                      bruneton_unit_from_height(from.h, bottom_km, thickness_km)));
+  float sun = bruneton_unit_from_sun(max(from.mu_s, LOWEST_SUN), LOWEST_SUN, bottom_km, thickness_km);
+  near.x = (first + texture_from_unit(clamp(sun, 0.0, 1.0), sky_ray_size.x / kNu)) / kNu;
+  Scattering low = sky_ray_texels(near), high = sky_ray_texels(near + vec3(1.0 / kNu, 0.0, 0.0));
+  float dusk = deep_twilight(from.mu_s);
+  return Scattering(dusk * mix(low.rayleigh_like, high.rayleigh_like, turn - first),
+                    dusk * mix(low.single_mie, high.single_mie, turn - first));
+}
+#elif SKY_RAYS == 2  // Bodare
+Scattering sky_ray_scattering(Place from, float nu) {
+  float view = bodare_unit_from_sky_view(from.mu, bodare_horizon(from.h, bottom_km));
+  Scattering texels = sky_ray_texels(texture_from_units(
+      vec3(bodare_unit_from_sun(from.mu_s), view, bodare_unit_from_height(from.h, thickness_km))));
+  float dusk = exp(min((from.mu_s - bodare_sun_from_unit(0.0)) * 57.3, 0.0));
+  float by_phase = elek_rayleigh_phase(nu) / rayleigh_phase(depolarisation, nu);
+  return Scattering((dusk * by_phase) * texels.rayleigh_like, dusk * texels.single_mie);
+}
+#else  // Schafhitzel
+Scattering sky_ray_scattering(Place from, float nu) {
+  return sky_ray_texels(texture_from_units(
+      vec3(kInversePi * acos(from.mu_s), kInversePi * acos(from.mu), from.h / thickness_km)));
+}
+#endif
