@@ -28,7 +28,7 @@ struct TableSizes {
   int irradiance_mu_s = 64, irradiance_r = 16;
   int scattering_r = 32, scattering_ground = 22, scattering_sky = 70;  // rays to ground and to sky
   int scattering_mu_s = 64, scattering_azimuth = 24;
-  int outside_sky = 100, outside_mu_s = 96, outside_azimuth = 48;  // SkyRayMapping::kFromOutside
+  int outside_sky = 100, outside_mu_s = 128, outside_azimuth = 48;  // SkyRayMapping::kFromOutside
 
   RayTexels scattering() const {
     return {scattering_ground, scattering_sky, scattering_mu_s, scattering_azimuth};

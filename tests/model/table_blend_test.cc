@@ -51,9 +51,11 @@ TEST(TableBlend, TheEndsAreTheTables) {
                          end = interpolated_tables(weather().clear, weather().hazy, 1);
   EXPECT_EQ(start.atmosphere, weather().clear.atmosphere);
   EXPECT_EQ(start.rayleigh_like.rgba, weather().clear.rayleigh_like.rgba);
+  EXPECT_EQ(start.sky_rays.air.rgba, weather().clear.sky_rays.air.rgba);
   EXPECT_EQ(start.optical_depth.rgba, weather().clear.optical_depth.rgba);
   EXPECT_EQ(end.atmosphere, weather().hazy.atmosphere);
   EXPECT_EQ(end.single_mie.rgba, weather().hazy.single_mie.rgba);
+  EXPECT_EQ(end.sky_rays.aerosol.rgba, weather().hazy.sky_rays.aerosol.rgba);
   EXPECT_EQ(end.irradiance.rgba, weather().hazy.irradiance.rgba);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "model/shared/shared.h"
 #include "model/table_lookup.h"
@@ -157,35 +158,44 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
   FrameGraph graph;
   add_tables(tables, graph);
   const auto inputs = rays();
-  const char* names[5] = {"optical_depth", "irradiance", "rayleigh_like", "single_mie", "phase"};
+  const std::map<GLuint, const char*> names = {
+      {0, "optical_depth"}, {1, "irradiance"},   {2, "rayleigh_like"},   {3, "single_mie"},
+      {4, "phase"},         {10, "sky_ray_air"}, {11, "sky_ray_aerosol"}};
   // One shader, so that the compiler drops no uniform; x.w says which function is asked for.
   const auto look_up = [&](float which) {
     std::vector<float> asked = inputs;
     for (std::size_t i = 3; i < asked.size(); i += 4) asked[i] = which;
     UniformBuffers blocks;
-    return run_glsl("#include \"render/shaders/atmosphere.glsl\"\n",
+    std::vector<std::string> defined = atmosphere_defines(tables);
+    defined.emplace_back("SKY_RAYS 0");
+    return run_glsl("#include \"render/shaders/sky_rays.glsl\"\n",
                     "bool hit = ray_hits_ground(x.x, x.y, bottom_km);\n"
                     "float nu = x.y * x.z + 0.3 * sqrt((1.0 - x.y * x.y) * (1.0 - x.z * x.z));\n"
                     "if (x.w == 0.0) y = radiance(scattering(Place(x.x, x.y, x.z), nu, hit), nu);\n"
                     "if (x.w == 1.0) y = sky_irradiance(x.x, x.z);\n"
-                    "if (x.w == 2.0) y = sun_transmittance(x.x, x.z);\n",
-                    asked, atmosphere_defines(tables), [&](GLuint program) {
+                    "if (x.w == 2.0) y = sun_transmittance(x.x, x.z);\n"
+                    "if (x.w == 3.0)\n"
+                    "  y = radiance(sky_ray_scattering(Place(thickness_km, x.y, x.z), nu), nu);\n",
+                    asked, defined, [&](GLuint program) {
                       bind_atmosphere(tables, program, blocks);
-                      for (GLuint unit = 0; unit < 5; ++unit) graph.bind(names[unit], unit);
+                      for (const auto& [unit, name] : names) graph.bind(name, unit);
                     });
   };
-  const auto radiances = look_up(0), irradiances = look_up(1), suns = look_up(2);
+  const auto radiances = look_up(0), irradiances = look_up(1), suns = look_up(2),
+             outside = look_up(3);
   constexpr double kFilter = 2e-3;  // float coordinates times steps between texels, eight of them
   for (std::size_t i = 0; i < inputs.size(); i += 4) {
     const double h = 1e3 * inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
     const bool hit = shared.ray_hits_ground(h, mu, 1e3 * kBottom);
     const double nu = mu * mu_s + 0.3 * std::sqrt((1 - mu * mu) * (1 - mu_s * mu_s));
     const NodeValues radiance = lookup_radiance(tables, h, mu, mu_s, nu, hit);
+    const NodeValues entering = lookup_radiance_from_outside(tables, mu, mu_s, nu);
     const NodeValues irradiance = lookup_irradiance(tables, h, mu_s);
     const NodeValues sun = lookup_sun_transmittance(tables, h, mu_s);
     for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_NEAR(radiances[i + k], radiance[k], kFilter * radiance[k] + 1e-7)
           << h << ' ' << mu << ' ' << mu_s;
+      EXPECT_NEAR(outside[i + k], entering[k], kFilter * entering[k] + 1e-7) << mu << ' ' << mu_s;
       EXPECT_NEAR(irradiances[i + k], irradiance[k], kFilter * irradiance[k] + 1e-7)
           << h << ' ' << mu_s;
       EXPECT_NEAR(suns[i + k], sun[k], kFilter * sun[k] + 1e-5) << h << ' ' << mu_s;
