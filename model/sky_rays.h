@@ -23,6 +23,7 @@ enum class SkyRayMapping {
   kBruneton,     // x: nu * mu_s (mu_s fastest), y: mu, z: r; model/shared/bruneton_mapping.glsl
   kBodare,       // x: sun, y: view, z: height; model/shared/bodare_mapping.glsl
   kSchafhitzel,  // the same, height and angles spaced evenly; all views
+  kONeil,        // no tables: sums in the shader
 };
 
 struct SkyRayTables {

@@ -169,6 +169,13 @@ ScatteredLight ONeilModel::scattered_light(const Atmosphere<double>& atmosphere,
   return light;
 }
 
+std::optional<SkyRayTables> ONeilModel::sky_rays(const Atmosphere<double>& atmosphere,
+                                                 std::span<const WavelengthNode, 4>) const {
+  if (is_oneils_geometry(atmosphere)) return {};
+  const Table none{1, 1, 1, std::vector<float>(4)};
+  return SkyRayTables{SkyRayMapping::kONeil, none, none};
+}
+
 bool ONeilModel::can_fit(Parameter parameter) const {
   return parameter != Parameter::kMieSingleScatteringAlbedo && parameter != Parameter::kOzoneColumn;
 }

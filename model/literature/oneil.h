@@ -24,6 +24,9 @@ class ONeilModel final : public SkyModel {
   ScatteredLight scattered_light(const Atmosphere<double>& atmosphere,
                                  std::span<const WavelengthNode> wavelengths,
                                  std::span<const SkyPoint> points) const override;
+  // None where O'Neil's polynomial is used.
+  std::optional<SkyRayTables> sky_rays(const Atmosphere<double>& atmosphere,
+                                       std::span<const WavelengthNode, 4> nodes) const override;
   Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const override;
   bool can_fit(Parameter parameter) const override;
 

@@ -54,7 +54,7 @@ constexpr double kSkyClass = 0, kGrainlessClass = 0.5, kGrainyClass = 1;
 constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 
 // After those of kAtmosphereReads.
-constexpr GLuint kShadowUnit = 12, kCloudUnit = 14, kVolumeUnit = 15, kMaterialUnit = 18;
+constexpr GLuint kShadowUnit = 12, kDensityUnit = 13, kCloudUnit = 14, kVolumeUnit = 15, kMaterialUnit = 18;
 
 // Densities of air and aerosol relative to h = 0, over the heights of the tables.
 GlTexture density_texture(const Atmosphere<double>& a) {
@@ -320,8 +320,8 @@ void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_m
   bind_blocks(sky, view);
   if (view.shadows != nullptr) {
     shadow_maps.bind(*view.shadows, grainy, kShadowUnit, blocks_);
-    glBindTextureUnit(kShadowUnit + 1, densities_.id());
   }
+  glBindTextureUnit(kDensityUnit, densities_.id());
   if (view.options.clouds) {
     if (!clouds_) clouds_.emplace();
     clouds_->bind(*view.options.clouds, sky, kCloudUnit, blocks_);

@@ -81,6 +81,13 @@ vec4 optical_depth_to_top(float h, float mu) {
   return look_up(optical_depth_table, vec2(x, height_coordinate(h, optical_depth_size.y)));
 }
 
+// The same by the ray's lowest point: of rays that pass near the ground from high above, the table has few.
+vec4 optical_depth_past_ground(float h, float mu) {
+  if (mu >= 0.0) return optical_depth_to_top(h, mu);
+  float lowest = max(height_after(bottom_km, h, mu, -(bottom_km + h) * mu), 0.0);
+  return max(2.0 * optical_depth_to_top(lowest, 0.0) - optical_depth_to_top(h, -mu), 0.0);
+}
+
 // Of the sun's beam; the disc sinks behind the horizon over its diameter.
 vec4 sun_transmittance(float h, float mu_s) {
   float sin_horizon = bottom_km / (bottom_km + h);

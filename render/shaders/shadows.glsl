@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shadows that the terrain casts under the first sun, on surfaces and in the air: maps of the depth seen from the sun,
 // each of a larger part of the terrain about the camera.
+#include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
 
 layout(binding = 12) uniform sampler2DArrayShadow shadow_maps;
-layout(binding = 13) uniform sampler2D densities;  // over height: of the air, of the aerosol, relative to h = 0
 
 const int kShadowMaps = 3;
 layout(std140, binding = 3) uniform Shadows {
@@ -60,7 +60,7 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
     float depth_in_map = place.w - 2.0 * shadow_texel_km[map] * shadow_depth_per_km[map];
     float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, vec4(place.xy, float(map), depth_in_map));
     Place at = place_along(start, nu, t);
-    vec2 density = texture(densities, vec2(height_coordinate(at.h, float(textureSize(densities, 0).x)), 0.5)).xy;
+    vec2 density = densities_at(at.h);
     vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);
     sum += (1.0 - lit) * light * (air * density.x + aerosol * density.y);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light of whole rays that miss the ground from the tables of model/sky_rays.h. SKY_RAYS: which of its mappings.
-#include "render/shaders/atmosphere.glsl"
+#include "render/shaders/densities.glsl"
 #include "model/shared/bodare_mapping.glsl"
 #include "model/shared/bruneton_mapping.glsl"
 
@@ -46,9 +46,27 @@ Scattering sky_ray_scattering(Place from, float nu) {
   float by_phase = elek_rayleigh_phase(nu) / rayleigh_phase(depolarisation, nu);
   return Scattering((dusk * by_phase) * texels.rayleigh_like, dusk * texels.single_mie);
 }
-#else  // Schafhitzel
+#elif SKY_RAYS == 3  // Schafhitzel
 Scattering sky_ray_scattering(Place from, float nu) {
   return sky_ray_texels(texture_from_units(
       vec3(kInversePi * acos(from.mu_s), kInversePi * acos(from.mu), from.h / thickness_km)));
+}
+#else  // O'Neil
+Scattering sky_ray_scattering(Place from, float nu) {
+  const int kSamples = 5;
+  float step_km = distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km) / float(kSamples);
+  vec4 whole = optical_depth_past_ground(from.h, from.mu);
+  vec4 air = vec4(0.0), aerosol = vec4(0.0);
+  for (int i = 0; i < kSamples; ++i) {
+    Place at = place_along(from, nu, (float(i) + 0.5) * step_km);
+    if (ray_hits_ground(at.h, at.mu_s, bottom_km)) continue;
+    vec4 to_eye = at.mu < 0.0 ? optical_depth_between(from, at, true)
+                              : max(whole - optical_depth_to_top(at.h, at.mu), 0.0);
+    vec4 through = exp(-to_eye - optical_depth_past_ground(at.h, at.mu_s));
+    vec2 density = densities_at(at.h);
+    air += density.x * through;
+    aerosol += density.y * through;
+  }
+  return Scattering(step_km * air_scattering * air, step_km * aerosol_scattering * aerosol);
 }
 #endif

@@ -16,5 +16,5 @@ void main() {
   Scattering all = scattering(place_of(ray, sun, nu), nu, ray.hits_ground);
   air = log(max(all.rayleigh_like, 1e-30));
   aerosol = log(max(all.single_mie, 1e-30));
-  depth = optical_depth_to_top(ray.h, ray.hits_ground ? 1.0 : ray.mu);
+  depth = optical_depth_past_ground(ray.h, ray.hits_ground ? 1.0 : ray.mu);
 }

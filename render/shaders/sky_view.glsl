@@ -3,6 +3,7 @@
 // pixel would look up in the tables at the same height, made once a frame. Rows as in the scattering table, columns by the
 // azimuth from the sun, each sun its own. A multiple of the table's texels, so that the two interpolate alike. Not for an eye
 // high above, FROM_ABOVE: there the sun's height at the far end of a ray changes too fast with the azimuth.
+#include "render/shaders/densities.glsl"  // not below, in a branch: files are included once
 #include "render/shaders/view_ray.glsl"
 
 const vec3 sky_view_size = vec3(SKY_VIEW_SIZE);  // columns of a sun, rows of rays to the ground, rows of rays to the sky
@@ -43,10 +44,10 @@ struct WholeRay {
 
 WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
 #if defined(SKY_RAYS)
-  return WholeRay(sky_ray_scattering(start, nu), optical_depth_to_top(ray.h, ray.mu));
+  return WholeRay(sky_ray_scattering(start, nu), optical_depth_past_ground(ray.h, ray.mu));
 #elif defined(FROM_ABOVE)
   return WholeRay(scattering(start, nu, ray.hits_ground),
-                  optical_depth_to_top(ray.h, ray.mu));
+                  optical_depth_past_ground(ray.h, ray.mu));
 #else
   vec2 place = place_in_view(ray, sun, sky_view_size);
   place.x = (float(i) + place.x) / float(kSuns);

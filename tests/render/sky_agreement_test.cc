@@ -138,7 +138,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Sky{"bodare", "earth-clear", "sunset", {60, 90}},
                       Sky{"bodare", "earth-clear", "limb", {30, 85, 92}},
                       Sky{"schafhitzel", "bruneton-2008", "valley", {80}},
-                      Sky{"schafhitzel", "bruneton-2008", "limb", {30, 85, 90}}));
+                      Sky{"schafhitzel", "bruneton-2008", "limb", {30, 85, 90}},
+                      Sky{"oneil", "earth-clear", "10km", {60, 92}},
+                      Sky{"oneil", "earth-clear", "limb", {30, 85, 90}}));
 
 }  // namespace
 }  // namespace skyfit
