@@ -186,16 +186,14 @@ class ScatteringBuilder {
       phase[i] = static_cast<float>(
           shared.rayleigh_phase(tables_.atmosphere.rayleigh.depolarisation, nu[i]));
     }
-    const std::vector<LevelNode> nodes =
-        level_path(shells_, optics_, heights_, texel.ray, level);
+    const std::vector<LevelNode> nodes = level_path(shells_, optics_, heights_, texel.ray, level);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       kernels::add_node(kernel_node(nodes, i, texel.sun_point, scratch), mu_s.data(), nu.data(),
                         cells, single.data(), multiple.data());
     }
-    kernels::store_cells(
-        single.data(), multiple.data(), phase.data(), cells,
-        static_cast<float>(1e3 / texel.ray.length), static_cast<float>(kDarkestScattering), air,
-        aerosol);
+    kernels::store_cells(single.data(), multiple.data(), phase.data(), cells,
+                         static_cast<float>(1e3 / texel.ray.length),
+                         static_cast<float>(kDarkestScattering), air, aerosol);
   }
 
   const Shells& shells_;

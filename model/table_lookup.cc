@@ -83,10 +83,9 @@ struct TableRay {
     const double rayleigh_phase = shared.rayleigh_phase(a.rayleigh.depolarisation, nu),
                  mie_phase = aerosol_phase(a.mie.phase, nu);
     const double length =
-        hits_ground
-            ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
-            : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
-                                              planet.thickness);
+        hits_ground ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
+                    : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
+                                                      planet.thickness);
     const double light = 1e-3 * length * deep_twilight(sun, kTableLowestSun);
     NodeValues sum;
     for (std::size_t k = 0; k < 4; ++k)
@@ -122,8 +121,7 @@ double visible_sun(double bottom, double height, double mu_s) {
 TablePlace place_along(const AtmosphereTables& tables, const TablePlace& from, double nu,
                        double distance) {
   const Planet p(tables);
-  const double h =
-      std::max(shared.height_after(p.bottom, from.height, from.mu, distance), 0.0);
+  const double h = std::max(shared.height_after(p.bottom, from.height, from.mu, distance), 0.0);
   const double r = p.bottom + h, r0 = p.bottom + from.height;
   return {std::min(h, p.thickness), std::clamp((r0 * from.mu + distance) / r, -1.0, 1.0),
           std::clamp((r0 * from.mu_s + distance * nu) / r, -1.0, 1.0)};

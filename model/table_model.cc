@@ -25,8 +25,7 @@ void refuse_derivatives(std::span<const Parameter> derivatives) {
     throw std::invalid_argument("tables model: has no derivatives; the reference model has");
 }
 
-NodeValues radiance_of(const AtmosphereTables& tables, const literature::View& view,
-                       double eye_m) {
+NodeValues radiance_of(const AtmosphereTables& tables, const literature::View& view, double eye_m) {
   const TablePlace place{view.ray.entry_height, view.ray.entry_mu, view.mu_s};
   NodeValues sum{};
   if (view.ray.length > 0) {
@@ -105,9 +104,8 @@ std::size_t TableModel::prepare(const Atmosphere<double>& atmosphere,
   const std::shared_ptr<const Kept> made = tables_for(atmosphere, wavelengths);
   std::size_t bytes = 0;
   for (const AtmosphereTables& t : made->tables) {
-    for (const Table* table :
-         {&t.optical_depth, &t.irradiance, &t.rayleigh_like, &t.single_mie, &t.phase,
-          &t.sky_rays.air, &t.sky_rays.aerosol})
+    for (const Table* table : {&t.optical_depth, &t.irradiance, &t.rayleigh_like, &t.single_mie,
+                               &t.phase, &t.sky_rays.air, &t.sky_rays.aerosol})
       bytes += table->rgba.size() * sizeof(float);
   }
   const std::lock_guard lock(mutex_);

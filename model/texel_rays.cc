@@ -15,8 +15,8 @@ TexelRay texel_ray(const Shells& shells, const RayTexels& texels, int row, doubl
   const bool hits_ground = row < texels.ground;
   const double least = std::min(0.1, 1e-6 * shells.top);
   const double h = hits_ground ? std::max(height, least) : std::min(height, shells.top - least);
-  const double mu = shared.mu_from_texture(v, h, texels.ground, texels.sky, shells.bottom_radius,
-                                           shells.top);
+  const double mu =
+      shared.mu_from_texture(v, h, texels.ground, texels.sky, shells.bottom_radius, shells.top);
   ViewRay ray;
   ray.entry_height = h;
   ray.entry_mu = mu;
@@ -37,8 +37,7 @@ std::vector<TexelSun> texel_suns(const RayTexels& texels, double bottom_radius, 
   for (int azimuth = 0; azimuth < texels.azimuth; ++azimuth) {
     const double cosine = std::cos(std::numbers::pi * azimuth / (texels.azimuth - 1));
     for (int sun = 0; sun < texels.mu_s; ++sun) {
-      const double sun_height =
-          shared.sun_from_unit(sun / (texels.mu_s - 1.0), kTableLowestSun);
+      const double sun_height = shared.sun_from_unit(sun / (texels.mu_s - 1.0), kTableLowestSun);
       const double mu_s = shared.mu_s_from_sun_height(height, sun_height, bottom_radius);
       suns.push_back({mu_s, std::sqrt(1 - mu_s * mu_s) * cosine});
     }

@@ -139,8 +139,7 @@ void validate(const FrameOptions& options) {
 
 void validate(const Scene& scene) {
   constexpr double kHighest = 1e5;  // m
-  require(within(scene.lowest_m, -kHighest, kHighest), "lowest_m", scene.lowest_m,
-          "-1e5 to 1e5 m");
+  require(within(scene.lowest_m, -kHighest, kHighest), "lowest_m", scene.lowest_m, "-1e5 to 1e5 m");
   require(scene.highest_m > scene.lowest_m && scene.highest_m <= kHighest, "highest_m",
           scene.highest_m, "more than lowest_m and at most 1e5 m");
   require(within(scene.water_level_m, 0, kHighest), "water_level_m", scene.water_level_m,

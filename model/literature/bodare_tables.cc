@@ -20,7 +20,6 @@ double theta_of(int i) { return kPi * (i + 0.5) / kTheta; }
 
 }  // namespace
 
-
 BodareGeometry::BodareGeometry(const Atmosphere<double>& atmosphere)
     : shells_(shells_of(atmosphere)), rays_(static_cast<std::size_t>(Sizes::height) * Sizes::view) {
   Shared<double> shared;

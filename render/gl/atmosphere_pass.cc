@@ -54,7 +54,8 @@ constexpr double kSkyClass = 0, kGrainlessClass = 0.5, kGrainyClass = 1;
 constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 
 // After those of kAtmosphereReads.
-constexpr GLuint kShadowUnit = 12, kDensityUnit = 13, kCloudUnit = 14, kVolumeUnit = 15, kMaterialUnit = 18;
+constexpr GLuint kShadowUnit = 12, kDensityUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
+                 kMaterialUnit = 18;
 
 // Densities of air and aerosol relative to h = 0, over the heights of the tables.
 GlTexture density_texture(const Atmosphere<double>& a) {

@@ -32,7 +32,7 @@ namespace skyfit {
 inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance", "rayleigh_like",
                                                      "single_mie", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
-    "optical_depth", "irradiance", "rayleigh_like", "single_mie",  "phase",          "gbuffer",
+    "optical_depth", "irradiance", "rayleigh_like", "single_mie", "phase",       "gbuffer",
     "depth",         "view_air",   "view_aerosol",  "view_depth", "sky_ray_air", "sky_ray_aerosol"};
 
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",

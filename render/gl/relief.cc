@@ -139,8 +139,8 @@ double Relief::height_m(const glm::dvec3& direction, double resolution_m) const 
   height += kHillHeight * (0.6 + fractal_noise(bent + glm::dvec3(4e5), 7e3, resolution));
   height += kMountainHeight * mountains * massif *
             ridged_noise(bent, kMountainLength, std::max(resolution, 2 * resolution - 6e3));
-  height +=
-      kCragHeight * (0.3 + mountains) * ridged_noise(bent + glm::dvec3(9e5), kCragLength, resolution);
+  height += kCragHeight * (0.3 + mountains) *
+            ridged_noise(bent + glm::dvec3(9e5), kCragLength, resolution);
   return std::max(fading * land * height, 0.0) +
          roughness * std::max(smoothstep(0, 0.1 * kShore, continent), beach);
 }

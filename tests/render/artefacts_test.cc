@@ -88,17 +88,16 @@ TEST(Horizon, HasNoSeam) {
     const double nu = mu * mu_s + sine * std::sin(kSun) * std::cos(kAzimuth);
     const TablePlace start{kHeight, mu, mu_s}, end = place_along(tables(), start, nu, kLength);
     const bool down = mu < horizon_cosine(bottom, kHeight);
-    const double through = luminance(lookup_transmittance(tables(), start, end, down)) /
-                           luminance({1, 1, 1, 1});
+    const double through =
+        luminance(lookup_transmittance(tables(), start, end, down)) / luminance({1, 1, 1, 1});
     // The end's azimuth, by nu there.
-    const double cosine = (nu - end.mu * end.mu_s) /
-                          std::sqrt((1 - end.mu * end.mu) * (1 - end.mu_s * end.mu_s));
+    const double cosine =
+        (nu - end.mu * end.mu_s) / std::sqrt((1 - end.mu * end.mu) * (1 - end.mu_s * end.mu_s));
     const SkyPoint points[2] = {{kHeight, kSun, zenith * kDegree, kAzimuth},
                                 {end.height, std::acos(end.mu_s), std::acos(end.mu),
                                  std::acos(std::clamp(cosine, -1.0, 1.0))}};
     // Light straight from the ground is in both and falls out of the difference.
-    const SkyValues light =
-        model->radiance(tables().atmosphere, tables().color.nodes, points, {});
+    const SkyValues light = model->radiance(tables().atmosphere, tables().color.nodes, points, {});
     NodeValues finite;
     const NodeValues t = lookup_transmittance(tables(), start, end, down);
     for (std::size_t k = 0; k < 4; ++k)
@@ -121,8 +120,8 @@ TEST(Horizon, HasNoSeam) {
 
 TEST(Aerosols, KeepTheirColorAfterSunset) {
   // Blue single scattering by the aerosol, made from its red one as air and multiple scattering go:
-  // right by day, wrong once the sun's light comes through the long way of the blue. We keep it in a
-  // table (whose light after sunset sky_agreement_test holds against the reference).
+  // right by day, wrong once the sun's light comes through the long way of the blue. We keep it in
+  // a table (whose light after sunset sky_agreement_test holds against the reference).
   const TableSizes& sizes = tables().sizes;
   Shared<double> shared;
   const auto recovered_over_kept = [&](double sun_height) {

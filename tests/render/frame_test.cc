@@ -78,8 +78,7 @@ TEST_P(EveryPlace, DepthLeadsBackToTheTerrain) {
     ++checked;
     // A quad is as large as a pixel; rays graze the ground, so two footprints of height are what
     // the picture resolves.
-    if (std::abs(glm::length(from_centre) - bottom - height) < 1 + 2 * footprint + 1e-6 * d)
-      ++good;
+    if (std::abs(glm::length(from_centre) - bottom - height) < 1 + 2 * footprint + 1e-6 * d) ++good;
   }
   std::printf("[  share ] %d of %d pixels lie on the terrain\n", good, checked);
   ASSERT_GT(checked, 500);

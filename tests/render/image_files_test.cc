@@ -112,13 +112,12 @@ TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
   const auto input = OIIO::ImageInput::open(file.string());
   ASSERT_TRUE(input);
   const OIIO::ImageSpec& spec = input->spec();
-  EXPECT_THAT(
-      spec.channelnames,
-      UnorderedElementsAre("R", "G", "B", "luminance.Y", "view.zenith_deg", "view.azimuth_deg",
-                           "Z", "inscatter.R", "inscatter.G", "inscatter.B", "reflected.R",
-                           "reflected.G", "reflected.B", "transmittance.R", "transmittance.G",
-                           "transmittance.B", "normal.X", "normal.Y", "normal.Z", "albedo.R",
-                           "albedo.G", "albedo.B"));
+  EXPECT_THAT(spec.channelnames,
+              UnorderedElementsAre(
+                  "R", "G", "B", "luminance.Y", "view.zenith_deg", "view.azimuth_deg", "Z",
+                  "inscatter.R", "inscatter.G", "inscatter.B", "reflected.R", "reflected.G",
+                  "reflected.B", "transmittance.R", "transmittance.G", "transmittance.B",
+                  "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B"));
   std::vector<float> pixels(static_cast<std::size_t>(spec.nchannels) * 16 * 4);
   ASSERT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
   const auto expect_equal = [&](const std::vector<float>& values, const std::string& layer,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sky in a frame has the luminance that its model gives for the same direction, within 1 %, from
-// every named view and under suns from the zenith to the horizon.
+// The sky in a frame has the luminance that its model gives for the same direction, within 1 %,
+// from every named view and under suns from the zenith to the horizon.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,8 +84,8 @@ TEST_P(SkyAgreement, SkyPixelsHaveTheModelsLuminance) {
   if (!cache.contains(key)) {
     // The sky of the others is read from tables of theirs.
     const TableSizes sizes = model->name() == "reference" ? TableSizes{} : kSmallTables;
-    cache.emplace(
-        key, compute_tables_of(*model, preset.atmosphere, color_rule(spectra), sizes, 2, {}));
+    cache.emplace(key,
+                  compute_tables_of(*model, preset.atmosphere, color_rule(spectra), sizes, 2, {}));
   }
   FrameOptions options;
   options.width = 96;

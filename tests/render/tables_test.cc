@@ -59,7 +59,8 @@ double luminance(const AtmosphereTables& tables, const NodeValues& nodes) {
 
 TEST(Tables, FinerTablesSayTheSame) {
   const AtmosphereTables usual = tables_of("earth-clear", TableSizes{});
-  const AtmosphereTables fine = tables_of("earth-clear", {512, 256, 64, 16, 64, 64, 96, 80, 24, 4, 8, 4});
+  const AtmosphereTables fine =
+      tables_of("earth-clear", {512, 256, 64, 16, 64, 64, 96, 80, 24, 4, 8, 4});
   constexpr double kUsual = 0.01;  // the error allowed to a frame's sky
   for (const double height : {2.0, 800.0, 10e3}) {
     for (const double sun : {13.0, 47.0, 76.0, 86.5}) {
@@ -110,7 +111,8 @@ TEST(Tables, ShortPathsScatterInProportionToTheirLength) {
 
 TEST(Tables, AreFiniteForEveryShippedPreset) {
   for (const std::string& name : refs::shipped_preset_names()) {
-    const AtmosphereTables tables = tables_of(name.c_str(), {32, 16, 16, 8, 8, 8, 8, 16, 4, 8, 16, 4});
+    const AtmosphereTables tables =
+        tables_of(name.c_str(), {32, 16, 16, 8, 8, 8, 8, 16, 4, 8, 16, 4});
     for (const Table* table :
          {&tables.optical_depth, &tables.irradiance, &tables.rayleigh_like, &tables.single_mie}) {
       for (const float value : table->rgba) ASSERT_TRUE(std::isfinite(value)) << name;
