@@ -3,7 +3,8 @@
 // pixel would look up in the tables at the same height, made once a frame. Rows as in the scattering table, columns by the
 // azimuth from the sun, each sun its own. A multiple of the table's texels, so that the two interpolate alike. Not for an eye
 // high above, FROM_ABOVE: there the sun's height at the far end of a ray changes too fast with the azimuth.
-#include "render/shaders/densities.glsl"  // not below, in a branch: files are included once
+// Not below, in a branch: files are included once.
+#include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
 
 const vec3 sky_view_size = vec3(SKY_VIEW_SIZE);  // columns of a sun, rows of rays to the ground, rows of rays to the sky
