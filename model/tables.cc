@@ -29,6 +29,11 @@ Table make_table(int width, int height, int depth) {
   return table;
 }
 
+SkyRayTables outside_tables(const RayTexels& texels) {
+  const Table table = make_table(texels.mu_s, texels.azimuth, texels.rows());
+  return {SkyRayMapping::kFromOutside, table, table};
+}
+
 void store(Table& table, int x, int y, const NodeValues& value) {
   const std::size_t texel = static_cast<std::size_t>(y) * table.width + x;
   for (std::size_t k = 0; k < 4; ++k) table.rgba[4 * texel + k] = static_cast<float>(value[k]);
@@ -153,6 +158,7 @@ void tabulate(const SkyModel& model, const Shells& shells, AtmosphereTables& tab
   if (std::optional<SkyRayTables> own = model.sky_rays(tables.atmosphere, tables.color.nodes)) {
     tables.sky_rays = std::move(*own);
   } else {
+    tables.sky_rays = outside_tables(tables.sizes.outside());
     tabulate_rays(model, tables.atmosphere, tables.color, shells, tables.sizes.outside(),
                   shells.top, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
   }
@@ -171,12 +177,10 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const Shells shells = shells_of(atmosphere);
   const NodeOptics optics =
       optics_of(model != nullptr ? model->seen(atmosphere) : atmosphere, color);
-  const RayTexels texels = sizes.scattering(), outside = sizes.outside();
+  const RayTexels texels = sizes.scattering();
   tables.rayleigh_like =
       make_table(texels.mu_s * texels.azimuth, texels.rows(), sizes.scattering_r);
   tables.single_mie = tables.rayleigh_like;
-  tables.sky_rays.air = make_table(outside.mu_s, outside.azimuth, outside.rows());
-  tables.sky_rays.aerosol = tables.sky_rays.air;
   constexpr double kBefore = 0.15, kScattering = 0.75;  // shares of the time
   const auto of_scattering = [&](double part) {
     if (progress) progress(kBefore + kScattering * part);
@@ -184,6 +188,7 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   if (model != nullptr) {
     tabulate(*model, shells, tables, of_scattering);
   } else {
+    tables.sky_rays = outside_tables(sizes.outside());
     make_scattering_tables(shells, optics, tables, of_scattering);
   }
   make_optical_depth(shells, optics, tables);

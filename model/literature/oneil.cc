@@ -15,7 +15,7 @@ namespace skyfit {
 namespace {
 
 constexpr std::string_view kName = "oneil";
-constexpr int kSamples = 5;
+constexpr int kSamples = ONeilModel::kSamples;
 
 bool is_oneils_geometry(const Atmosphere<double>& a) {
   constexpr double kThickness = 0.025, kScaleDepth = 0.25, kSame = 1e-3;

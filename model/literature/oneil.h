@@ -16,7 +16,8 @@ namespace skyfit {
 
 class ONeilModel final : public SkyModel {
  public:
-  explicit ONeilModel(int threads);  // throws std::invalid_argument
+  static constexpr int kSamples = 5;  // of a ray
+  explicit ONeilModel(int threads);   // throws std::invalid_argument
   std::string_view name() const override { return "oneil"; }
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,

@@ -10,6 +10,8 @@
 #include <glm/glm.hpp>
 #include <iterator>
 
+#include "model/literature/bruneton_tables.h"
+#include "model/literature/oneil.h"
 #include "model/shared/shared.h"
 #include "render/gl/shader.h"
 #include "render/gl/uniform_block.h"
@@ -226,6 +228,8 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
           fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
           fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
           fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
+          fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
+          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples),
           fmt::format("LIGHT_FROM_NODES {:.9g}", fmt::join(light_from_nodes(tables.color), ", "))};
 }
 

@@ -25,7 +25,7 @@ Scattering sky_ray_scattering(Place from, float nu) {
 }
 #elif SKY_RAYS == 1  // Bruneton
 Scattering sky_ray_scattering(Place from, float nu) {
-  const float kNu = 8.0;
+  const float kNu = float(BRUNETON_NU);
   float turn = bruneton_unit_from_nu(nu) * (kNu - 1.0);
   float first = min(floor(turn), kNu - 2.0);
   vec3 near = texture_from_units(vec3(0.0, unit_from_upward_ray(from.h, from.mu, bottom_km, thickness_km),
@@ -51,9 +51,9 @@ Scattering sky_ray_scattering(Place from, float nu) {
   return sky_ray_texels(texture_from_units(
       vec3(kInversePi * acos(from.mu_s), kInversePi * acos(from.mu), from.h / thickness_km)));
 }
-#else  // O'Neil
+#elif SKY_RAYS == 4  // O'Neil
 Scattering sky_ray_scattering(Place from, float nu) {
-  const int kSamples = 5;
+  const int kSamples = ONEIL_SAMPLES;
   float step_km = distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km) / float(kSamples);
   vec4 whole = optical_depth_past_ground(from.h, from.mu);
   vec4 air = vec4(0.0), aerosol = vec4(0.0);
