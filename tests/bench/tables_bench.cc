@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderer's tables, which `bruneton` evaluates: making them at their default size (CPU time is
+// The renderer's tables, which `tables` evaluates: making them at their default size (CPU time is
 // what counts) and one look-up.
 #include <benchmark/benchmark.h>
 
@@ -22,8 +22,10 @@ void ComputeTables(benchmark::State& state, const char* preset) {
   std::size_t floats = 0;
   for (auto _ : state) {
     const AtmosphereTables tables = tables_of(preset);
-    floats = tables.rayleigh_like.rgba.size() + tables.single_mie.rgba.size() +
-             tables.optical_depth.rgba.size() + tables.irradiance.rgba.size();
+    floats = 0;
+    for (const Table* table : {&tables.rayleigh_like, &tables.single_mie, &tables.optical_depth,
+                               &tables.irradiance, &tables.sky_rays.air, &tables.sky_rays.aerosol})
+      floats += table->rgba.size();
     benchmark::DoNotOptimize(floats);
   }
   state.counters["megabytes"] = 1e-6 * sizeof(float) * static_cast<double>(floats);

@@ -114,7 +114,8 @@ TEST(Tables, AreFiniteForEveryShippedPreset) {
     const AtmosphereTables tables =
         tables_of(name.c_str(), {32, 16, 16, 8, 8, 8, 8, 16, 4, 8, 16, 4});
     for (const Table* table :
-         {&tables.optical_depth, &tables.irradiance, &tables.rayleigh_like, &tables.single_mie}) {
+         {&tables.optical_depth, &tables.irradiance, &tables.rayleigh_like, &tables.single_mie,
+          &tables.sky_rays.air, &tables.sky_rays.aerosol}) {
       for (const float value : table->rgba) ASSERT_TRUE(std::isfinite(value)) << name;
     }
   }
