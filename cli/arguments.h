@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/parameters.h"
+#include "model/atmosphere/parameters.h"
 
 namespace skyfit::cli {
 

@@ -21,7 +21,7 @@
 #include "data_refs/references.h"
 #include "data_refs/table_csv.h"
 #include "data_refs/units.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 
 namespace skyfit::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "data_refs/spectra.h"
 #include "data_refs/truth.h"
 #include "fit/model_comparison.h"
-#include "fit/residuals.h"
+#include "fit/problem/residuals.h"
 #include "render/plot/comparison.h"
 #include "render/plot/evaluate.h"
 #include "render/plot/fisheye.h"

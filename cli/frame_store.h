@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/render_request.h"
-#include "render/weather.h"
+#include "render/sequence/weather.h"
 
 namespace skyfit::cli {
 

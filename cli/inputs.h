@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data_refs/references.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 
 namespace skyfit::cli {
 

@@ -14,7 +14,7 @@
 #include "data_refs/absorption_bands.h"
 #include "data_refs/ground_spectra.h"
 #include "data_refs/spectra.h"
-#include "fit/measured_report.h"
+#include "fit/result/measured_report.h"
 #include "model/sky_model.h"
 #include "render/plot/measured_csv.h"
 #include "render/plot/measured_figures.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/render_options.h"
-#include "render/sequence.h"
+#include "render/sequence/sequence.h"
 
 namespace skyfit::cli {
 

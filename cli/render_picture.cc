@@ -9,7 +9,7 @@
 #include "cli/render_arguments.h"
 #include "cli/render_modes.h"
 #include "cli/studio.h"
-#include "render/film.h"
+#include "render/sequence/film.h"
 
 namespace skyfit::cli {
 namespace {

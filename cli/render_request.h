@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/render_options.h"
-#include "model/parameters.h"
-#include "render/sequence.h"
+#include "model/atmosphere/parameters.h"
+#include "render/sequence/sequence.h"
 
 namespace skyfit::cli {
 

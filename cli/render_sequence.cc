@@ -14,7 +14,7 @@
 #include "cli/render_modes.h"
 #include "cli/studio.h"
 #include "cli/video.h"
-#include "render/film.h"
+#include "render/sequence/film.h"
 
 namespace skyfit::cli {
 namespace {

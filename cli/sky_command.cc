@@ -11,8 +11,8 @@
 #include "cli/output.h"
 #include "cli/sky_table.h"
 #include "data_refs/spectra.h"
-#include "model/reference_model.h"
 #include "model/sky_model.h"
+#include "model/solver/reference_model.h"
 
 namespace skyfit::cli {
 namespace {

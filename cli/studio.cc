@@ -2,7 +2,7 @@
 #include "cli/studio.h"
 
 #include "data_refs/spectra.h"
-#include "model/tables.h"
+#include "model/tables/tables.h"
 #include "render/plot/whole_files.h"
 
 namespace skyfit::cli {

@@ -9,7 +9,7 @@
 
 #include "cli/render_request.h"
 #include "model/sky_model.h"
-#include "render/weather.h"
+#include "render/sequence/weather.h"
 
 namespace skyfit::cli {
 

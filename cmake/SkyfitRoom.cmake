@@ -28,7 +28,7 @@ function(skyfit_room name)
     $<BUILD_INTERFACE:skyfit_warnings>)
 endfunction()
 
-# A module (model/module_file.h) of one source file: skyfit_module(render module.cc LIBRARIES...) makes
+# A module (model/base/module_file.h) of one source file: skyfit_module(render module.cc LIBRARIES...) makes
 # skyfit_render_module.so beside the program.
 function(skyfit_module name source)
   set(target skyfit_${name}_module)

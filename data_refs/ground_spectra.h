@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/ground_spectrum.h"
+#include "model/atmosphere/ground_spectrum.h"
 
 namespace skyfit::refs {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "data_refs/csv.h"
-#include "model/preset_reader.h"
+#include "model/base/preset_reader.h"
 
 namespace skyfit::refs {
 namespace {

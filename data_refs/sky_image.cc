@@ -18,7 +18,7 @@
 #include "data_refs/fisheye.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/sky_bins.h"
-#include "model/module_file.h"
+#include "model/base/module_file.h"
 
 namespace skyfit::refs {
 namespace {

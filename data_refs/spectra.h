@@ -3,7 +3,7 @@
 // ozone cross section (provenance in the CSV files beside this header, which are compiled in).
 #pragma once
 
-#include "model/photometry.h"
+#include "model/photometry/photometry.h"
 
 namespace skyfit::refs {
 

@@ -16,7 +16,7 @@
 
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
-#include "model/photometry.h"
+#include "model/photometry/photometry.h"
 
 namespace skyfit::refs {
 namespace {

@@ -3,7 +3,7 @@
 // the text: data_refs/csv.h; other columns are refused.
 #pragma once
 
-#include "model/table_format.h"
+#include "model/atmosphere/table_format.h"
 
 namespace skyfit::refs {
 

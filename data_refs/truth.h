@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "data_refs/samples.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 
 namespace skyfit::refs {
 

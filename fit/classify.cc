@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "fit/least_squares.h"
-#include "fit/observations.h"
+#include "fit/problem/observations.h"
+#include "fit/solve/least_squares.h"
 
 namespace skyfit::fit {
 namespace {

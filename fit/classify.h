@@ -12,7 +12,7 @@
 
 #include "data_refs/cie_sky.h"
 #include "data_refs/samples.h"
-#include "model/photometry.h"
+#include "model/photometry/photometry.h"
 
 namespace skyfit::fit {
 

@@ -10,12 +10,12 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "fit/free_parameters.h"
-#include "fit/multi_start.h"
-#include "fit/noise.h"
-#include "fit/preset_record.h"
-#include "fit/rms.h"
-#include "fit/uncertainty.h"
+#include "fit/problem/free_parameters.h"
+#include "fit/result/preset_record.h"
+#include "fit/result/rms.h"
+#include "fit/solve/multi_start.h"
+#include "fit/uncertainty/noise.h"
+#include "fit/uncertainty/uncertainty.h"
 
 namespace skyfit::fit {
 namespace {

@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "data_refs/samples.h"
-#include "model/parameters.h"
-#include "model/photometry.h"
-#include "model/preset.h"
+#include "model/atmosphere/parameters.h"
+#include "model/atmosphere/preset.h"
+#include "model/photometry/photometry.h"
 #include "model/sky_model.h"
 
 namespace skyfit::fit {

@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fit/measured_problem.h"
-#include "fit/observations.h"
-#include "fit/preset_record.h"
-#include "fit/scan_noise.h"
-#include "fit/uncertainty.h"
+#include "fit/problem/measured_problem.h"
+#include "fit/problem/observations.h"
+#include "fit/result/preset_record.h"
+#include "fit/uncertainty/scan_noise.h"
+#include "fit/uncertainty/uncertainty.h"
 
 namespace skyfit::fit {
 namespace {

@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "fit/fit.h"
-#include "fit/least_squares.h"
-#include "fit/scan_data.h"
-#include "fit/unknowns.h"
-#include "model/ground_spectrum.h"
+#include "fit/problem/scan_data.h"
+#include "fit/problem/unknowns.h"
+#include "fit/solve/least_squares.h"
+#include "model/atmosphere/ground_spectrum.h"
 
 namespace skyfit::fit {
 

@@ -13,11 +13,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "fit/free_parameters.h"
-#include "fit/observations.h"
-#include "fit/preset_record.h"
-#include "fit/residuals.h"
-#include "fit/starts.h"
+#include "fit/problem/free_parameters.h"
+#include "fit/problem/observations.h"
+#include "fit/problem/residuals.h"
+#include "fit/problem/starts.h"
+#include "fit/result/preset_record.h"
 
 namespace skyfit::fit {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/gauss.h"
-#include "model/parameter_field.h"
-#include "model/ray.h"
+#include "model/atmosphere/parameter_field.h"
+#include "model/geometry/ray.h"
+#include "model/numerics/gauss.h"
 #include "model/sky_model.h"
 
 namespace skyfit {

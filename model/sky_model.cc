@@ -16,8 +16,8 @@
 #include "model/literature/oneil.h"
 #include "model/literature/preetham.h"
 #include "model/literature/schafhitzel.h"
-#include "model/reference_model.h"
-#include "model/table_model.h"
+#include "model/solver/reference_model.h"
+#include "model/tables/table_model.h"
 
 namespace skyfit {
 

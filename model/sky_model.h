@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "model/atmosphere.h"
-#include "model/parameters.h"
-#include "model/photometry.h"
-#include "model/sky_rays.h"
+#include "model/atmosphere/atmosphere.h"
+#include "model/atmosphere/parameters.h"
+#include "model/photometry/photometry.h"
+#include "model/tables/sky_rays.h"
 
 namespace skyfit {
 

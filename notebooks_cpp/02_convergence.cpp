@@ -19,7 +19,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "model/reference_model.h"
+#include "model/solver/reference_model.h"
 #include "notebooks_cpp/notebook.h"
 #include "render/plot/gnuplot.h"
 #include "render/plot/legend.h"

@@ -22,7 +22,7 @@
 #include "data_refs/truth.h"
 #include "fit/fit.h"
 #include "fit/model_comparison.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 #include "notebooks_cpp/notebook.h"
 #include "render/plot/comparison.h"
 #include "render/plot/evaluate.h"

@@ -26,7 +26,7 @@
 #include "data_refs/solar_position.h"
 #include "data_refs/spectra.h"
 #include "fit/classify.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 #include "model/sky_model.h"
 #include "notebooks_cpp/notebook.h"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "model/module_file.h"
+#include "model/base/module_file.h"
 #include "render/module/module.h"
 
 namespace skyfit {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of a planet under a fitted atmosphere, as photometric images. Deferred: a terrain is drawn
 // into a G-buffer, and one pass over the picture applies the atmosphere from the tables of
-// model/tables.h. OpenGL and the image libraries are loaded by the first call that needs them, not
-// by linking this library.
+// model/tables/tables.h. OpenGL and the image libraries are loaded by the first call that needs
+// them, not by linking this library.
 //
 // Frame of reference: z up at the camera, x toward the sun's azimuth. Azimuths are relative to the
 // sun's, positive to the right of it. Lengths in metres, angles in radians, unless a name says
@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/preset.h"
-#include "model/tables.h"
+#include "model/atmosphere/preset.h"
+#include "model/tables/tables.h"
 
 namespace skyfit {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of images call in skyfit_image_module (model/module_file.h), the part of
+// What the readers of images call in skyfit_image_module (model/base/module_file.h), the part of
 // data_refs/ that loads OpenImageIO.
 #pragma once
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "model/phase_moments.h"
+#include "model/atmosphere/phase_moments.h"
 #include "model/shared/shared.h"
 
 namespace skyfit::literature {

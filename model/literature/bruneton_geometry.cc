@@ -4,7 +4,7 @@
 #include "model/literature/bruneton_tables.h"
 #include "model/literature/slab_kernels.h"
 #include "model/shared/shared.h"
-#include "model/tables.h"
+#include "model/tables/tables.h"
 
 namespace skyfit::literature {
 namespace {

@@ -2,10 +2,10 @@
 // What the finished tables say; bruneton_tables.cc fills them.
 #include <numbers>
 
+#include "model/atmosphere/phase_moments.h"
 #include "model/literature/bruneton_tables.h"
-#include "model/phase_moments.h"
 #include "model/shared/shared.h"
-#include "model/table_lookup.h"
+#include "model/tables/table_lookup.h"
 
 namespace skyfit::literature {
 namespace {

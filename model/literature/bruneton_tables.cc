@@ -5,10 +5,10 @@
 
 #include <numbers>
 
-#include "model/hemisphere.h"
+#include "model/atmosphere/phase_moments.h"
 #include "model/literature/slab_kernels.h"
 #include "model/literature/sun_columns.h"
-#include "model/phase_moments.h"
+#include "model/numerics/hemisphere.h"
 #include "model/shared/shared.h"
 
 namespace skyfit::literature {

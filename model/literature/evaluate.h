@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "model/optics.h"
-#include "model/parameter_field.h"
-#include "model/ray.h"
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
+#include "model/geometry/ray.h"
 #include "model/sky_model.h"
 
 namespace skyfit::literature {

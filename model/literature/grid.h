@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/dual.h"
+#include "model/numerics/dual.h"
 
 namespace skyfit::literature {
 

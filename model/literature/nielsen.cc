@@ -3,8 +3,8 @@
 
 #include <numbers>
 
+#include "model/atmosphere/phase_moments.h"
 #include "model/literature/evaluate.h"
-#include "model/phase_moments.h"
 #include "model/shared/shared.h"
 
 namespace skyfit {

@@ -6,10 +6,10 @@
 
 #include <numbers>
 
+#include "model/atmosphere/phase_moments.h"
+#include "model/geometry/sky_geometry.h"
 #include "model/literature/evaluate.h"
-#include "model/phase_moments.h"
 #include "model/shared/shared.h"
-#include "model/sky_geometry.h"
 
 namespace skyfit {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "model/clones.h"
+#include "model/numerics/clones.h"
 
 namespace skyfit::literature {
 namespace {

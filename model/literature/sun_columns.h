@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "model/literature/grid.h"
-#include "model/table_lookup.h"
+#include "model/tables/table_lookup.h"
 
 namespace skyfit::literature {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "model/shared/shared.h"
-#include "model/table_lookup.h"
+#include "model/tables/table_lookup.h"
 
 namespace skyfit::literature {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "model/geometry/ray.h"
 #include "model/literature/evaluate.h"
-#include "model/ray.h"
 
 namespace skyfit::literature {
 

@@ -31,7 +31,7 @@ Number cornette_shanks_phase(Number g, Number nu) {
   return 0.119366207318921502 * (1.0 - g * g) * (1.0 + nu * nu) / ((2.0 + g * g) * d * sqrt(d));  // 3 / (8 pi)
 }
 
-// One lobe; `type` is a PhaseType of model/atmosphere.h: 0 Cornette-Shanks, 1 Henyey-Greenstein.
+// One lobe; `type` is a PhaseType of model/atmosphere/atmosphere.h: 0 Cornette-Shanks, 1 Henyey-Greenstein.
 Number lobe_phase(int type, Number g, Number nu) {
   return type == 1 ? henyey_greenstein_phase(g, nu) : cornette_shanks_phase(g, nu);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/module/module.h"
 
-#include "render/gl/image_files.h"
-#include "render/gl/renderer.h"
+#include "render/gl/passes/renderer.h"
+#include "render/image/image_files.h"
 
 extern "C" __attribute__((visibility("default"))) const void* skyfit_render_module() {
   static constexpr skyfit::RenderModule kModule = {skyfit::RenderModule::kRevision,

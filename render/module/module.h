@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the thin library calls in skyfit_render_module (model/module_file.h).
+// What the thin library calls in skyfit_render_module (model/base/module_file.h).
 #pragma once
 
 #include <filesystem>

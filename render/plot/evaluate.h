@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "data_refs/samples.h"
-#include "model/photometry.h"
+#include "model/photometry/photometry.h"
 #include "model/sky_model.h"
 #include "render/plot/samples_csv.h"
 

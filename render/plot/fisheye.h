@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "model/photometry.h"
+#include "model/photometry/photometry.h"
 #include "model/sky_model.h"
 
 namespace skyfit::plot {

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "model/photometry.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
+#include "model/photometry/photometry.h"
 #include "model/sky_model.h"
 #include "render/plot/comparison.h"
 

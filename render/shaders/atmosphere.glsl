@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere's tables as functions. Lengths in kilometres, values at the four wavelengths of the colour rule, per
-// unit solar irradiance. A point is its height above the bottom radius; see model/tables.h for what each table holds.
+// unit solar irradiance. A point is its height above the bottom radius; see model/tables/tables.h for what each table holds.
 // What stays the same for a renderer's life is defined, which saves the software renderer much of its time (it loads a uniform
-// anew at each use): see atmosphere_defines(), render/gl/atmosphere_pass.h.
+// anew at each use): see atmosphere_defines(), render/gl/atmosphere/atmosphere_pass.h.
 #include "render/shaders/constants.glsl"
 #include "render/shaders/pi.glsl"
 #include "model/shared/geometry.glsl"

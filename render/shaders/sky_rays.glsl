@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of whole rays that miss the ground from the tables of model/sky_rays.h. SKY_RAYS: which of its mappings.
+// Light of whole rays that miss the ground from the tables of model/tables/sky_rays.h. SKY_RAYS: which of its mappings.
 #include "render/shaders/densities.glsl"
 #include "model/shared/bodare_mapping.glsl"
 #include "model/shared/bruneton_mapping.glsl"

@@ -18,10 +18,10 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "render/gl/atmosphere_pass.h"
-#include "render/gl/context.h"
-#include "render/gl/passes.h"
-#include "render/gl/shader.h"
+#include "render/gl/atmosphere/atmosphere_pass.h"
+#include "render/gl/context/context.h"
+#include "render/gl/context/shader.h"
+#include "render/gl/passes/passes.h"
 #include "render/render.h"
 
 namespace skyfit {

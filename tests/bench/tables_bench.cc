@@ -7,8 +7,8 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "model/preset.h"
-#include "model/table_lookup.h"
+#include "model/atmosphere/preset.h"
+#include "model/tables/table_lookup.h"
 
 namespace skyfit {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "cli/render_arguments.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 
 namespace skyfit::cli {
 namespace {

@@ -66,7 +66,7 @@ TEST_F(SkyTest, ColorIsTheSumOverTheSpectrum) {
     xyz[1] += power * data.y_bar.at(nm);
     xyz[2] += power * data.z_bar.at(nm);
   }
-  constexpr double kRule = 1.5e-3;  // model/photometry.h
+  constexpr double kRule = 1.5e-3;  // model/photometry/photometry.h
   const std::array<double, 3> printed = {found.at("X_cd_m2")[0], found.at("Y_cd_m2")[0],
                                          found.at("Z_cd_m2")[0]};
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(printed[c] / xyz[c], 1, kRule) << c;

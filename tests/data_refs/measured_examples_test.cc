@@ -9,7 +9,7 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 #include "model/sky_model.h"
 
 namespace skyfit::refs {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "data_refs/cie_sky.h"
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 
 namespace skyfit::refs {
 namespace {

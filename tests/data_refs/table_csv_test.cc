@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "model/linear_profile.h"
-#include "model/tabulated_phase.h"
+#include "model/atmosphere/linear_profile.h"
+#include "model/atmosphere/tabulated_phase.h"
 
 namespace skyfit::refs {
 namespace {

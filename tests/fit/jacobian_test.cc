@@ -2,7 +2,7 @@
 // The Jacobian of the profiled, whitened logarithmic residuals equals central differences.
 #include <gtest/gtest.h>
 
-#include "fit/free_parameters.h"
+#include "fit/problem/free_parameters.h"
 #include "tests/fit/synthetic.h"
 
 namespace skyfit::fit {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Profile likelihood, bootstrap and hold-outs of scans with stated noise agree with the covariance
 // and with the noise.
-#include "fit/measured_checks.h"
+#include "fit/uncertainty/measured_checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fit/measured.h"
-#include "fit/measured_report.h"
+#include "fit/result/measured_report.h"
 #include "tests/fit/scans.h"
 #include "tests/fit/synthetic.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Independent residuals count fully; residuals that agree with their neighbours count as few.
-#include "fit/noise.h"
+#include "fit/uncertainty/noise.h"
 
 #include <gtest/gtest.h>
 

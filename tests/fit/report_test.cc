@@ -6,8 +6,8 @@
 
 #include <sstream>
 
-#include "fit/derived.h"
 #include "fit/fit.h"
+#include "fit/result/derived.h"
 #include "tests/fit/synthetic.h"
 
 namespace skyfit::fit {

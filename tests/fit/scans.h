@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data_refs/spectra.h"
-#include "fit/scan_model.h"
+#include "fit/problem/scan_model.h"
 
 namespace skyfit::fit {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The starts of a fit: as many as asked for, different, within the bounds, the forward lobe first.
-#include "fit/starts.h"
+#include "fit/problem/starts.h"
 
 #include <gtest/gtest.h>
 

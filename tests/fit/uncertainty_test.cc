@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Covariance, condition number and identifiability, against closed forms; singular cases included.
-#include "fit/uncertainty.h"
+#include "fit/uncertainty/uncertainty.h"
 
 #include <gtest/gtest.h>
 

@@ -53,7 +53,7 @@ TEST_F(BadHouse, IncludesAreFound) {
         "#include <vector>\n#include <ceres/jet.h>\n#include \"fit/fit.h\"\n#include "
         "\"model/sky.h\"\n");
   write("model/shared/phase.glsl",
-        "#include \"model/atmosphere.h\"\n#include \"model/shared/geometry.glsl\"\n");
+        "#include \"model/atmosphere/atmosphere.h\"\n#include \"model/shared/geometry.glsl\"\n");
   write("data_refs/cie.cc", "#  include \"fit/fit.h\"\n");
   write("fit/fit.cc", "#include <ceres/ceres.h>\n#include \"render/render.h\"\n");
   write("render/pass.cc",
@@ -61,15 +61,15 @@ TEST_F(BadHouse, IncludesAreFound) {
   write("render/plot/figure.cc", "#include <glad/gl.h>\n#include \"data_refs/samples.h\"\n");
   EXPECT_THAT(
       include_violations(top_, room_rules()),
-      ElementsAre(
-          "model/shared/phase.glsl:1: includes model/atmosphere.h, which model/shared may not use",
-          "model/sky.cc:2: includes ceres/jet.h, which model may not use",
-          "model/sky.cc:3: includes fit/fit.h, which model may not use",
-          "data_refs/cie.cc:1: includes fit/fit.h, which data_refs may not use",
-          "fit/fit.cc:2: includes render/render.h, which fit may not use",
-          "render/pass.cc:2: includes fit/fit.h, which render may not use",
-          "render/pass.cc:3: includes ../data_refs/cie.cc, which render may not use",
-          "render/plot/figure.cc:1: includes glad/gl.h, which render/plot may not use"));
+      ElementsAre("model/shared/phase.glsl:1: includes model/atmosphere/atmosphere.h, which "
+                  "model/shared may not use",
+                  "model/sky.cc:2: includes ceres/jet.h, which model may not use",
+                  "model/sky.cc:3: includes fit/fit.h, which model may not use",
+                  "data_refs/cie.cc:1: includes fit/fit.h, which data_refs may not use",
+                  "fit/fit.cc:2: includes render/render.h, which fit may not use",
+                  "render/pass.cc:2: includes fit/fit.h, which render may not use",
+                  "render/pass.cc:3: includes ../data_refs/cie.cc, which render may not use",
+                  "render/plot/figure.cc:1: includes glad/gl.h, which render/plot may not use"));
 }
 
 TEST_F(BadHouse, LinksAreFound) {

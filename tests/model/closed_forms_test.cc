@@ -7,12 +7,12 @@
 #include <numbers>
 
 #include "data_refs/spectra.h"
+#include "model/atmosphere/slant_column.h"
 #include "model/literature/nielsen.h"
 #include "model/literature/preetham.h"
-#include "model/photometry.h"
+#include "model/photometry/photometry.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
-#include "model/slant_column.h"
 
 namespace skyfit {
 namespace {

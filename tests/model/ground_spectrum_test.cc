@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "model/preset.h"
-#include "model/reference_model.h"
+#include "model/atmosphere/preset.h"
+#include "model/solver/reference_model.h"
 
 namespace skyfit {
 namespace {

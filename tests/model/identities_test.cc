@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "data_refs/spectra.h"
-#include "model/gauss.h"
-#include "model/phase_moments.h"
-#include "model/profile.h"
+#include "model/atmosphere/phase_moments.h"
+#include "model/atmosphere/profile.h"
+#include "model/atmosphere/slant_column.h"
+#include "model/numerics/gauss.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
-#include "model/slant_column.h"
 
 namespace skyfit {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "data_refs/spectra.h"
-#include "model/gauss.h"
+#include "model/numerics/gauss.h"
 #include "model/sky_model.h"
 
 namespace skyfit {

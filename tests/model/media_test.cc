@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "data_refs/spectra.h"
-#include "model/gauss.h"
-#include "model/parameters.h"
-#include "model/phase_moments.h"
-#include "model/profile.h"
+#include "model/atmosphere/parameters.h"
+#include "model/atmosphere/phase_moments.h"
+#include "model/atmosphere/profile.h"
+#include "model/numerics/gauss.h"
 #include "model/sky_model.h"
 
 namespace skyfit {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A module that is not there, or is no module, is one line that says so.
-#include "model/module_file.h"
+#include "model/base/module_file.h"
 
 #include <gmock/gmock.h>
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "model/parameter_field.h"
+#include "model/atmosphere/parameter_field.h"
 
 namespace skyfit::truth {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/ray.h"
+#include "model/geometry/ray.h"
 #include "model/sky_model.h"
 
 namespace skyfit::truth {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "model/gauss.h"
-#include "model/reference_model.h"
+#include "model/numerics/gauss.h"
+#include "model/solver/reference_model.h"
 
 namespace skyfit {
 namespace {

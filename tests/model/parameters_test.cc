@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parameter table is consistent with itself, with the atmosphere's defaults and with what an
 // atmosphere has.
-#include "model/parameters.h"
+#include "model/atmosphere/parameters.h"
 
 #include <gmock/gmock.h>
 

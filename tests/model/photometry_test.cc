@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules of few wavelengths equal their closed forms, and the 5 nm sum on spectra in closed form
 // that a sky may have.
-#include "model/photometry.h"
+#include "model/photometry/photometry.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A preset survives writing and reading bit by bit, and every fault of a file is one line that
 // names its place.
-#include "model/preset.h"
+#include "model/atmosphere/preset.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "model/parameters.h"
+#include "model/atmosphere/parameters.h"
 
 namespace skyfit {
 namespace {

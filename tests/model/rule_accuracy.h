@@ -99,7 +99,7 @@ inline XyzRule as_xyz_rule(const ColorRule& rule) {
   return result;
 }
 
-// Holds what model/photometry.h states of its rules, and prints it.
+// Holds what model/photometry/photometry.h states of its rules, and prints it.
 inline void expect_rules_hold(const std::vector<RuleCase>& cases) {
   const SpectralData& data = refs::standard_spectral_data();
   struct Claim {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of model/photometry.h keep to the 5 nm sum where they are worst: through much ozone
-// with the sun at the horizon and below, and by day in haze. rule_accuracy_everywhere_test.cc asks
-// it of the whole domain.
+// The rules of model/photometry/photometry.h keep to the 5 nm sum where they are worst: through
+// much ozone with the sun at the horizon and below, and by day in haze.
+// rule_accuracy_everywhere_test.cc asks it of the whole domain.
 #include "tests/model/rule_accuracy.h"
 
 namespace skyfit {

@@ -10,8 +10,8 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "model/preset.h"
-#include "model/reference_model.h"
+#include "model/atmosphere/preset.h"
+#include "model/solver/reference_model.h"
 #include "tests/model/truth.h"
 
 namespace skyfit::truth {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables between two others: at the ends they are those, and halfway the light is that of the
 // atmosphere halfway.
-#include "model/table_blend.h"
+#include "model/tables/table_blend.h"
 
 #include <gmock/gmock.h>
 
@@ -10,8 +10,8 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "model/preset.h"
-#include "model/table_lookup.h"
+#include "model/atmosphere/preset.h"
+#include "model/tables/table_lookup.h"
 
 namespace skyfit {
 namespace {
@@ -31,7 +31,7 @@ AtmosphereTables tables_of(const Atmosphere<double>& atmosphere) {
 }
 
 // A clear sky and one with a quarter more aerosol over brighter ground: the most that one step of
-// the weather changes (render/weather.h).
+// the weather changes (render/sequence/weather.h).
 struct Weather {
   AtmosphereTables clear, hazy;
 };

@@ -10,7 +10,7 @@
 
 #include "data_refs/spectra.h"
 #include "model/sky_model.h"
-#include "model/table_lookup.h"
+#include "model/tables/table_lookup.h"
 #include "tests/render/frame_fixture.h"
 #include "tests/render/gl_fixture.h"
 

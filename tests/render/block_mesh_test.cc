@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blocks meet without seams: with neighbours of their level, over the edges of the cube too, and,
 // once they have taken on the coarser shape, with neighbours of the coarser level.
-#include "render/gl/block_mesh.h"
+#include "render/gl/terrain/block_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "render/gl/patches.h"
+#include "render/gl/terrain/patches.h"
 #include "tests/render/terrain_fixture.h"
 
 namespace skyfit {

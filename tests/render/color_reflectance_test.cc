@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The spectrum made for a colour has that colour in sunlight, and grey is flat.
-#include "render/gl/color_reflectance.h"
+#include "render/gl/terrain/color_reflectance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames side by side keep their pixels; the exposure of a sequence follows the light without
 // jumps and does not depend on where it was interrupted.
-#include "render/film.h"
+#include "render/sequence/film.h"
 
 #include <gmock/gmock.h>
 

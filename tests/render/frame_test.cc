@@ -8,8 +8,8 @@
 #include <glm/glm.hpp>
 #include <stdexcept>
 
-#include "model/table_lookup.h"
-#include "render/gl/relief.h"
+#include "model/tables/table_lookup.h"
+#include "render/gl/terrain/relief.h"
 #include "tests/render/frame_fixture.h"
 
 namespace skyfit {

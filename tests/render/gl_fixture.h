@@ -10,11 +10,11 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "model/preset.h"
-#include "model/tables.h"
-#include "render/gl/context.h"
-#include "render/gl/passes.h"
-#include "render/gl/shader.h"
+#include "model/atmosphere/preset.h"
+#include "model/tables/tables.h"
+#include "render/gl/context/context.h"
+#include "render/gl/context/shader.h"
+#include "render/gl/passes/passes.h"
 
 namespace skyfit {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written is what is read: EXR channels, values and metadata; PNG without banding; whole
 // files or none.
-#include "render/gl/image_files.h"
+#include "render/image/image_files.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "render/gl/tone.h"
+#include "render/image/tone.h"
 
 namespace skyfit {
 namespace {

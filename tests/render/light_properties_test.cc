@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "model/table_lookup.h"
+#include "model/tables/table_lookup.h"
 #include "tests/render/mesh_fixture.h"
 
 namespace skyfit {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "render/gl/map_layout.h"
+#include "render/gl/terrain/map_layout.h"
 
 namespace skyfit {
 

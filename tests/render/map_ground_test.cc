@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ground follows its maps: heights and their slope, flat water at its level, colours as
 // reflectances; it is rough below the texels of the map, and no rougher than asked for.
-#include "render/gl/map_ground.h"
+#include "render/gl/terrain/map_ground.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The materials' textures are saved and read back as they are, repeat without a seam and have the
 // mean that leaves the ground's reflectance alone.
-#include "render/gl/materials.h"
+#include "render/gl/terrain/materials.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "render/gl/relief.h"
+#include "render/gl/terrain/relief.h"
 #include "tests/render/frame_fixture.h"
 
 namespace skyfit {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OBJ files become triangles with normals and reflectances; a mesh stands upright at its place and
 // faces its heading. What the file says wrongly is named with its line.
-#include "render/gl/object_mesh.h"
+#include "render/gl/terrain/object_mesh.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "data_refs/spectra.h"
-#include "render/gl/color_reflectance.h"
+#include "render/gl/terrain/color_reflectance.h"
 
 namespace skyfit {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The patches that are left out change no pixel: of the blocks of a view the visible patches give
 // the same depth and colour as all of them.
-#include "render/gl/patches.h"
+#include "render/gl/terrain/patches.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <limits>
 #include <set>
 
-#include "render/gl/gbuffer.h"
-#include "render/gl/terrain_pass.h"
-#include "render/gl/terrain_view.h"
+#include "render/gl/passes/gbuffer.h"
+#include "render/gl/terrain/terrain_pass.h"
+#include "render/gl/terrain/terrain_view.h"
 #include "tests/render/gl_fixture.h"
 #include "tests/render/terrain_fixture.h"
 

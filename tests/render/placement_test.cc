@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras at places: what a point on a sphere is seen at, against closed forms, and what lies
 // between two cameras.
-#include "render/placement.h"
+#include "render/scene/placement.h"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 // A map of the planet is a smooth function on the sphere: every direction finds its texel, there is
 // no seam at the edges of the picture, a ramp stays a ramp, and coarser is smoother. What is no map
 // is named in one line.
-#include "render/gl/planet_map.h"
+#include "render/gl/terrain/planet_map.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blocks that a view chooses cover the sphere once, differ from their neighbours by one level at
 // most, and culling leaves out no block of which a vertex can be seen.
-#include "render/gl/planet_tree.h"
+#include "render/gl/terrain/planet_tree.h"
 
 #include <gtest/gtest.h>
 

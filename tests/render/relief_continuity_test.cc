@@ -6,8 +6,8 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-#include "render/gl/noise.h"
-#include "render/gl/relief.h"
+#include "render/gl/terrain/noise.h"
+#include "render/gl/terrain/relief.h"
 
 namespace skyfit {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sequences: what a file says, what it leaves out, what lies between its keyframes, and the line
 // that an error names.
-#include "render/sequence.h"
+#include "render/sequence/sequence.h"
 
 #include <gmock/gmock.h>
 

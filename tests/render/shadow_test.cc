@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "model/table_lookup.h"
+#include "model/tables/table_lookup.h"
 #include "tests/render/mesh_fixture.h"
 
 namespace skyfit {

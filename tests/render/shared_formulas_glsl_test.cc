@@ -7,8 +7,8 @@
 #include <map>
 
 #include "model/shared/shared.h"
-#include "model/table_lookup.h"
-#include "render/gl/atmosphere_pass.h"
+#include "model/tables/table_lookup.h"
+#include "render/gl/atmosphere/atmosphere_pass.h"
 #include "tests/render/gl_fixture.h"
 
 namespace skyfit {

@@ -8,9 +8,9 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "model/preset.h"
-#include "model/slant_column.h"
-#include "model/table_lookup.h"
+#include "model/atmosphere/preset.h"
+#include "model/atmosphere/slant_column.h"
+#include "model/tables/table_lookup.h"
 
 namespace skyfit {
 namespace {

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "render/gl/block_mesh.h"
-#include "render/gl/planet_tree.h"
-#include "render/gl/relief.h"
+#include "render/gl/terrain/block_mesh.h"
+#include "render/gl/terrain/planet_tree.h"
+#include "render/gl/terrain/relief.h"
 
 namespace skyfit {
 

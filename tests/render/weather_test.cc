@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weather over a sequence: tables are computed once per step, shared where nothing changes, and
 // interpolated in between.
-#include "render/weather.h"
+#include "render/sequence/weather.h"
 
 #include <gmock/gmock.h>
 

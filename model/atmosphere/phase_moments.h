@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The aerosol's phase function and its Legendre moments, for any scalar.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "model/atmosphere/atmosphere.h"
+#include "model/shared/shared.h"
+
+namespace skyfit {
+
+// 1/sr at the cosine nu of the scattering angle.
+template <class T>
+T aerosol_phase(const AerosolPhase<T>& phase, double nu) {
+  Shared<T> shared;
+  switch (phase.type) {
+    case PhaseType::kTwoLobe:
+      return shared.two_lobe_phase(static_cast<int>(phase.lobe), phase.g1, phase.g2, phase.weight,
+                                   T(nu));
+    case PhaseType::kTabulated:
+      return T(phase.table->phase(std::acos(std::clamp(nu, -1.0, 1.0))));
+    default:
+      return shared.lobe_phase(static_cast<int>(phase.type), phase.g, T(nu));
+  }
+}
+
+// Moments chi_l, l = 0 .. count - 1: P(nu) = sum_l (2 l + 1) / (4 pi) chi_l P_l(nu), chi_0 = 1.
+
+template <class T>
+std::vector<T> henyey_greenstein_moments(const T& g, int count) {
+  std::vector<T> chi(count, T(1.0));
+  for (int l = 1; l < count; ++l) chi[l] = chi[l - 1] * g;
+  return chi;
+}
+
+// Moments of nu f(nu) from those of f, one fewer: (2 l + 1) nu P_l = (l + 1) P_{l+1} + l P_{l-1}.
+template <class T>
+std::vector<T> moments_times_cosine(const std::vector<T>& chi) {
+  std::vector<T> r(chi.size() - 1, T(0.0));
+  for (std::size_t l = 0; l < r.size(); ++l) {
+    const double n = static_cast<double>(l);
+    r[l] = chi[l + 1] * ((n + 1) / (2 * n + 1));
+    if (l > 0) r[l] += chi[l - 1] * (n / (2 * n + 1));
+  }
+  return r;
+}
+
+// Cornette-Shanks is Henyey-Greenstein times 3/2 (1 + nu^2) / (2 + g^2).
+template <class T>
+std::vector<T> cornette_shanks_moments(const T& g, int count) {
+  std::vector<T> chi = henyey_greenstein_moments(g, count + 2);
+  const std::vector<T> squared = moments_times_cosine(moments_times_cosine(chi));
+  const T scale = T(1.5) / (T(2.0) + g * g);
+  chi.resize(count);
+  for (int l = 0; l < count; ++l) chi[l] = scale * (chi[l] + squared[l]);
+  return chi;
+}
+
+template <class T>
+std::vector<T> lobe_moments(PhaseType type, const T& g, int count) {
+  return type == PhaseType::kHenyeyGreenstein ? henyey_greenstein_moments(g, count)
+                                              : cornette_shanks_moments(g, count);
+}
+
+template <class T>
+std::vector<T> aerosol_phase_moments(const AerosolPhase<T>& phase, int count) {
+  if (phase.type == PhaseType::kTabulated) {
+    const std::vector<double> chi = phase.table->moments(count);
+    return std::vector<T>(chi.begin(), chi.end());
+  }
+  if (phase.type != PhaseType::kTwoLobe) return lobe_moments(phase.type, phase.g, count);
+  std::vector<T> chi = lobe_moments(phase.lobe, phase.g1, count);
+  const std::vector<T> second = lobe_moments(phase.lobe, phase.g2, count);
+  for (int l = 0; l < count; ++l)
+    chi[l] = phase.weight * chi[l] + (T(1.0) - phase.weight) * second[l];
+  return chi;
+}
+
+// Of the air: chi_0 .. chi_2, the others are 0.
+inline std::array<double, 3> rayleigh_moments(double depolarisation) {
+  return {1.0, 0.0, Shared<double>{}.rayleigh_second_moment(depolarisation)};
+}
+
+}  // namespace skyfit

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/atmosphere/tabulated_phase.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "model/numerics/gauss.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// 2 pi integral P(angle) P_l(cos angle) sin(angle) d angle of the piecewise exponential P.
+std::vector<double> legendre_integrals(const std::vector<double>& angle,
+                                       const std::vector<double>& log_phase, int count) {
+  static const GaussRule kRule = gauss_legendre(8);
+  std::vector<double> integral(static_cast<std::size_t>(count), 0.0);
+  for (std::size_t i = 0; i + 1 < angle.size(); ++i) {
+    const double length = angle[i + 1] - angle[i], rise = log_phase[i + 1] - log_phase[i];
+    // At most a radian of the fastest polynomial and a factor of e^4 for the rule's 8 nodes.
+    const double parts = std::ceil(std::max(length * count, std::abs(rise) / 4));
+    for (double part = 0; part < parts; ++part) {
+      for (std::size_t k = 0; k < kRule.node.size(); ++k) {
+        const double share = (part + kRule.node[k]) / parts;
+        const double theta = angle[i] + share * length, nu = std::cos(theta);
+        const double weight = 2 * kPi * kRule.weight[k] * length / parts * std::sin(theta) *
+                              std::exp(log_phase[i] + share * rise);
+        double before = 0, legendre = 1;  // P_{l-1}, P_l by Bonnet's recursion
+        for (int l = 0; l < count; ++l) {
+          integral[static_cast<std::size_t>(l)] += weight * legendre;
+          before = std::exchange(legendre, ((2 * l + 1) * nu * legendre - l * before) / (l + 1));
+        }
+      }
+    }
+  }
+  return integral;
+}
+
+std::vector<double> radians(const std::vector<double>& degrees) {
+  std::vector<double> result;
+  for (const double angle : degrees) result.push_back(angle * (kPi / 180));
+  return result;
+}
+
+std::vector<double> logarithms(const std::vector<double>& values) {
+  std::vector<double> result;
+  for (const double value : values) result.push_back(std::log(value));
+  return result;
+}
+
+std::optional<TableFault> phase_fault(const TwoColumns& table) {
+  constexpr double kLargestCorrection = 0.05;
+  if (auto fault = ascending_fault(kPhaseFormat, table, 0)) return fault;
+  if (table.x.back() != 180) return TableFault{0, table.x.size() - 1, {}, "180, the last"};
+  for (std::size_t i = 0; i < table.y.size(); ++i) {
+    if (!(table.y[i] > 0) || !std::isfinite(table.y[i])) {
+      return TableFault{1, i, {}, "a phase function > 0"};
+    }
+  }
+  const double integral = legendre_integrals(radians(table.x), logarithms(table.y), 1).front();
+  if (!(std::abs(integral - 1) <= kLargestCorrection)) {
+    return TableFault{
+        1, {}, fmt::format("integral over the sphere {:.6g}", integral), "1 within 5 %"};
+  }
+  return {};
+}
+
+}  // namespace
+
+const TableFormat kPhaseFormat{{"scattering_angle_deg", "phase_per_sr"}, phase_fault};
+
+TabulatedPhase::TabulatedPhase(TwoColumns table) : table_(std::move(table)) {
+  expect_no_fault(kPhaseFormat, table_);
+  angle_ = radians(table_.x);
+  log_phase_ = logarithms(table_.y);
+  const double excess = std::log(moments(1).front());
+  for (double& value : log_phase_) value -= excess;
+}
+
+double TabulatedPhase::phase(double angle) const {
+  const auto above = std::upper_bound(angle_.begin() + 1, angle_.end() - 1, angle);
+  const auto i = static_cast<std::size_t>(above - angle_.begin());
+  const double share = std::clamp((angle - angle_[i - 1]) / (angle_[i] - angle_[i - 1]), 0.0, 1.0);
+  return std::exp(log_phase_[i - 1] + share * (log_phase_[i] - log_phase_[i - 1]));
+}
+
+std::vector<double> TabulatedPhase::moments(int count) const {
+  return legendre_integrals(angle_, log_phase_, count);
+}
+
+}  // namespace skyfit

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/geometry/sky_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/shared/shared.h"
+
+namespace skyfit {
+
+SunAlongRay::SunAlongRay(double bottom_radius, const ViewRay& ray, const SkyPoint& point)
+    : bottom_radius_(bottom_radius), ray_(ray) {
+  const double mu = std::cos(point.view_zenith), mu_s = std::cos(point.sun_zenith);
+  nu_ = mu * mu_s +
+        std::sin(point.view_zenith) * std::sin(point.sun_zenith) * std::cos(point.relative_azimuth);
+  nu_ = std::clamp(nu_, -1.0, 1.0);
+  radius_mu_s_ = (bottom_radius + point.altitude_m) * mu_s + ray.entry_distance * nu_;
+}
+
+double SunAlongRay::mu_s(const RayPoint& p) const {
+  return std::clamp((radius_mu_s_ + p.s * nu_) / (bottom_radius_ + p.height), -1.0, 1.0);
+}
+
+double SunAlongRay::cos_azimuth(const RayPoint& p, double mu_s) const {
+  const double sines = std::sqrt((1 - p.mu * p.mu) * (1 - mu_s * mu_s));
+  constexpr double kVertical = 1e-9;  // there the series has no azimuth left: Lambda_lm ~ sin^m
+  if (sines < kVertical) return 1;
+  return std::clamp((nu_ - p.mu * mu_s) / sines, -1.0, 1.0);
+}
+
+bool SunAlongRay::lit(const RayPoint& p, double mu_s) const {
+  Shared<double> shared;
+  return mu_s >= 0 || shared.sphere_discriminant(bottom_radius_, p.height, mu_s, 0) < 0;
+}
+
+// The shadow is the cylinder |p|^2 - (p . sun)^2 = R^2 behind the planet:
+// (r0^2 - a^2 - R^2) + 2 s (r0 mu0 - a nu) + s^2 (1 - nu^2) = 0 with a = r0 mu_s0.
+std::vector<double> SunAlongRay::shadow_edges() const {
+  const double h = ray_.entry_height, a = radius_mu_s_;
+  const double c = h * (2 * bottom_radius_ + h) - a * a;
+  const double b = (bottom_radius_ + h) * ray_.entry_mu - a * nu_;
+  const double q = 1 - nu_ * nu_;
+  std::vector<double> edges;
+  auto keep = [&](double s) {
+    if (s > 0 && s < ray_.length && a + s * nu_ < 0) edges.push_back(s);
+  };
+  constexpr double kParallel = 1e-14;
+  const double discriminant = b * b - q * c;
+  if (q < kParallel) {
+    if (b != 0) keep(-0.5 * c / b);
+  } else if (discriminant > 0) {
+    const double root = std::sqrt(discriminant);
+    keep((-b - root) / q);
+    keep((-b + root) / q);
+  }
+  return edges;
+}
+
+}  // namespace skyfit

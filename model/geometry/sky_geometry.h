@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sun as seen from the points of a view ray. Lengths in metres.
+#pragma once
+
+#include <vector>
+
+#include "model/geometry/ray.h"
+#include "model/sky_model.h"
+
+namespace skyfit {
+
+class SunAlongRay {
+ public:
+  SunAlongRay(double bottom_radius, const ViewRay& ray, const SkyPoint& point);
+
+  double nu() const { return nu_; }  // cosine of the scattering angle
+  // Cosine of the local sun zenith.
+  double mu_s(const RayPoint& p) const;
+  // Cosine of the azimuth between the view and the sun about the local zenith; 1 where either is
+  // vertical.
+  double cos_azimuth(const RayPoint& p, double mu_s) const;
+  // Whether the planet lets the sun through.
+  bool lit(const RayPoint& p, double mu_s) const;
+  // Where the ray crosses the edge of the planet's shadow, of 0 .. 2 places inside the ray.
+  std::vector<double> shadow_edges() const;
+
+ private:
+  double bottom_radius_;
+  const ViewRay& ray_;
+  double nu_;
+  double radius_mu_s_;  // r mu_s at the ray's entry
+};
+
+}  // namespace skyfit

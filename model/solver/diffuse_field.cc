@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/solver/diffuse_field.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "model/atmosphere/parameters.h"
+#include "model/solver/mode_pack.h"
+
+namespace skyfit {
+
+std::vector<double> level_heights(double top, int count) {
+  std::vector<double> h(count);
+  for (int i = 0; i < count; ++i) {
+    const double x = static_cast<double>(i) / (count - 1);
+    h[i] = top * x * x * x;
+  }
+  return h;
+}
+
+double level_coordinate(double height, double top, int count) {
+  return std::cbrt(std::clamp(height / top, 0.0, 1.0)) * (count - 1);
+}
+
+LevelStencil level_stencil(double x, int levels) {
+  const int below = static_cast<int>(x);
+  if (x == below) return {below, {1.0}};
+  LevelStencil stencil{std::clamp(below - 1, 0, levels - 4), std::vector<double>(4)};
+  const double node_x[4] = {0, 1, 2, 3};
+  lagrange_weights(node_x, 4, x - stencil.first, stencil.share.data());
+  return stencil;
+}
+
+void normalised_legendre(int m, int count, double mu, double* out) {
+  const double sine = std::sqrt(std::max(1 - mu * mu, 0.0));
+  double diagonal = std::sqrt(0.25 / std::numbers::pi);
+  for (int k = 1; k <= m; ++k) diagonal *= sine * std::sqrt((2.0 * k + 1) / (2.0 * k));
+  double before = 0, current = diagonal;
+  const double m2 = static_cast<double>(m) * m;
+  for (int l = m; l < count; ++l) {
+    out[l - m] = current;
+    const double n = l + 1.0, l2 = static_cast<double>(l) * l;
+    const double next = std::sqrt((4 * n * n - 1) / (n * n - m2)) *
+                        (mu * current - std::sqrt((l2 - m2) / (4 * l2 - 1)) * before);
+    before = current;
+    current =
+        l == 0 ? std::sqrt(3.0) * mu * diagonal : next;  // at l = 0 the second root has no meaning
+  }
+}
+
+namespace {
+
+ModeBasis mode_basis(const RayFan& fan, const std::vector<double>& sun_mu, int m, int moments) {
+  const int own = moments - m;
+  ModeBasis basis;
+  basis.at_rays.resize(static_cast<std::size_t>(fan.levels()) * fan.most() * own);
+  for (int i = 0; i < fan.levels(); ++i) {
+    for (int k = 0; k < fan.count(i); ++k)
+      normalised_legendre(m, moments, fan.mu(i, k), &basis.at_rays[(i * fan.most() + k) * own]);
+  }
+  basis.at_suns.resize(sun_mu.size() * own);
+  for (std::size_t j = 0; j < sun_mu.size(); ++j)
+    normalised_legendre(m, moments, sun_mu[j], &basis.at_suns[j * own]);
+  return basis;
+}
+
+// Modes that matter to the field of one wavelength: the moments of order m and above of light that
+// the aerosol has scattered once, scattered again, as a share of all light.
+template <int N>
+int mode_count(const Optics<N>& optics, int moments, double tolerance) {
+  const int least = std::min(moments, static_cast<int>(optics.air_moments.size()));
+  const double aerosol = optics.aerosol_scattering_cut.v,
+               share = aerosol / std::max(optics.air.v + aerosol, 1e-300);
+  for (int m = least; m < moments; ++m) {
+    double rest = 0;
+    for (int l = m; l < moments; ++l)
+      rest = std::max(rest, share * optics.moments[l].v * optics.moments[l].v);
+    if (rest < tolerance) return m;
+  }
+  return moments;
+}
+
+void unpack(const ModePack& pack, int lane, int m, DiffuseField& field) {
+  LargeArray& out = field.moments[m];
+  out.reserve(field.shape.levels * field.shape.level(m));
+  for (int i = 0; i < field.shape.levels; ++i) pack.append_moments(lane, i, out);
+  if (m == 0) pack.append_ground_irradiance(lane, field.ground_irradiance);
+}
+
+// Steps of the iteration that couples the suns; a third changes twilight by less than 0.1 % down to
+// 92 deg, 1 % to 96.
+constexpr int kCouplings = 2;
+
+}  // namespace
+
+int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
+  constexpr double kThin = 0.02;  // top height over radius
+  if (shells.top > kThin * shells.bottom_radius) return 0;
+  constexpr double kLow = 86 * std::numbers::pi / 180;
+  int i = 0;
+  while (grid.zenith(i) < kLow) ++i;
+  return i;
+}
+
+SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, const RayFan& fan,
+                         int first) {
+  SunCoupling c;
+  for (int i = 0; i < grid.size(); ++i) {
+    if (solved[i] < 0) continue;
+    c.coupled.push_back(i >= first);
+    SunCoupling::Sun sun;
+    if (i >= first) {
+      sun.at_zenith = grid.zenith(i) == 0;
+      sun.cotangent = sun.at_zenith ? 0 : 1 / std::tan(grid.zenith(i));
+      sun.slope = grid.slope(i);
+      for (int& k : sun.slope.index) k = solved[k];
+    }
+    c.suns.push_back(sun);
+  }
+  for (int i = 0; i + 1 < fan.levels(); ++i) {
+    for (int k = 0; k < fan.most(); ++k) {
+      // The difference of the ray's zenith angles at both ends.
+      const double low = fan.mu(i, k), high = fan.mu(i + 1, k);
+      c.step.push_back(k < fan.count(i) ? std::asin(std::sqrt(1 - low * low) * high -
+                                                    low * std::sqrt(1 - high * high))
+                                        : 0.0);
+    }
+  }
+  return c;
+}
+
+template <int N>
+std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
+                                               std::span<const Optics<N>> optics, int slices,
+                                               const std::vector<double>& heights,
+                                               const std::vector<double>& sun_mu, const RayFan& fan,
+                                               const SunCoupling& coupling,
+                                               const DiffuseOptions& options) {
+  const int waves = static_cast<int>(optics.size()), moments = options.moments;
+  const FieldShape shape{static_cast<int>(heights.size()), moments, static_cast<int>(sun_mu.size()),
+                         slices};
+  std::vector<DiffuseField> fields(waves);
+  int modes = 0;
+  for (const Optics<N>& o : optics)
+    modes = std::max(modes, mode_count(o, moments, options.tolerance));
+  for (DiffuseField& field : fields) {
+    field.shape = shape;
+    field.moments.resize(modes);
+  }
+  std::vector<ModeBasis> bases(modes);
+  tbb::parallel_for(0, modes, [&](int m) { bases[m] = mode_basis(fan, sun_mu, m, moments); });
+  const FieldColumns columns = field_columns(shells, heights, sun_mu, fan);
+  // As many wavelengths at a time as there are lanes; with few, several modes share the lanes.
+  constexpr int kLanes = static_cast<int>(lanes::kLanes);
+  for (int first = 0; first < waves; first += kLanes) {
+    const int width = std::min(kLanes, waves - first), at_once = kLanes / width;
+    std::array<const Optics<N>*, lanes::kLanes> lane_optics;
+    for (int k = 0; k < kLanes; ++k) lane_optics[k] = &optics[first + k % width];
+    const LayerMedium medium = layer_medium<N>(lane_optics, static_cast<std::size_t>(slices - 1),
+                                               heights, sun_mu, columns, fan, moments);
+    const auto pack_of = [&](int p) {
+      ModePack::Modes lane_modes;
+      for (int k = 0; k < kLanes; ++k)
+        lane_modes[k] = std::min(p * at_once + std::min(k / width, at_once - 1), modes - 1);
+      return ModePack(fan, medium, bases, lane_modes);
+    };
+    const auto unpack_all = [&](const ModePack& pack, int p) {
+      for (int k = 0; k < at_once * width && p * at_once + k / width < modes; ++k)
+        unpack(pack, k, p * at_once + k / width, fields[first + k % width]);
+    };
+    const int count = (modes + at_once - 1) / at_once;
+    const bool coupled = std::ranges::count(coupling.coupled, 1) > 0 && options.order == 0;
+    std::vector<std::optional<ModePack>> packs(coupled ? count : 0);
+    tbb::parallel_for(0, count, [&](int p) {
+      ModePack pack = pack_of(p);
+      if (options.order == 0) pack.solve();
+      for (int k = 0; k < options.order; ++k) pack.advance();
+      if (coupled) {
+        packs[p] = std::move(pack);
+      } else {
+        unpack_all(pack, p);
+      }
+    });
+    for (int k = 0; coupled && k < kCouplings; ++k) {
+      tbb::parallel_for(0, count, [&](int p) { packs[p]->prepare_coupling(coupling); });
+      tbb::parallel_for(0, count,
+                        [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });
+    }
+    if (coupled) tbb::parallel_for(0, count, [&](int p) { unpack_all(*packs[p], p); });
+  }
+  return fields;
+}
+
+template std::vector<DiffuseField> solve_diffuse_fields<0>(
+    const Shells&, std::span<const Optics<0>>, int, const std::vector<double>&,
+    const std::vector<double>&, const RayFan&, const SunCoupling&, const DiffuseOptions&);
+template std::vector<DiffuseField> solve_diffuse_fields<kParameterCount>(
+    const Shells&, std::span<const Optics<kParameterCount>>, int, const std::vector<double>&,
+    const std::vector<double>&, const RayFan&, const SunCoupling&, const DiffuseOptions&);
+
+}  // namespace skyfit

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The diffuse field of the atmosphere for a list of local sun angles, in spherical shells: rays are
+// straight lines through them, the horizon dips with height, the sun's beam is that of each level.
+// Azimuth is a Fourier series, zenith a fan of rays (model/solver/ray_fan.h), each mode is solved
+// directly (model/solver/mode_pack.h). At first the sun turns with the local zenith, as if the sky
+// were the same everywhere on the planet; what neighbouring places lend each other by having
+// another sun then couples modes and suns, in two steps of an iteration, for the suns for which it
+// matters. The field's Legendre moments are the source of multiple scattering; the caller
+// integrates it along view rays at the local sun.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/solver/mode_pack.h"
+#include "model/solver/sun_grid.h"
+
+namespace skyfit {
+
+// Heights of the levels, ascending from 0 to top, h_i = top (i / (count - 1))^3.
+std::vector<double> level_heights(double top, int count);
+// The inverse: the level, or a place between two levels, of a height.
+double level_coordinate(double height, double top, int count);
+
+// What a quantity of the levels is between them: Lagrange's cubic in the coordinate x through four
+// levels; on a level that level's.
+struct LevelStencil {
+  int first;  // of the levels
+  std::vector<double> share;
+};
+LevelStencil level_stencil(double x, int levels);
+
+// Layout of a field: for each mode m, [level][l - m][sun][slice], slice fastest; slice 0 is the
+// value, slice 1 + p the derivative by parameter p.
+struct FieldShape {
+  int levels = 0, moments = 0, suns = 0, slices = 0;
+  std::size_t row() const { return static_cast<std::size_t>(slices) * suns; }
+  std::size_t level(int m) const { return row() * static_cast<std::size_t>(moments - m); }
+};
+
+struct DiffuseField {
+  FieldShape shape;
+  // moments[m] holds 2 pi integral Lambda_lm I_m dmu, I = sum_m (2 - delta_m0) I_m cos m phi, mu
+  // and phi those of the direction in which one looks; one entry per mode that matters.
+  std::vector<LargeArray> moments;
+  LargeArray ground_irradiance;  // diffuse, on the ground, [sun][slice]
+};
+
+struct DiffuseOptions {
+  int moments = 16;  // of the phase functions, as many as the optics keep
+  // A mode is left out when a bound on what it adds to the field is below this share of mode 0.
+  double tolerance = 3e-3;
+  // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
+  int order = 0;
+};
+
+// The first sun of the grid that has light from neighbouring places under their own sun. On a
+// planet whose atmosphere is thin against its radius, as the Earth's, that matters for low suns
+// only (below 0.15 % of the radiance to 80 deg, 0.7 % to 85 deg).
+int first_coupled_sun(const SunGrid& grid, const Shells& shells);
+
+// The coupling of the suns of `grid` that are solved (solved[i] >= 0 is the place of grid node i
+// among them), from the node `first` on; it and those after it, and the two before it, must be
+// solved.
+SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, const RayFan& fan,
+                         int first);
+
+// The fields of several wavelengths, in parallel over wavelengths and modes on the calling arena's
+// threads; results do not depend on their number.
+template <int N>
+std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
+                                               std::span<const Optics<N>> optics, int slices,
+                                               const std::vector<double>& heights,
+                                               const std::vector<double>& sun_mu, const RayFan& fan,
+                                               const SunCoupling& coupling,
+                                               const DiffuseOptions& options);
+
+// Lambda_lm = sqrt((2 l + 1) / (4 pi) (l - m)! / (l + m)!) P_lm for l = m .. count - 1, written to
+// out[0 .. count - m), so that a phase function with moments chi_l is
+//   P(v . w) = sum_m (2 - delta_m0) cos m(phi_v - phi_w) sum_l chi_l Lambda_lm(mu_v)
+//   Lambda_lm(mu_w).
+void normalised_legendre(int m, int count, double mu, double* out);
+
+}  // namespace skyfit

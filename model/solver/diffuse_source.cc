@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/solver/diffuse_source.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "model/numerics/kernels.h"
+#include "model/tables/table_kernels.h"
+
+namespace skyfit {
+namespace {
+
+constexpr int kZeniths = 91;  // of the table: even steps of the view zenith
+constexpr std::size_t kModes = DiffuseSource::kPowers * DiffuseSource::kBlocks;
+
+// Coefficients of Chebyshev's polynomials: cos m phi = sum_k row[m][k] cos^k phi.
+using ChebyshevRows = std::array<std::array<double, kModes>, kModes>;
+ChebyshevRows chebyshev_rows() {
+  ChebyshevRows row{};
+  row[0][0] = 1;
+  row[1][1] = 1;
+  for (std::size_t m = 2; m < row.size(); ++m) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      row[m][k] = (k > 0 ? 2 * row[m - 1][k - 1] : 0) - row[m - 2][k];
+  }
+  return row;
+}
+
+}  // namespace
+
+DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
+                             const std::vector<double>& heights) {
+  std::vector<double> sun_mu;
+  for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
+  std::vector<int> all(sun_mu.size());
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<double> levels = level_heights(shells.top, kSourceOptions.levels);
+  const RayFan fan(shells.bottom_radius, levels, kSourceOptions.streams);
+  const std::vector<DiffuseField> fields = solve_diffuse_fields<0>(
+      shells, optics, 1, levels, sun_mu, fan,
+      sun_coupling(suns_, all, fan, first_coupled_sun(suns_, shells)), {kSourceOptions.moments});
+  const int count = static_cast<int>(heights.size());
+  air_.resize(index(count, 0, 1));
+  aerosol_.resize(index(count, 0, kBlocks));
+  tbb::parallel_for(0, count, [&](int i) {
+    const double level =
+        level_coordinate(heights[static_cast<std::size_t>(i)], shells.top, kSourceOptions.levels);
+    tabulate(i, level, optics, fields);
+  });
+}
+
+std::size_t DiffuseSource::index(int height, int zenith, int blocks) const {
+  return (static_cast<std::size_t>(height) * kZeniths + zenith) * (suns_.size() + 1) * blocks *
+         kBlock;
+}
+
+// source(phi) = sum_m (2 - delta_m0) cos(m phi) sum_l chi_l Lambda_lm(mu) M_lm
+void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
+                             const std::vector<DiffuseField>& fields) {
+  static const ChebyshevRows kRows = chebyshev_rows();
+  const auto suns = static_cast<std::size_t>(suns_.size());
+  const LevelStencil levels = level_stencil(level, kSourceOptions.levels);
+  std::vector<double> lambda(static_cast<std::size_t>(kSourceOptions.moments)), series(suns);
+  auto add = [&](float* out, int blocks, std::size_t wavelength, std::size_t m) {
+    for (std::size_t p = m % 2; p <= m; p += 2) {
+      const double factor = (m == 0 ? 1 : 2) * kRows[m][p];
+      float* to = out + p / kPowers * kBlock + wavelength * kPowers + p % kPowers;
+      to[0] += static_cast<float>((p % 2 == 0 ? factor : -factor) * series[1]);
+      for (std::size_t j = 0; j < suns; ++j)
+        to[(j + 1) * blocks * kBlock] += static_cast<float>(factor * series[j]);
+    }
+  };
+  for (std::size_t m = 0; m < kModes; ++m) {
+    std::array<std::vector<double>, 4> moments;  // [l - m][sun]
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      if (m >= fields[k].moments.size()) continue;
+      const std::size_t size = fields[k].shape.level(static_cast<int>(m));
+      moments[k].resize(size);
+      for (std::size_t i = 0; i < levels.share.size(); ++i)
+        kernels::add_scaled(levels.share[i],
+                            fields[k].moments[m].data() + (levels.first + i) * size,
+                            moments[k].data(), size);
+    }
+    for (int i = 0; i < kZeniths; ++i) {
+      normalised_legendre(static_cast<int>(m), kSourceOptions.moments,
+                          std::cos(std::numbers::pi * i / (kZeniths - 1)), lambda.data());
+      for (std::size_t k = 0; k < fields.size(); ++k) {
+        if (moments[k].empty()) continue;
+        const std::size_t rows = lambda.size() - m;
+        std::fill(series.begin(), series.end(), 0.0);
+        for (std::size_t r = 0; r < rows && m + r < optics[k].air_moments.size(); ++r)
+          kernels::add_scaled(lambda[r] * optics[k].air_moments[m + r], &moments[k][r * suns],
+                              series.data(), suns);
+        if (m < optics[k].air_moments.size()) add(&air_[index(height, i, 1)], 1, k, m);
+        std::fill(series.begin(), series.end(), 0.0);
+        for (std::size_t r = 0; r < rows; ++r)
+          kernels::add_scaled(lambda[r] * optics[k].moments[m + r].v, &moments[k][r * suns],
+                              series.data(), suns);
+        add(&aerosol_[index(height, i, kBlocks)], kBlocks, k, m);
+      }
+    }
+  }
+}
+
+void DiffuseSource::slice(int height, double mu, const std::array<double, 4>& air,
+                          const std::array<double, 4>& aerosol, std::vector<float>& out) const {
+  const double x = std::acos(std::clamp(mu, -1.0, 1.0)) / std::numbers::pi * (kZeniths - 1);
+  const int column = std::min(static_cast<int>(x), kZeniths - 2);
+  const auto part = static_cast<float>(x - column);
+  std::array<float, 4> a, b;
+  for (std::size_t k = 0; k < 4; ++k) {
+    a[k] = static_cast<float>(air[k]);
+    b[k] = static_cast<float>(aerosol[k]);
+  }
+  out.resize(static_cast<std::size_t>(suns_.size() + 1) * kBlocks * kBlock);
+  kernels::mix_sources(&air_[index(height, column, 1)], &air_[index(height, column + 1, 1)],
+                       &aerosol_[index(height, column, kBlocks)],
+                       &aerosol_[index(height, column + 1, kBlocks)], part, a.data(), b.data(),
+                       static_cast<std::size_t>(suns_.size() + 1), kBlocks, out.data());
+}
+
+}  // namespace skyfit

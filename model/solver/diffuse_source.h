@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The source of multiple scattering as a table: light that has been scattered or reflected before
+// and is scattered here toward the eye, per unit of scattering coefficient (1/sr), of the air and
+// of the aerosol, at four wavelengths. From the diffuse field of model/solver/diffuse_field.h,
+// whose Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine.
+// Levels and suns of the field, and what lies between them, are those of the reference model.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "model/solver/diffuse_field.h"
+#include "model/solver/reference_model.h"
+#include "model/solver/sun_grid.h"
+
+namespace skyfit {
+
+using NodeOptics = std::array<Optics<0>, 4>;
+
+// Streams and moments are those of the reference model, so that the two agree; optics_at() wants to
+// know the moments.
+inline constexpr ReferenceOptions kSourceOptions{};
+
+class DiffuseSource {
+ public:
+  static constexpr int kPowers = 4;  // of the cosine in a block: 1, c, c^2, c^3
+  // Block b holds the powers 4 b .. 4 b + 3: modes from 12 on change no sky by 0.1 %.
+  static constexpr int kBlocks = 3;
+  // Floats of one block: [wavelength][power].
+  static constexpr std::size_t kBlock = 4 * kPowers;
+
+  // Kept at `heights`, which ascend from 0 to the top.
+  DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& heights);
+
+  const SunGrid& suns() const { return suns_; }
+
+  // The source at one of the heights toward a view direction (mu is that of the view ray), with a
+  // factor per wavelength for air and aerosol, written to out[1 + sun][block][wavelength][power]
+  // for all suns of the grid; out[0] is the second sun seen across the zenith, at the opposite
+  // azimuth.
+  void slice(int height, double mu, const std::array<double, 4>& air,
+             const std::array<double, 4>& aerosol, std::vector<float>& out) const;
+
+ private:
+  void tabulate(int height, double level, const NodeOptics& optics,
+                const std::vector<DiffuseField>& fields);
+  std::size_t index(int height, int zenith, int blocks) const;
+
+  SunGrid suns_;
+  std::vector<float> air_, aerosol_;  // [height][zenith] as slice(); air: one block
+};
+
+}  // namespace skyfit

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the air does to light between the levels of the diffuse field, for eight wavelengths (lanes)
+// at a time: sources per moment, transmittances, the sun's beam, and their derivatives.
+//
+// Along a ray the diffuse source J is linear in optical depth; x is that of the layer:
+//   I = t I_far + near J_near + far J_far, t = exp(-x), near = 1 - (1 - t) / x, far = (1 - t) / x -
+//   t.
+// The source of the beam is linear in optical depth times the beam, which falls exponentially:
+//   I = near_b q_near + far_b q_far, near_b = x T_near A(y), far_b = x T_near B(y),
+//   y = x + log(T_near / T_far), A = integral (1 - u) exp(-y u) du, B = integral u exp(-y u) du,
+// u = 0 .. 1, T the beam's transmittance at both ends; at the edge of the planet's shadow, where
+// one is 0, the beam is taken as linear.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "model/atmosphere/optics.h"
+#include "model/geometry/ray.h"
+#include "model/numerics/lane_blocks.h"
+#include "model/solver/ray_fan.h"
+
+namespace skyfit {
+
+// The beam's weights for the rays of one layer that look one way, [ray][sun], and how they change
+// with the layer's depth x and the sun's depths at the near and the far end.
+struct BeamWeights {
+  Lanes near, far;
+  std::array<Lanes, 3> near_slope, far_slope;  // empty without derivatives
+};
+
+struct LayerMedium {
+  int moments = 0;
+  std::size_t suns = 0, parameters = 0;
+  std::vector<double> sun_mu;
+  // Source per extinction of the moment l at a level: aerosol chi_l + air chi_air_l.
+  Lanes chi, chi_air;                         // [l]
+  std::vector<std::size_t> phase_parameters;  // those that change chi
+  std::vector<Lanes> chi_tangent;             // per phase parameter: [l]
+  // Per level.
+  std::vector<Lanes> aerosol, air;                  // one element: shares of the extinction
+  std::vector<Lanes> aerosol_tangent, air_tangent;  // [parameter]
+  std::vector<Lanes> sun_depth_tangent;             // [sun][parameter]
+  Lanes ground_beam;                                // [sun], transmittance
+  Lanes ground_albedo, ground_albedo_tangent;
+  // Per layer.
+  struct Layer {
+    Lanes t, near, far, near_slope, far_slope;  // [ray]
+    Lanes depth_tangent;                        // [ray][parameter]
+    BeamWeights down, up;  // of rays that look up and see light that travels down; the others
+  };
+  std::vector<Layer> layers;
+};
+
+// Columns to the top of the fan's rays and of the suns at every level; they serve all wavelengths.
+struct FieldColumns {
+  std::vector<PathColumns> rays;  // [level][ray], upward
+  std::vector<PathColumns> suns;  // [level][sun]
+  std::vector<char> lit;          // [level][sun]: the planet is not in the way
+};
+FieldColumns field_columns(const Shells& shells, const std::vector<double>& heights,
+                           const std::vector<double>& sun_mu, const RayFan& fan);
+
+// `parameters` derivatives, the first ones of Dual<N>. The optics keep `moments` moments.
+template <int N>
+LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& optics,
+                         std::size_t parameters, const std::vector<double>& heights,
+                         const std::vector<double>& sun_mu, const FieldColumns& columns,
+                         const RayFan& fan, int moments);
+
+}  // namespace skyfit

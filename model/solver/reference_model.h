@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// `reference`: the yardstick. Single scattering by quadrature in spherical geometry with the true
+// phase function; multiple scattering from the diffuse field (model/solver/diffuse_field.h), solved
+// in spherical shells, its source integrated along the spherical view ray at the local sun; Lambert
+// ground, ozone. Unpolarised, no refraction. README.md, Accuracy, states the error against Monte
+// Carlo.
+#pragma once
+
+#include "model/sky_model.h"
+
+namespace skyfit {
+
+struct ReferenceOptions {
+  int streams = 8;  // rays to the ground of the diffuse field, per hemisphere; more along the limb
+  // Of the aerosol's phase function, <= 2 streams. The default, and the streams with it, is doubled
+  // for a lobe so narrow that a tenth of its scattering would be cut off.
+  int moments = 16;
+  int levels = 28;  // of the diffuse field
+  int threads = 1;
+  double tolerance = 3e-3;  // of the azimuth modes that are left out
+  // 0: all light. k > 0: only what met air or ground k times; approximate for suns below 86 deg,
+  // where the coupling of neighbouring places is left out of single orders. Values only.
+  int order = 0;
+};
+
+class ReferenceModel final : public SkyModel {
+ public:
+  explicit ReferenceModel(const ReferenceOptions& options);  // throws std::invalid_argument
+  std::string_view name() const override { return "reference"; }
+  SkyValues radiance(const Atmosphere<double>& atmosphere,
+                     std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
+                     std::span<const Parameter> derivatives) const override;
+
+ private:
+  ReferenceOptions options_;
+};
+
+}  // namespace skyfit

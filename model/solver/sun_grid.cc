@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/solver/sun_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace skyfit {
+
+void lagrange_weights(const double* nodes, int count, double x, double* weights) {
+  for (int i = 0; i < count; ++i) {
+    weights[i] = 1;
+    for (int k = 0; k < count; ++k) {
+      if (k != i) weights[i] *= (x - nodes[k]) / (nodes[i] - nodes[k]);
+    }
+  }
+}
+
+SunGrid::SunGrid() {
+  // Steps in degrees up to each end: the field changes fastest near the horizon and is dark below
+  // 108.
+  struct Range {
+    double end, step;
+  };
+  double zenith = 0;
+  for (const Range range :
+       {Range{60, 10}, Range{75, 5}, Range{85, 2.5}, Range{90, 2.5}, Range{108, 1.5}}) {
+    if (range.end == 90) day_ = size();
+    for (; zenith < range.end - 1e-9; zenith += range.step)
+      zenith_.push_back(zenith * std::numbers::pi / 180);
+  }
+  zenith_.push_back(zenith * std::numbers::pi / 180);
+  set_fours();
+}
+
+void SunGrid::set_fours() {
+  for (int first = -1; first + 4 <= size(); ++first) {  // -1: one node beyond the zenith
+    Four four;
+    for (int i = 0; i < 4; ++i) {
+      four.index[i] = std::abs(first + i);
+      four.node[i] = first + i < 0 ? -zenith_[1] : zenith_[first + i];
+    }
+    for (int i = 0; i < 4; ++i) {
+      four.factor[i] = 1;
+      for (int k = 0; k < 4; ++k) {
+        if (k != i) four.factor[i] /= four.node[i] - four.node[k];
+      }
+    }
+    fours_.push_back(four);
+  }
+}
+
+double SunGrid::mu(int i) const { return std::cos(zenith_[i]); }
+
+SunSlope SunGrid::slope(int i) const {
+  const int first = std::min(i - 2, size() - 5);
+  std::array<double, 5> node;
+  SunSlope s;
+  for (int k = 0; k < 5; ++k) {
+    s.index[k] = std::abs(first + k);
+    node[k] = first + k < 0 ? -zenith_[-first - k] : zenith_[first + k];
+  }
+  const double x = zenith_[i];
+  for (int k = 0; k < 5; ++k) {
+    double denominator = 1, sum = 0;
+    for (int a = 0; a < 5; ++a) {
+      if (a == k) continue;
+      denominator *= node[k] - node[a];
+      double product = 1;
+      for (int b = 0; b < 5; ++b) {
+        if (b != k && b != a) product *= x - node[b];
+      }
+      sum += product;
+    }
+    s.even[k] = sum / denominator;
+    s.odd[k] = first + k < 0 ? -s.even[k] : s.even[k];
+  }
+  return s;
+}
+
+SunStencil SunGrid::stencil(double mu_s) const {
+  const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
+  const int above =
+      static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
+  // Up to 85 deg no node below 85 deg is asked for: suns below are dear, for they come with all
+  // their neighbours (sun_coupling() in model/solver/diffuse_field.h).
+  const int last = x <= zenith_[day_] ? day_ : size() - 1;
+  const int first = std::min(above - 2, last - 3);
+  const Four& four = fours_[static_cast<std::size_t>(first + 1)];
+  const double a = x - four.node[0], b = x - four.node[1], c = x - four.node[2],
+               d = x - four.node[3];
+  SunStencil s;
+  s.index = four.index;
+  s.even = {b * c * d * four.factor[0], a * c * d * four.factor[1], a * b * d * four.factor[2],
+            a * b * c * four.factor[3]};
+  s.odd = s.even;
+  if (first < 0) s.odd[0] = -s.odd[0];
+  return s;
+}
+
+}  // namespace skyfit

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/solver/view_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/atmosphere/parameters.h"
+#include "model/solver/sun_grid.h"
+
+namespace skyfit {
+namespace {
+
+void set_interpolation(const std::vector<double>& node_s, ViewPath::Sample& sample) {
+  const int size = static_cast<int>(node_s.size());
+  sample.count = std::min(4, size);
+  const int above = static_cast<int>(
+      std::upper_bound(node_s.begin(), node_s.end(), sample.point.s) - node_s.begin());
+  sample.first = std::clamp(above - 2, 0, size - sample.count);
+  lagrange_weights(&node_s[sample.first], sample.count, sample.point.s, sample.share);
+}
+
+// Crossings that nearly coincide with an end or the lowest point of the ray say nothing new and
+// spoil the interpolation.
+std::vector<double> without_near_pairs(const std::vector<double>& s, double lowest) {
+  std::vector<double> kept = {s.front()};
+  auto fixed = [&](std::size_t i) { return i == 0 || i + 1 == s.size() || s[i] == lowest; };
+  constexpr double kLeastShare = 0.25;  // of the neighbouring distance
+  for (std::size_t i = 1; i + 1 < s.size(); ++i) {
+    const double left = s[i] - s[i - 1], right = s[i + 1] - s[i];
+    const bool near = (fixed(i - 1) && left < kLeastShare * right) ||
+                      (fixed(i + 1) && right < kLeastShare * left);
+    if (fixed(i) || !near) kept.push_back(s[i]);
+  }
+  if (s.size() > 1) kept.push_back(s.back());
+  return kept;
+}
+
+void set_sun_points(const Shells& shells, ViewPath& path) {
+  constexpr double kShare = 0.45;
+  const ViewRay& ray = path.ray;
+  const double lowest = ray.tangent_s > 0 ? ray.tangent_height : ray.entry_height;
+  const double highest = lowest + kShare * shells.top;
+  double begin = 0, end = ray.length;
+  Shared<double> shared;
+  if (ray.tangent_s > 0 && ray.entry_height > highest) {
+    begin = shared.distance_to_inner_sphere(shells.bottom_radius, ray.entry_height, ray.entry_mu,
+                                            highest);
+  }
+  if (!ray.hits_ground && highest < shells.top) {
+    end = shared.distance_to_outer_sphere(shells.bottom_radius, ray.entry_height, ray.entry_mu,
+                                          highest);
+  }
+  for (const RayPoint& node : path.nodes) {
+    path.sun_points.push_back(
+        node.s >= begin && node.s <= end
+            ? node
+            : ray_point(ray, shells.bottom_radius, std::clamp(node.s, begin, end)));
+  }
+}
+
+}  // namespace
+
+ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
+                   double mu) {
+  ViewPath path;
+  path.ray = view_ray(shells.bottom_radius, shells.top, altitude, mu);
+  if (path.ray.length <= 0) {
+    if (path.ray.hits_ground) {  // the eye is on the ground and looks at it
+      path.nodes = {ray_point(path.ray, shells.bottom_radius, 0)};
+      path.sun_points = path.nodes;
+    }
+    return path;
+  }
+  const std::vector<double> s = without_near_pairs(
+      shell_crossings(path.ray, shells.bottom_radius, heights), path.ray.tangent_s);
+  for (const double x : s) path.nodes.push_back(ray_point(path.ray, shells.bottom_radius, x));
+  set_sun_points(shells, path);
+  for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, path.ray, s), 3)) {
+    ViewPath::Sample sample{ray_point(path.ray, shells.bottom_radius, q.s), q.weight, {}};
+    sample.columns = columns_along(shells, path.ray, sample.point);
+    set_interpolation(s, sample);
+    path.samples.push_back(sample);
+  }
+  path.columns_to_end = columns_along(shells, path.ray, path.nodes.back());
+  return path;
+}
+
+template <int N>
+NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path) {
+  NodeWeights<N> weights;
+  weights.air.resize(path.nodes.size());
+  weights.aerosol.resize(path.nodes.size());
+  for (const ViewPath::Sample& sample : path.samples) {
+    const Dual<N> tau = optics.optical_depth(sample.columns);
+    const double t = std::exp(-tau.v);
+    const Dual<N> transmitted = tau.chain(t * sample.weight, -t * sample.weight);
+    const Densities<N> rho = optics.densities(sample.point.height);
+    const Dual<N> air = transmitted * optics.air * rho.air;
+    const Dual<N> aerosol = transmitted * optics.aerosol_scattering_cut * rho.aerosol;
+    for (int k = 0; k < sample.count; ++k) {
+      weights.air[sample.first + k] += air * sample.share[k];
+      weights.aerosol[sample.first + k] += aerosol * sample.share[k];
+    }
+  }
+  return weights;
+}
+
+template NodeWeights<0> node_weights<0>(const Optics<0>&, const ViewPath&);
+template NodeWeights<kParameterCount> node_weights<kParameterCount>(const Optics<kParameterCount>&,
+                                                                    const ViewPath&);
+
+}  // namespace skyfit

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables for rays that miss the ground and are seen whole: finer than those of all rays
+// (model/tables/tables.h), or a model's own, so that a sky read from them is what the model says.
+// Four wavelengths in RGBA, values per unit solar irradiance.
+#pragma once
+
+#include <vector>
+
+namespace skyfit {
+
+// width varies fastest; depth = 1 for 2D.
+struct Table {
+  int width = 0, height = 0, depth = 0;
+  std::vector<float> rgba;
+};
+
+// How the tables are read; render/shaders/sky_rays.glsl knows the same.
+enum class SkyRayMapping {
+  // Rays that enter at the top of the atmosphere, of an eye outside; what the tables hold and their
+  // mappings are those of AtmosphereTables, x: mu_s, y: azimuth, z: mu.
+  kFromOutside,
+  // A model's own, for every eye: amplitudes without phase functions.
+  kBruneton,     // x: nu * mu_s (mu_s fastest), y: mu, z: r; model/shared/bruneton_mapping.glsl
+  kBodare,       // x: sun, y: view, z: height; model/shared/bodare_mapping.glsl
+  kSchafhitzel,  // the same, height and angles spaced evenly; all views
+  kONeil,        // no tables: sums in the shader
+};
+
+struct SkyRayTables {
+  SkyRayMapping mapping = SkyRayMapping::kFromOutside;
+  Table air, aerosol;  // by which of them light was scattered last
+};
+
+}  // namespace skyfit

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/tables/table_lookup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/atmosphere/phase_moments.h"
+#include "model/shared/shared.h"
+
+namespace skyfit {
+namespace {
+
+Shared<double> shared;  // stateless
+
+constexpr double kSunRadius = 0.004654793;  // rad, at 1 au
+
+struct Planet {
+  explicit Planet(const AtmosphereTables& tables)
+      : bottom(tables.atmosphere.bottom_radius_m),
+        thickness(tables.atmosphere.top_radius_m - bottom) {}
+  double bottom, thickness;
+};
+
+// The two texels about a texture coordinate, clamped to the edge, as OpenGL's linear filter takes
+// them.
+struct Between {
+  Between(double u, int size) {
+    const double x = std::clamp(u * size - 0.5, 0.0, size - 1.0);
+    low = std::min(static_cast<int>(x), std::max(size - 2, 0));
+    high = std::min(low + 1, size - 1);
+    part = x - low;
+  }
+  int low, high;
+  double part;
+};
+
+void accumulate(const Table& table, int x, int y, int z, double weight, NodeValues& sum) {
+  const std::size_t texel = (static_cast<std::size_t>(z) * table.height + y) * table.width + x;
+  for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * table.rgba[4 * texel + k];
+}
+
+void accumulate(const Table& table, const Between& x, const Between& y, const Between& z,
+                double weight, NodeValues& sum) {
+  for (const int zi : {z.low, z.high}) {
+    const double wz = weight * (zi == z.low ? 1 - z.part : z.part);
+    accumulate(table, x.low, y.low, zi, wz * (1 - x.part) * (1 - y.part), sum);
+    accumulate(table, x.high, y.low, zi, wz * x.part * (1 - y.part), sum);
+    accumulate(table, x.low, y.high, zi, wz * (1 - x.part) * y.part, sum);
+    accumulate(table, x.high, y.high, zi, wz * x.part * y.part, sum);
+    if (z.low == z.high) break;
+  }
+}
+
+double height_coordinate(const AtmosphereTables& tables, double height, int size) {
+  return shared.texture_from_unit(shared.unit_from_height(height, Planet(tables).thickness), size);
+}
+
+double sun_coordinate(double sun_height, int size) {
+  return shared.texture_from_unit(shared.unit_from_sun(sun_height, kTableLowestSun), size);
+}
+
+// A whole ray as the tables of mean amplitudes see it.
+struct TableRay {
+  TableRay(const AtmosphereTables& of, const TablePlace& begin, double nu_of_ray, bool ground)
+      : tables(of), planet(of), from(begin), nu(nu_of_ray), hits_ground(ground) {
+    const TablePlace at =
+        place_along(tables, from, nu,
+                    shared.distance_to_sun_point(from.height, from.mu, hits_ground, planet.bottom,
+                                                 planet.thickness));
+    azimuth = shared.unit_from_azimuth(shared.cosine_of_azimuth(at.mu, at.mu_s, nu));
+    sun = shared.sun_height(at.height, at.mu_s, planet.bottom);
+  }
+
+  Between view(const RayTexels& texels) const {
+    return {shared.texture_from_view(from.height, from.mu, hits_ground, texels.ground, texels.sky,
+                                     planet.bottom, planet.thickness),
+            texels.rows()};
+  }
+
+  // From the logarithms of the amplitudes.
+  NodeValues radiance(const NodeValues& rayleigh, const NodeValues& mie) const {
+    const Atmosphere<double>& a = tables.atmosphere;
+    const double rayleigh_phase = shared.rayleigh_phase(a.rayleigh.depolarisation, nu),
+                 mie_phase = aerosol_phase(a.mie.phase, nu);
+    const double length =
+        hits_ground ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
+                    : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
+                                                      planet.thickness);
+    const double light = 1e-3 * length * deep_twilight(sun, kTableLowestSun);
+    NodeValues sum;
+    for (std::size_t k = 0; k < 4; ++k)
+      sum[k] = light * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);
+    return sum;
+  }
+
+  const AtmosphereTables& tables;
+  Planet planet;
+  TablePlace from;
+  double nu;
+  bool hits_ground;
+  double azimuth, sun;  // 0..1; by sun_height() of model/shared/mapping.glsl
+};
+
+}  // namespace
+
+double deep_twilight(double sun, double lowest) {
+  return std::exp(std::min((sun - lowest) * 57.3, 0.0));
+}
+
+double horizon_cosine(double bottom, double height) {
+  return -shared.horizon_distance(height, bottom) / (bottom + height);
+}
+
+double visible_sun(double bottom, double height, double mu_s) {
+  const double half_disc = bottom / (bottom + height) * kSunRadius;
+  const double above = mu_s - horizon_cosine(bottom, height);
+  const double t = std::clamp(above / (2 * half_disc) + 0.5, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+TablePlace place_along(const AtmosphereTables& tables, const TablePlace& from, double nu,
+                       double distance) {
+  const Planet p(tables);
+  const double h = std::max(shared.height_after(p.bottom, from.height, from.mu, distance), 0.0);
+  const double r = p.bottom + h, r0 = p.bottom + from.height;
+  return {std::min(h, p.thickness), std::clamp((r0 * from.mu + distance) / r, -1.0, 1.0),
+          std::clamp((r0 * from.mu_s + distance * nu) / r, -1.0, 1.0)};
+}
+
+NodeValues lookup_transmittance(const AtmosphereTables& tables, const TablePlace& from,
+                                const TablePlace& to, bool downward) {
+  const double sign = downward ? -1 : 1;
+  const TablePlace &low = downward ? to : from, &high = downward ? from : to;
+  const NodeValues whole = lookup_optical_depth(tables, low.height, sign * low.mu),
+                   rest = lookup_optical_depth(tables, high.height, sign * high.mu);
+  NodeValues value;
+  for (std::size_t k = 0; k < 4; ++k) value[k] = std::exp(-std::max(whole[k] - rest[k], 0.0));
+  return value;
+}
+
+NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, double mu) {
+  const Planet p(tables);
+  const Table& table = tables.optical_depth;
+  NodeValues sum{};
+  const double x = shared.texture_from_unit(
+      shared.unit_from_upward_ray(height, mu, p.bottom, p.thickness), table.width);
+  accumulate(table, Between(x, table.width),
+             Between(height_coordinate(tables, height, table.height), table.height),
+             Between(0.5, 1), 1, sum);
+  return sum;
+}
+
+NodeValues lookup_sun_transmittance(const AtmosphereTables& tables, double height, double mu_s) {
+  const double bottom = tables.atmosphere.bottom_radius_m;
+  const double visible = visible_sun(bottom, height, mu_s);
+  if (visible <= 0) return {};
+  NodeValues value =
+      lookup_optical_depth(tables, height, std::max(mu_s, horizon_cosine(bottom, height)));
+  for (double& v : value) v = visible * std::exp(-v);
+  return value;
+}
+
+NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, double mu_s) {
+  const Table& table = tables.irradiance;
+  const double sun = shared.sun_height(height, mu_s, tables.atmosphere.bottom_radius_m);
+  NodeValues sum{};
+  accumulate(table, Between(sun_coordinate(sun, table.width), table.width),
+             Between(height_coordinate(tables, height, table.height), table.height),
+             Between(0.5, 1), deep_twilight(sun, kTableLowestSun), sum);
+  return sum;
+}
+
+NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
+                           double nu, bool hits_ground) {
+  const TableRay ray(tables, {height, mu, mu_s}, nu, hits_ground);
+  const TableSizes& s = tables.sizes;
+  const double turn = ray.azimuth * (s.scattering_azimuth - 1);
+  const int first = std::min(static_cast<int>(turn), s.scattering_azimuth - 2);
+  const Between v = ray.view(s.scattering());
+  const Between w(height_coordinate(tables, height, s.scattering_r), s.scattering_r);
+  Between u(sun_coordinate(ray.sun, s.scattering_mu_s), s.scattering_mu_s);
+  u.low += first * s.scattering_mu_s;
+  u.high += first * s.scattering_mu_s;
+  NodeValues rayleigh{}, mie{};
+  for (const double weight : {1 - turn + first, turn - first}) {
+    accumulate(tables.rayleigh_like, u, v, w, weight, rayleigh);
+    accumulate(tables.single_mie, u, v, w, weight, mie);
+    u.low += s.scattering_mu_s;
+    u.high += s.scattering_mu_s;
+  }
+  return ray.radiance(rayleigh, mie);
+}
+
+NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double mu, double mu_s,
+                                        double nu) {
+  const TableRay ray(tables, {Planet(tables).thickness, mu, mu_s}, nu, false);
+  const RayTexels texels = tables.sizes.outside();
+  const Between u(sun_coordinate(ray.sun, texels.mu_s), texels.mu_s),
+      v(shared.texture_from_unit(ray.azimuth, texels.azimuth), texels.azimuth),
+      w = ray.view(texels);
+  NodeValues rayleigh{}, mie{};
+  accumulate(tables.sky_rays.air, u, v, w, 1, rayleigh);
+  accumulate(tables.sky_rays.aerosol, u, v, w, 1, mie);
+  return ray.radiance(rayleigh, mie);
+}
+
+}  // namespace skyfit

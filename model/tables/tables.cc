@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/tables/tables.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/atmosphere/parameter_field.h"
+#include "model/atmosphere/phase_moments.h"
+#include "model/geometry/ray.h"
+#include "model/numerics/hemisphere.h"
+#include "model/shared/shared.h"
+#include "model/sky_model.h"
+#include "model/tables/scattering_tables.h"
+#include "model/tables/table_lookup.h"
+#include "model/tables/texel_rays.h"
+
+namespace skyfit {
+namespace {
+
+Shared<double> shared;  // stateless
+
+Table make_table(int width, int height, int depth) {
+  Table table{width, height, depth, {}};
+  table.rgba.resize(4 * static_cast<std::size_t>(width) * height * depth);
+  return table;
+}
+
+SkyRayTables outside_tables(const RayTexels& texels) {
+  const Table table = make_table(texels.mu_s, texels.azimuth, texels.rows());
+  return {SkyRayMapping::kFromOutside, table, table};
+}
+
+void store(Table& table, int x, int y, const NodeValues& value) {
+  const std::size_t texel = static_cast<std::size_t>(y) * table.width + x;
+  for (std::size_t k = 0; k < 4; ++k) table.rgba[4 * texel + k] = static_cast<float>(value[k]);
+}
+
+// Even steps of the angle, in which the logarithm is piecewise linear.
+Table phase_table(const AerosolPhase<double>& phase) {
+  constexpr int kSteps = 4095;  // of 0.044 degrees
+  if (phase.type != PhaseType::kTabulated) return make_table(1, 1, 1);
+  Table table = make_table(kSteps + 1, 1, 1);
+  for (int i = 0; i <= kSteps; ++i) {
+    const double value = std::log(phase.table->phase(std::numbers::pi * i / kSteps));
+    store(table, i, 0, {value, value, value, value});
+  }
+  return table;
+}
+
+NodeOptics optics_of(const Atmosphere<double>& atmosphere, const ColorRule& color) {
+  const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
+  NodeOptics optics;
+  for (std::size_t k = 0; k < 4; ++k)
+    optics[k] = optics_at<0>(plain, color.nodes[k], kSourceOptions.moments);
+  return optics;
+}
+
+double height_of_row(int row, int rows, double top) {
+  return std::min(shared.height_from_unit(row / (rows - 1.0), top), top);
+}
+
+void make_optical_depth(const Shells& shells, const NodeOptics& optics, AtmosphereTables& tables) {
+  const int columns = tables.sizes.optical_depth_mu, rows = tables.sizes.optical_depth_r;
+  tables.optical_depth = make_table(columns, rows, 1);
+  tbb::parallel_for(0, rows, [&](int y) {
+    const double h = height_of_row(y, rows, shells.top);
+    for (int x = 0; x < columns; ++x) {
+      const double mu =
+          shared.mu_from_upward_unit(x / (columns - 1.0), h, shells.bottom_radius, shells.top);
+      const PathColumns path = shells.columns_to_top(h, mu);
+      NodeValues tau;
+      for (std::size_t k = 0; k < 4; ++k) {
+        tau[k] = optics[k].air.v * path.air.value +
+                 optics[k].aerosol_extinction_true.v * path.aerosol.value +
+                 optics[k].ozone.v * path.ozone.value;
+      }
+      store(tables.optical_depth, x, y, tau);
+    }
+  });
+}
+
+void make_irradiance(double top, AtmosphereTables& tables) {
+  const int columns = tables.sizes.irradiance_mu_s, rows = tables.sizes.irradiance_r;
+  tables.irradiance = make_table(columns, rows, 1);
+  tbb::parallel_for(0, columns, [&](int x) {
+    constexpr int kPolar = 16, kAzimuth = 8;
+    for (int y = 0; y < rows; ++y) {
+      const double h = height_of_row(y, rows, top);
+      const double mu_s =
+          shared.mu_s_from_sun_height(h, shared.sun_from_unit(x / (columns - 1.0), kTableLowestSun),
+                                      tables.atmosphere.bottom_radius_m);
+      const std::vector<SkySample> sky = sky_samples(mu_s, kPolar, kAzimuth);
+      NodeValues sum{};
+      for (const SkySample& sample : sky) {
+        const NodeValues l = lookup_radiance(tables, h, sample.mu, mu_s, sample.nu, false);
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += sample.weight * l[k];
+      }
+      store(tables.irradiance, x, y, sum);
+    }
+  });
+}
+
+// A model's light on all rays from a height, into the texels from `first` on.
+void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                   const ColorRule& color, const Shells& shells, const RayTexels& texels,
+                   double height, Table& rayleigh_like, Table& single_mie, std::size_t first) {
+  std::vector<SkyPoint> points;
+  std::vector<double> length_km, nus;
+  for (int row = 0; row < texels.rows(); ++row) {
+    const TexelRay texel = texel_ray(shells, texels, row, height);
+    const double r0 = shells.bottom_radius + texel.ray.entry_height,
+                 r = shells.bottom_radius + texel.sun_point.height, mu = texel.sun_point.mu;
+    // A ray along the horizon is kept on its side of it.
+    constexpr double kSide = 1e-9;
+    const double start_mu =
+        std::clamp(texel.ray.entry_mu + (texel.ray.hits_ground ? -kSide : kSide), -1.0, 1.0);
+    for (const TexelSun& sun : texel_suns(texels, shells.bottom_radius, texel.sun_point.height)) {
+      const double nu =
+          std::clamp(mu * sun.mu_s + std::sqrt(std::max(1 - mu * mu, 0.0)) * sun.across, -1.0, 1.0);
+      const double mu_s = std::clamp((r * sun.mu_s - texel.sun_point.s * nu) / r0, -1.0, 1.0);
+      points.push_back({texel.ray.entry_height, std::acos(mu_s), std::acos(start_mu),
+                        std::acos(shared.cosine_of_azimuth(start_mu, mu_s, nu))});
+      length_km.push_back(1e-3 * texel.ray.length);
+      nus.push_back(nu);
+    }
+  }
+  const ScatteredLight light = model.scattered_light(atmosphere, color.nodes, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double air_phase = shared.rayleigh_phase(atmosphere.rayleigh.depolarisation, nus[i]),
+                 aerosol = aerosol_phase(atmosphere.mie.phase, nus[i]);
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+      const auto logarithm = [&](double radiance, double phase) {
+        return static_cast<float>(
+            std::log(std::max(radiance / (phase * length_km[i]), kDarkestScattering)));
+      };
+      rayleigh_like.rgba[4 * first + k] = logarithm(light.air[k], air_phase);
+      single_mie.rgba[4 * first + k] = logarithm(light.aerosol[k], aerosol);
+    }
+  }
+}
+
+void tabulate(const SkyModel& model, const Shells& shells, AtmosphereTables& tables,
+              const std::function<void(double)>& progress) {
+  model.prepare(tables.atmosphere, tables.color.nodes);
+  const RayTexels texels = tables.sizes.scattering();
+  const std::size_t slice = static_cast<std::size_t>(texels.rows()) * texels.row();
+  const int slices = tables.sizes.scattering_r;
+  for (int i = 0; i < slices; ++i) {
+    tabulate_rays(model, tables.atmosphere, tables.color, shells, texels,
+                  height_of_row(i, slices, shells.top), tables.rayleigh_like, tables.single_mie,
+                  slice * static_cast<std::size_t>(i));
+    progress((i + 1.0) / (slices + 1));
+  }
+  if (std::optional<SkyRayTables> own = model.sky_rays(tables.atmosphere, tables.color.nodes)) {
+    tables.sky_rays = std::move(*own);
+  } else {
+    tables.sky_rays = outside_tables(tables.sizes.outside());
+    tabulate_rays(model, tables.atmosphere, tables.color, shells, tables.sizes.outside(),
+                  shells.top, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
+  }
+  progress(1);
+}
+
+// `model`: null for the reference's light.
+AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphere,
+                       const ColorRule& color, const TableSizes& sizes,
+                       const std::function<void(double)>& progress) {
+  AtmosphereTables tables;
+  tables.atmosphere = atmosphere;
+  tables.color = color;
+  tables.sizes = sizes;
+  tables.phase = phase_table(atmosphere.mie.phase);
+  const Shells shells = shells_of(atmosphere);
+  const NodeOptics optics =
+      optics_of(model != nullptr ? model->seen(atmosphere) : atmosphere, color);
+  const RayTexels texels = sizes.scattering();
+  tables.rayleigh_like =
+      make_table(texels.mu_s * texels.azimuth, texels.rows(), sizes.scattering_r);
+  tables.single_mie = tables.rayleigh_like;
+  constexpr double kBefore = 0.15, kScattering = 0.75;  // shares of the time
+  const auto of_scattering = [&](double part) {
+    if (progress) progress(kBefore + kScattering * part);
+  };
+  if (model != nullptr) {
+    tabulate(*model, shells, tables, of_scattering);
+  } else {
+    tables.sky_rays = outside_tables(sizes.outside());
+    make_scattering_tables(shells, optics, tables, of_scattering);
+  }
+  make_optical_depth(shells, optics, tables);
+  make_irradiance(shells.top, tables);
+  if (progress) progress(1);
+  return tables;
+}
+
+}  // namespace
+
+AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
+                                const TableSizes& sizes, int threads,
+                                const std::function<void(double)>& progress) {
+  validate(atmosphere);
+  tbb::task_arena arena(threads);
+  return arena.execute([&] { return build(nullptr, atmosphere, color, sizes, progress); });
+}
+
+AtmosphereTables compute_tables_of(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                                   const ColorRule& color, const TableSizes& sizes, int threads,
+                                   const std::function<void(double)>& progress) {
+  if (model.name() == "reference" || model.name() == "tables")
+    return compute_tables(atmosphere, color, sizes, threads, progress);
+  validate(atmosphere);
+  tbb::task_arena arena(threads);
+  return arena.execute([&] { return build(&model, atmosphere, color, sizes, progress); });
+}
+
+}  // namespace skyfit

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/atmosphere/atmosphere_pass.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <iterator>
+
+#include "model/literature/bruneton_tables.h"
+#include "model/literature/oneil.h"
+#include "model/shared/shared.h"
+#include "render/gl/context/shader.h"
+#include "render/gl/context/uniform_block.h"
+#include "render/gl/context/uniforms.h"
+
+namespace skyfit {
+namespace {
+
+Table without_values(const Table& table) { return {table.width, table.height, table.depth, {}}; }
+
+void add(const std::string& name, const Table& table, FrameGraph& graph) {
+  graph.add_table(name, table.width, table.height, table.depth, table.rgba);
+}
+
+// Rows and columns of the sky's view for each texel of the scattering table.
+constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
+// Columns of a sun, rows to the ground, rows to the sky.
+glm::ivec3 sky_view_size(const TableSizes& sizes) {
+  return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
+          (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
+          (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
+}
+
+// Above it each pixel looks up its own ray: the sun's height at the far end changes too fast with
+// the azimuth for pictures of all directions.
+constexpr double kAbove = 20e3;  // m
+// Above it the volume is more than 3 % off.
+constexpr double kVolumeAbove = 12e3;  // m
+
+const std::string kSkyView = "render/shaders/sky_view.frag",
+                  kFillVolume = "render/shaders/aerial_volume.comp",
+                  kClasses = "render/shaders/pixel_class.frag",
+                  kFragments = "render/shaders/atmosphere.frag",
+                  kCompute = "render/shaders/atmosphere.comp";
+
+// What the last two may be for besides the sky.
+const std::string kDisc = "DISC", kSurface = "SURFACE", kGrains = "GRAINS";
+
+// Depths that stand for the classes of pixels; exact in single precision.
+constexpr double kSkyClass = 0, kGrainlessClass = 0.5, kGrainyClass = 1;
+
+constexpr int kGroup = 8;  // of atmosphere.comp, on a side
+
+// After those of kAtmosphereReads.
+constexpr GLuint kShadowUnit = 12, kDensityUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
+                 kMaterialUnit = 18;
+
+// Densities of air and aerosol relative to h = 0, over the heights of the tables.
+GlTexture density_texture(const Atmosphere<double>& a) {
+  constexpr int kHeights = 256;
+  const double thickness = a.top_radius_m - a.bottom_radius_m;
+  const auto density = [](const TabulatedProfile& profile, double scale_height, double h) {
+    return profile ? profile->density(h) : std::exp(-h / scale_height);
+  };
+  std::vector<glm::vec2> values;
+  Shared<double> shared;
+  for (int i = 0; i < kHeights; ++i) {
+    const double h = shared.height_from_unit(i / (kHeights - 1.0), thickness);
+    values.emplace_back(density(a.rayleigh.profile, a.rayleigh.scale_height_m, h),
+                        density(a.mie.profile, a.mie.scale_height_m, h));
+  }
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  GlTexture texture(id);
+  glTextureStorage2D(id, 1, GL_RG32F, kHeights, 1);
+  glTextureSubImage2D(id, 0, 0, 0, kHeights, 1, GL_RG, GL_FLOAT, values.data());
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+std::vector<std::string> class_defines() {
+  return {fmt::format("SKY_CLASS {:.1f}", kSkyClass),
+          fmt::format("GRAINLESS_CLASS {:.1f}", kGrainlessClass),
+          fmt::format("GRAINY_CLASS {:.1f}", kGrainyClass)};
+}
+
+double pixel_rad(const FrameOptions& options) {
+  return options.camera.vertical_fov / (options.height * options.samples_per_side);
+}
+
+double grainless_m(const AtmosphereView& view) {
+  return Materials::grainless_distance_m(pixel_rad(view.options));
+}
+
+double grainless_depth(const AtmosphereView& view) {
+  return view.projection.near_km / (1e-3 * grainless_m(view));
+}
+
+glm::vec4 second_sun(const SecondSun& sun) {
+  const double s = std::sin(sun.zenith);
+  return {s * std::cos(sun.azimuth), -s * std::sin(sun.azimuth), std::cos(sun.zenith),
+          sun.irradiance};
+}
+
+glm::vec4 ground_albedo(const AtmosphereTables& tables) {
+  glm::vec4 albedo;
+  for (int node = 0; node < 4; ++node) {
+    albedo[node] = static_cast<float>(ground_albedo_at(
+        tables.atmosphere, tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm));
+  }
+  return albedo;
+}
+
+glm::vec4 scattering_per_km(const AtmosphereTables& tables, const PowerLaw<double>& law,
+                            double share) {
+  glm::vec4 values;
+  for (int node = 0; node < 4; ++node) {
+    const double wavelength = tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm;
+    values[node] = static_cast<float>(1e3 * share * law.value *
+                                      std::pow(wavelength / law.wavelength_nm, -law.exponent));
+  }
+  return values;
+}
+
+double thickness_m(const AtmosphereTables& tables) {
+  return tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
+}
+
+// Columns: a node each.
+std::array<double, 16> light_from_nodes(const ColorRule& color) {
+  std::array<double, 16> columns{};
+  for (std::size_t node = 0; node < 4; ++node) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t k = 0; k < 3; ++k)
+        columns[4 * node + row] += kLinearSrgbFromXyz[row][k] * color.xyz_from_nodes[k][node];
+    }
+    columns[4 * node + 3] = color.xyz_from_nodes[1][node];
+  }
+  return columns;
+}
+
+std::vector<ShaderStage> stages_of(const std::string& path,
+                                   const std::vector<std::string>& defined) {
+  if (path == kFillVolume || path == kCompute) return {{GL_COMPUTE_SHADER, path}};
+  const bool disc = std::ranges::find(defined, kDisc) != defined.end();
+  const char* const vertex = path == kClasses     ? "render/shaders/pixel_class.vert"
+                             : path != kFragments ? "render/shaders/fullscreen.vert"
+                             : disc               ? "render/shaders/sun.vert"
+                                                  : "render/shaders/atmosphere.vert";
+  return {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, path}};
+}
+
+}  // namespace
+
+void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
+  add("optical_depth", tables.optical_depth, graph);
+  add("irradiance", tables.irradiance, graph);
+  add("rayleigh_like", tables.rayleigh_like, graph);
+  add("single_mie", tables.single_mie, graph);
+  add("phase", tables.phase, graph);
+  add("sky_ray_air", tables.sky_rays.air, graph);
+  add("sky_ray_aerosol", tables.sky_rays.aerosol, graph);
+}
+
+void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
+  const Atmosphere<double>& a = tables.atmosphere;
+  const AerosolPhase<double>& phase = a.mie.phase;
+  UniformBlock block(program, "Atmosphere");
+  block.set("depolarisation", a.rayleigh.depolarisation);
+  block.set("phase_parameters", glm::vec4(phase.g, phase.g1, phase.g2, phase.weight));
+  block.set("ground_albedo", ground_albedo(tables));
+  block.set("air_scattering",
+            scattering_per_km(tables, a.rayleigh.scattering_per_m,
+                              a.rayleigh.site_pressure_hpa / kStandardPressureHpa));
+  block.set("aerosol_scattering", scattering_per_km(tables, a.mie.scattering_per_m, 1));
+  block.bind(buffers);
+}
+
+bool AtmosphereView::volume(const AtmosphereTables& tables) const {
+  const double thickness = thickness_m(tables);
+  return options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
+         options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
+}
+
+bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
+  return tables.sky_rays.mapping != SkyRayMapping::kFromOutside ||
+         options.camera.altitude_m > thickness_m(tables);
+}
+
+bool AtmosphereView::sees_grains() const { return !only_ground || nearest_m < grainless_m(*this); }
+
+bool AtmospherePass::has_sky_view(const FrameOptions& options) {
+  return options.camera.altitude_m <= kAbove;
+}
+
+AtmospherePass::AtmospherePass(GraphicsDevice device)
+    : device_(device), empty_(make_vertex_array()) {}
+
+void AtmospherePass::set_tables(const AtmosphereTables& tables) {
+  tables_.atmosphere = tables.atmosphere;
+  tables_.color = tables.color;
+  tables_.sizes = tables.sizes;
+  tables_.sky_rays.mapping = tables.sky_rays.mapping;
+  tables_.sky_rays.air = without_values(tables.sky_rays.air);
+  densities_ = density_texture(tables.atmosphere);
+}
+
+std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
+  const Atmosphere<double>& a = tables.atmosphere;
+  const AerosolPhase<double>& phase = a.mie.phase;
+  const TableSizes& s = tables.sizes;
+  const glm::ivec3 sky_view = sky_view_size(s);
+  const Table& sky_rays = tables.sky_rays.air;
+  return {fmt::format("PHASE_TYPE {}", static_cast<int>(phase.type)),
+          fmt::format("LOBE_TYPE {}", static_cast<int>(phase.lobe)),
+          fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
+          fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
+          fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
+          fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
+          fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
+          fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
+                      s.scattering_ground, s.scattering_sky),
+          fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
+          fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
+          fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
+          fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
+          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples),
+          fmt::format("LIGHT_FROM_NODES {:.9g}", fmt::join(light_from_nodes(tables.color), ", "))};
+}
+
+GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
+  const auto key = std::pair(path, defined);
+  const auto found = programs_.find(key);
+  if (found != programs_.end()) return found->second.id();
+  return programs_.emplace(key, build_program(stages_of(path, defined), {}, defined))
+      .first->second.id();
+}
+
+AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
+  Defined defined = atmosphere_defines(tables_);
+  if (options.second_sun) defined.push_back("SECOND_SUN");
+  if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
+  return defined;
+}
+
+void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
+  const FrameOptions& options = view.options;
+  UniformBlock block(program, "View");
+  block.set("site_from_view", glm::transpose(view.projection.view_from_site));
+  block.set("planet_from_site", glm::mat3(view.axes.planet_from_site()));
+  block.set("tangent", view.projection.tangent);
+  block.set("camera_km", 1e-3 * options.camera.altitude_m);
+  block.set("near_km", view.projection.near_km);
+  block.set("pixel_angle", pixel_rad(options));
+  block.set("volume_km", view.farthest_km);
+  std::vector<glm::vec4> suns = {
+      {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
+  if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
+  block.set("suns", std::span<const glm::vec4>(suns));
+  block.bind(blocks_);
+  bind_atmosphere(tables_, program, blocks_);
+}
+
+void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {
+  const glm::ivec3 size = sky_view_size(tables_.sizes);
+  for (const std::string& target : kSkyViewWrites)
+    graph.add_target(target, GL_RGBA32F, size.x * (options.second_sun ? 2 : 1), size.y + size.z);
+}
+
+void AtmospherePass::draw_triangle(GLuint program) const {
+  glUseProgram(program);
+  glBindVertexArray(empty_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
+  const GLuint id = program(kSkyView, defined_by(view.options));
+  bind_blocks(id, view);
+  draw_triangle(id);
+}
+
+void AtmospherePass::fill_volume(const AtmosphereView& view) {
+  if (!volume_) volume_.emplace();
+  Defined defined = defined_by(view.options);
+  // It subtracts neighbouring points of the tables.
+  if (device_ == GraphicsDevice::kGpu) defined.push_back("EXACT_FILTER");
+  const GLuint id = program(kFillVolume, defined);
+  bind_blocks(id, view);
+  volume_->fill(id);
+}
+
+GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
+                               const AtmosphereView& view) {
+  Defined defined = defined_by(view.options);
+  if (path == kCompute) std::ranges::copy(class_defines(), std::back_inserter(defined));
+  defined.insert(defined.end(), what.begin(), what.end());
+  const bool surface = std::ranges::find(what, kSurface) != what.end();
+  if (!surface && view.sky_rays(tables_))
+    defined.push_back(fmt::format("SKY_RAYS {}", static_cast<int>(tables_.sky_rays.mapping)));
+  if (view.volume(tables_)) defined.push_back("VOLUME");
+  if (view.options.layers) defined.push_back("LAYERS");
+  if (view.options.clouds) defined.push_back("CLOUDS");
+  if (view.shadows != nullptr) defined.push_back("SHADOWS");
+  return program(path, defined);
+}
+
+void AtmospherePass::classify(const AtmosphereView& view) {
+  const GLuint classes = program(kClasses, class_defines());
+  const Uniforms uniforms(classes);
+  uniforms.set("grainless_depth", grainless_depth(view));
+  uniforms.set("tangent", view.projection.tangent);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  draw_triangle(classes);
+  glDisable(GL_DEPTH_TEST);
+}
+
+void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky,
+                          GLuint grainy) {
+  bind_blocks(sky, view);
+  if (view.shadows != nullptr) {
+    shadow_maps.bind(*view.shadows, grainy, kShadowUnit, blocks_);
+  }
+  glBindTextureUnit(kDensityUnit, densities_.id());
+  if (view.options.clouds) {
+    if (!clouds_) clouds_.emplace();
+    clouds_->bind(*view.options.clouds, sky, kCloudUnit, blocks_);
+  }
+  if (view.volume(tables_)) volume_->bind(kVolumeUnit);
+  const glm::dvec3 camera =
+      (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
+  view.materials.bind(camera, grainy, kMaterialUnit, blocks_);
+}
+
+void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_maps) {
+  const GLuint sky = variant(kFragments, {}, view);
+  const GLuint grainless = variant(kFragments, {kSurface}, view);
+  const GLuint grainy = variant(kFragments, {kSurface, kGrains}, view);
+  bind(view, shadow_maps, sky, grainy);
+  // The triangle lies at the near end of the range of depths.
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_EQUAL);
+  glDepthRange(kSkyClass, 1);
+  draw_triangle(sky);
+  draw_suns(view);
+  // What takes longest comes last: before another program samples what has been drawn, Mesa's
+  // renderer waits for all that is on its way.
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  if (view.sees_grains()) {
+    glDepthRange(kGrainlessClass, 1);
+    draw_triangle(grainless);
+    glDepthRange(kGrainyClass, 1);
+    draw_triangle(grainy);
+  } else {
+    glDepthFunc(GL_LESS);  // than any depth: the pixels have no classes
+    draw_triangle(grainless);
+  }
+  glDepthRange(0, 1);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+}
+
+void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shadow_maps) {
+  const GLuint sky = variant(kCompute, {}, view);
+  const GLuint grainless = variant(kCompute, {kSurface}, view);
+  const GLuint grainy = variant(kCompute, {kSurface, kGrains}, view);
+  bind(view, shadow_maps, sky, grainy);
+  const auto groups = [&](int pixels) {
+    return static_cast<GLuint>((pixels * view.options.samples_per_side + kGroup - 1) / kGroup);
+  };
+  std::vector<std::pair<GLuint, double>> classes = {{sky, kSkyClass}, {grainless, kGrainlessClass}};
+  if (view.sees_grains()) classes.emplace_back(grainy, kGrainyClass);
+  for (const auto& [id, pixel_class] : classes) {
+    const Uniforms uniforms(id);
+    uniforms.set("pixel_class", pixel_class);
+    uniforms.set("grainless_depth", grainless_depth(view));
+    glUseProgram(id);
+    glDispatchCompute(groups(view.options.width), groups(view.options.height), 1);
+  }
+}
+
+void AtmospherePass::draw_suns(const AtmosphereView& view) {
+  glUseProgram(variant(kFragments, {kDisc}, view));
+  glBindVertexArray(empty_.id());
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_EQUAL);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+}
+
+}  // namespace skyfit

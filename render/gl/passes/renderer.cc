@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/passes/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <stdexcept>
+
+#include "render/gl/atmosphere/atmosphere_pass.h"
+#include "render/gl/context/context.h"
+#include "render/gl/passes/gbuffer.h"
+#include "render/gl/passes/object_pass.h"
+#include "render/gl/passes/passes.h"
+#include "render/gl/passes/resolve.h"
+#include "render/gl/passes/shadow_pass.h"
+#include "render/gl/terrain/map_ground.h"
+#include "render/gl/terrain/relief.h"
+#include "render/gl/terrain/terrain_pass.h"
+#include "render/gl/terrain/terrain_view.h"
+
+namespace skyfit {
+namespace {
+
+constexpr std::int64_t kMaxSamples = std::int64_t{1} << 25;  // 16 bytes each in the largest texture
+
+// Large pictures have small pixels: fewer samples where the textures would not fit.
+int affordable_samples(const FrameOptions& options) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  const int longer = std::max(options.width, options.height);
+  if (longer > limit) {
+    throw std::invalid_argument(
+        fmt::format("render: {} x {} pixels: this OpenGL draws at most {} on a side", options.width,
+                    options.height, limit));
+  }
+  int samples = options.samples_per_side;
+  const std::int64_t pixels = std::int64_t{options.width} * options.height;
+  while (samples > 1 && (longer * samples > limit || pixels * samples * samples > kMaxSamples))
+    --samples;
+  return samples;
+}
+
+void add_targets(int width, int height, bool layers, FrameGraph& graph) {
+  add_gbuffer(width, height, graph);
+  graph.add_target("light", GL_RGBA32F, width, height);
+  graph.add_target("distance", GL_R32F, width, height);
+  if (!layers) return;
+  for (const std::string& layer : kLayerWrites) graph.add_target(layer, GL_RGBA32F, width, height);
+}
+
+std::int64_t device_clock_ns() {
+  GLint64 now = 0;
+  glGetInteger64v(GL_TIMESTAMP, &now);
+  return now;
+}
+
+class GlRenderer final : public FrameDrawer {
+ public:
+  GlRenderer(const Scene& scene, GraphicsDevice device)
+      : scene_(scene),
+        device_(device),
+        context_(make_context(device)),
+        materials_(scene.textures),
+        atmosphere_(device) {}
+
+  void set_atmosphere(const AtmosphereTables& tables) override {
+    context_->make_current();
+    const double bottom = tables.atmosphere.bottom_radius_m;
+    if (ground_ && bottom != radius_m_) {
+      throw std::invalid_argument(
+          fmt::format("render.bottom_radius = {:.9g} m: must stay {:.9g} m from frame to frame",
+                      bottom, radius_m_));
+    }
+    radius_m_ = bottom;
+    // The made-up planet's colours have the preset's ground albedo as their mean.
+    const double albedo = tables.atmosphere.ground_albedo;
+    if (!ground_ || (scene_.height_map.empty() && albedo != albedo_)) {
+      albedo_ = albedo;
+      terrain_.reset();
+      make_ground(tables);
+      terrain_.emplace(*ground_, radius_m_);
+    }
+    if (meshes_.size() < scene_.meshes.size()) {
+      for (const PlacedMesh& mesh : scene_.meshes) {
+        meshes_.push_back(
+            ObjectPass::upload_mesh(read_object_mesh(mesh.file, mesh.reflectance, tables.color)));
+      }
+    }
+    add_tables(tables, graph_);
+    atmosphere_.set_tables(tables);
+  }
+
+  double ground_height_m(const std::optional<Site>& site) const override {
+    return ground_->height_m(axes_of(site).z, kFinestQuad);
+  }
+
+  Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) override {
+    const auto report = [&](double done) {
+      if (progress) progress(done);
+    };
+    const FrameOptions sampled = affordable(options);
+    const int samples = sampled.samples_per_side;
+    Frame frame;
+    before_.reset();
+    frame.statistics = start_frame(sampled, true, report).wait();
+    report(0.9);
+    frame.width = options.width;
+    frame.height = options.height;
+    resolve_light(graph_, samples, frame);
+    if (options.layers) frame.layers = resolve_layers(graph_, samples, frame);
+    add_directions(options.camera, frame);
+    report(1);
+    return frame;
+  }
+
+  FrameStatistics draw_unread(const FrameOptions& options) override {
+    StartedFrame started = start_frame(affordable(options), false, [](double) {});
+    glFlush();
+    const FrameStatistics statistics = (before_ ? *before_ : started).wait();
+    before_ = std::move(started);
+    return statistics;
+  }
+
+  FrameStatistics wait() override {
+    if (!before_) throw std::logic_error("render: no frame to wait for");
+    context_->make_current();
+    return before_->wait();
+  }
+
+ private:
+  void make_ground(const AtmosphereTables& tables) {
+    if (scene_.height_map.empty()) {
+      auto relief = std::make_unique<Relief>(radius_m_, albedo_);
+      home_ = relief->coast();
+      ground_ = std::move(relief);
+    } else {
+      ground_ = std::make_unique<MapGround>(scene_, radius_m_, tables.color);
+      home_ = site_axes({});
+    }
+  }
+
+  SiteAxes axes_of(const std::optional<Site>& site) const {
+    return site ? site_axes(*site) : home_;
+  }
+
+  void require_above_ground(const FrameOptions& options) const {
+    constexpr double kRoom = 0.3;  // m
+    const double ground = ground_height_m(options.site);
+    if (options.camera.altitude_m < ground + kRoom) {
+      throw std::invalid_argument(
+          fmt::format("render.camera.altitude_m = {:.9g}: must be above the ground, {:.9g} m",
+                      options.camera.altitude_m, ground + kRoom));
+    }
+  }
+
+  // With as many samples as the device can hold. Makes the context current.
+  FrameOptions affordable(const FrameOptions& options) const {
+    context_->make_current();
+    require_above_ground(options);
+    FrameOptions sampled = options;
+    sampled.samples_per_side = affordable_samples(options);
+    return sampled;
+  }
+
+  // What the device draws while the next frame is prepared.
+  struct StartedFrame {
+    FrameStatistics statistics;
+    std::int64_t begin_ns;  // by the device's clock
+    StartedPasses passes;
+
+    FrameStatistics wait() const {
+      FrameStatistics finished = statistics;
+      finished.passes = passes.times();
+      finished.milliseconds = 1e-6 * static_cast<double>(passes.end_ns() - begin_ns);
+      return finished;
+    }
+  };
+
+  // `read`: distances are wanted, too.
+  StartedFrame start_frame(const FrameOptions& options, bool read,
+                           const std::function<void(double)>& report) {
+    const int samples = options.samples_per_side;
+    add_targets(options.width * samples, options.height * samples, options.layers, graph_);
+    atmosphere_.add_sky_view(options, graph_);
+    const std::int64_t begin_ns = device_clock_ns();
+    FrameStatistics statistics;
+    prepare_scene(options, statistics);
+    report(0.7);
+    return {statistics, begin_ns, graph_.run(passes(options, read))};
+  }
+
+  // What stands where in a frame.
+  struct Placed {
+    const ObjectPass::Model* model;
+    ObjectPlace place;
+  };
+  struct FrameScene {
+    SiteAxes axes;
+    Projection projection;
+    TerrainDraw blocks;
+    std::vector<Placed> meshes;  // they cast shadows, the moon does not
+    std::optional<Placed> moon;
+    std::array<ShadowView, kShadowMaps> shadows;
+    std::array<TerrainDraw, kShadowMaps> casters;
+    double farthest_km = 0;
+  };
+
+  // Chooses the blocks of the picture and of the shadow maps and makes those that are missing.
+  void prepare_scene(const FrameOptions& options, FrameStatistics& statistics) {
+    const double aspect = static_cast<double>(options.width) / options.height;
+    current_.axes = axes_of(options.site);
+    current_.projection = make_projection(options.camera, aspect);
+    const double ground_distance = options.camera.altitude_m - ground_height_m(options.site);
+    TerrainView view = terrain_view(options, current_.axes, *ground_, radius_m_, ground_distance);
+    BlockStore& store = terrain_->store();
+    store.begin_frame();
+    const BlockSelection selection = affordable_blocks(view, store);
+    statistics.blocks_outside = selection.outside;
+    statistics.blocks_behind = selection.behind;
+    if (options.shadows) prepare_shadows(options, view, ground_distance);
+    statistics.blocks_made = store.made();
+    terrain_->prepare(selection.blocks, view, current_.blocks);
+    statistics.triangles = current_.blocks.triangles;
+    statistics.blocks_drawn = current_.blocks.blocks;
+    statistics.blocks_hidden = current_.blocks.hidden;
+    place_objects(options, statistics);
+    current_.farthest_km = 1e-3 * (horizon_m(radius_m_, options.camera.altitude_m) +
+                                   horizon_m(radius_m_, ground_->highest_m()));
+  }
+
+  // The same blocks as in the picture where both see them: a surface must not shade itself.
+  void prepare_shadows(const FrameOptions& options, TerrainView view, double ground_distance_m) {
+    const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
+    current_.shadows = shadow_views(sun, ground_distance_m);
+    for (std::size_t i = 0; i < kShadowMaps; ++i) {
+      view.planes = current_.shadows[i].planes;
+      terrain_->prepare(affordable_blocks(view, terrain_->store()).blocks, view,
+                        current_.casters[i]);
+    }
+  }
+
+  void place_objects(const FrameOptions& options, FrameStatistics& statistics) {
+    current_.meshes.clear();
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      current_.meshes.push_back({&meshes_[i], place_of(scene_.meshes[i], current_.axes, radius_m_,
+                                                       options.camera.altitude_m)});
+      statistics.triangles += meshes_[i].triangles();
+    }
+    current_.moon.reset();
+    if (!options.moon) return;
+    if (!moon_ || moon_reflectance_ != options.moon->reflectance) {
+      moon_ = ObjectPass::upload_mesh(moon_mesh(*options.moon));
+      moon_reflectance_ = options.moon->reflectance;
+    }
+    current_.moon = Placed{&*moon_, place_of(*options.moon)};
+    statistics.triangles += moon_->triangles();
+  }
+
+  std::vector<Pass> passes(const FrameOptions& options, bool read) {
+    const AtmosphereView view{options,
+                              current_.projection,
+                              current_.axes,
+                              options.shadows ? &current_.shadows : nullptr,
+                              current_.farthest_km,
+                              current_.meshes.empty() && !current_.moon,
+                              current_.blocks.nearest_m,
+                              ground_->highest_m(),
+                              materials_};
+    std::vector<Pass> list;
+    if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
+    list.push_back({"terrain", {}, kGBuffer, [this] {
+                      clear_gbuffer();
+                      terrain_->draw(current_.blocks, current_.projection, current_.axes);
+                    }});
+    if (!current_.meshes.empty() || current_.moon) {
+      list.push_back({"objects", {}, kGBuffer, [this] { draw_objects(); }});
+    }
+    if (AtmospherePass::has_sky_view(options)) {
+      list.push_back({"sky view", kTableReads, kSkyViewWrites,
+                      [this, view] { atmosphere_.draw_sky_view(view); }});
+    }
+    if (view.volume(atmosphere_.tables())) {
+      list.push_back(
+          {"aerial volume", kTableReads, {}, [this, view] { atmosphere_.fill_volume(view); }});
+    }
+    std::vector<std::string> lights = {"light"};
+    if (read || options.layers || device_ == GraphicsDevice::kGpu) lights.emplace_back("distance");
+    if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
+    std::vector<std::string> lights_and_depth = lights;
+    lights_and_depth.emplace_back("depth");
+    if (device_ == GraphicsDevice::kGpu) {
+      list.push_back({"atmosphere",
+                      kAtmosphereReads,
+                      {},
+                      [this, view] { atmosphere_.dispatch(view, shadow_maps()); },
+                      lights});
+      // Not the G-buffer again, whose depth it tests against; the sky's view is still bound.
+      list.push_back(
+          {"suns", kTableReads, lights_and_depth, [this, view] { atmosphere_.draw_suns(view); }});
+      return list;
+    }
+    if (view.sees_grains()) {
+      list.push_back(
+          {"classes", {"depth"}, {"depth"}, [this, view] { atmosphere_.classify(view); }});
+    }
+    list.push_back({"atmosphere", kAtmosphereReads, lights_and_depth,
+                    [this, view] { atmosphere_.draw(view, shadow_maps()); }});
+    return list;
+  }
+
+  void draw_objects() const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    for (const Placed& mesh : current_.meshes)
+      objects_.draw(*mesh.model, mesh.place, current_.projection, current_.axes);
+    if (current_.moon)
+      objects_.draw(*current_.moon->model, current_.moon->place, current_.projection,
+                    current_.axes);
+  }
+
+  const ShadowPass& shadow_maps() {
+    if (!shadow_pass_) shadow_pass_.emplace();
+    return *shadow_pass_;
+  }
+
+  void draw_shadows() {
+    const glm::dmat4 site_from_planet(current_.axes.site_from_planet());
+    shadow_maps().draw([&](int i) {
+      const auto map = static_cast<std::size_t>(i);
+      const glm::dmat4& clip_from_site = current_.shadows[map].clip_from_site;
+      terrain_->draw_depth(current_.casters[map], glm::mat4(clip_from_site * site_from_planet));
+      for (const Placed& mesh : current_.meshes)
+        objects_.draw_depth(*mesh.model, mesh.place, clip_from_site);
+    });
+  }
+
+  Scene scene_;
+  GraphicsDevice device_;
+  std::unique_ptr<GlContext> context_;
+  FrameGraph graph_;
+  double radius_m_ = 0, albedo_ = 0;
+  std::unique_ptr<Ground> ground_;
+  SiteAxes home_;  // where the camera stands without a site
+  std::optional<TerrainPass> terrain_;
+  ObjectPass objects_;
+  Materials materials_;
+  std::vector<ObjectPass::Model> meshes_;  // of the scene
+  std::optional<ObjectPass::Model> moon_;
+  double moon_reflectance_ = 0;
+  std::optional<ShadowPass> shadow_pass_;  // made when first used
+  AtmospherePass atmosphere_;
+  FrameScene current_;
+  std::optional<StartedFrame> before_;  // the last one of draw_unread()
+};
+
+}  // namespace
+
+std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device) {
+  return std::make_unique<GlRenderer>(scene, device);
+}
+
+}  // namespace skyfit

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/passes/resolve.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "render/gl/passes/view_basis.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// Calls f(pixel, sample) for every sample; OpenGL's rows run upward, a frame's downward.
+template <class F>
+void for_samples(const Frame& frame, int samples_per_side, F&& f) {
+  const auto width = static_cast<std::size_t>(frame.width) * samples_per_side;
+  for (int y = 0; y < frame.height * samples_per_side; ++y) {
+    const auto row =
+        static_cast<std::size_t>(frame.height - 1 - y / samples_per_side) * frame.width;
+    for (std::size_t x = 0; x < width; ++x)
+      f(row + x / samples_per_side, static_cast<std::size_t>(y) * width + x);
+  }
+}
+
+// [pixel][3], the mean of the samples.
+std::vector<float> resolve_color(const FrameGraph& graph, const std::string& name,
+                                 int samples_per_side, const Frame& frame) {
+  const std::vector<float> source = graph.read_back(name, GL_RGB, 3);
+  std::vector<float> values(3 * frame.luminance.size(), 0);
+  const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
+  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
+    for (std::size_t k = 0; k < 3; ++k) values[3 * pixel + k] += part * source[3 * sample + k];
+  });
+  return values;
+}
+
+}  // namespace
+
+void resolve_light(const FrameGraph& graph, int samples_per_side, Frame& frame) {
+  const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
+  const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
+  const std::vector<float> light = graph.read_back("light", GL_RGBA, 4);
+  frame.rgb.assign(3 * pixels, 0);
+  frame.luminance.assign(pixels, 0);
+  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
+    for (std::size_t k = 0; k < 3; ++k) frame.rgb[3 * pixel + k] += part * light[4 * sample + k];
+    frame.luminance[pixel] += part * light[4 * sample + 3];
+  });
+  const std::vector<float> distance = graph.read_back("distance", GL_RED, 1);
+  frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
+  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
+    frame.depth_m[pixel] = std::min(frame.depth_m[pixel], 1e3f * distance[sample]);
+  });
+}
+
+FrameLayers resolve_layers(const FrameGraph& graph, int samples_per_side, const Frame& frame) {
+  FrameLayers layers;
+  layers.in_scatter = resolve_color(graph, "in_scatter", samples_per_side, frame);
+  layers.reflected = resolve_color(graph, "reflected", samples_per_side, frame);
+  layers.transmittance = resolve_color(graph, "transmittance", samples_per_side, frame);
+  layers.normal = resolve_color(graph, "normal", samples_per_side, frame);
+  layers.albedo = resolve_color(graph, "albedo", samples_per_side, frame);
+  for (std::size_t i = 0; i < layers.normal.size(); i += 3) {
+    float* const n = &layers.normal[i];
+    const float length = std::hypot(n[0], n[1], n[2]);
+    for (int k = 0; k < 3; ++k) n[k] = length > 0 ? n[k] / length : 0;
+  }
+  return layers;
+}
+
+void add_directions(const Camera& camera, Frame& frame) {
+  const ViewBasis basis = view_basis(camera);
+  const double tall = std::tan(0.5 * camera.vertical_fov);
+  const double wide = tall * frame.width / frame.height;
+  const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
+  frame.view_zenith_deg.resize(pixels);
+  frame.view_azimuth_deg.resize(pixels);
+  tbb::parallel_for(0, frame.height, [&](int y) {
+    const double v = tall * (1 - (2 * y + 1.0) / frame.height);
+    for (int x = 0; x < frame.width; ++x) {
+      const double u = wide * ((2 * x + 1.0) / frame.width - 1);
+      const glm::dvec3 ray = basis.forward + u * basis.right + v * basis.up;
+      const double zenith = std::atan2(std::sqrt(ray.x * ray.x + ray.y * ray.y), ray.z);
+      const std::size_t i = static_cast<std::size_t>(y) * frame.width + x;
+      frame.view_zenith_deg[i] = static_cast<float>(kDegrees * zenith);
+      frame.view_azimuth_deg[i] = static_cast<float>(kDegrees * std::atan2(-ray.y, ray.x));
+    }
+  });
+}
+
+}  // namespace skyfit

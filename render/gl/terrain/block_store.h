@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vertices of blocks in the device's memory: those of a frame are made when they are missing,
+// in parallel, and stay for the frames that follow; the longest unused make room.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "render/gl/context/objects.h"
+#include "render/gl/terrain/block_mesh.h"
+
+namespace skyfit {
+
+class BlockStore {
+ public:
+  static constexpr int kMostBlocks = 6144;  // 68 kB each
+
+  // Both outlive the store.
+  BlockStore(const Ground& ground, double radius_m);
+
+  // What is provided from now on stays until the next call.
+  void begin_frame() { ++frame_, made_ = 0; }
+
+  // Makes what is missing. Throws std::length_error when a frame needs more than kMostBlocks.
+  void provide(std::span<const CubeBlock> blocks);
+
+  int made() const { return made_; }  // since begin_frame()
+
+  // Of a block of this frame: where its vertices begin, in vertices.
+  GLint first_vertex(const CubeBlock& block) const {
+    return slots_.at(block).slot * kBlockVertices;
+  }
+
+  const BlockHeights& heights(const CubeBlock& block) const { return slots_.at(block).heights; }
+
+  GLuint vertices() const { return vertices_.id(); }
+
+ private:
+  struct Slot {
+    int slot;
+    BlockHeights heights;
+    std::int64_t used;  // by which frame
+  };
+  void reserve(int blocks);
+  int free_slot();
+
+  const Ground& ground_;
+  double radius_m_;
+  GlBuffer vertices_;
+  int capacity_ = 0, next_ = 0;
+  std::int64_t frame_ = 0;
+  int made_ = 0;
+  std::map<CubeBlock, Slot> slots_;
+};
+
+}  // namespace skyfit

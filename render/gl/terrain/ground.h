@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shape and colour of a planet's ground. Planet coordinates: z to the north pole, x to latitude
+// 0, longitude 0, y to longitude 90 degrees east.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "model/tables/tables.h"
+
+namespace skyfit {
+
+class Ground {
+ public:
+  virtual ~Ground() = default;
+
+  // Height above the bottom radius in metres, >= 0. `direction`: unit vector; details smaller than
+  // `resolution_m` are left out.
+  virtual double height_m(const glm::dvec3& direction, double resolution_m) const = 0;
+
+  // Lambert reflectance at the four nodes of the colour rule, in 0..1. `steepness` = 1 - cos of the
+  // slope's angle.
+  virtual NodeValues reflectance(const glm::dvec3& direction, double height_m, double steepness,
+                                 double resolution_m) const = 0;
+
+  // Share of the second material, rock, in 0..1; water has neither: -1.
+  virtual double rock(const glm::dvec3& direction, double height_m, double steepness,
+                      double resolution_m) const = 0;
+
+  virtual double highest_m() const = 0;  // a bound on height_m()
+};
+
+}  // namespace skyfit

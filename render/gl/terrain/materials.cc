@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/terrain/materials.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <span>
+#include <stdexcept>
+
+#include "render/gl/context/uniform_block.h"
+#include "render/gl/terrain/noise.h"
+#include "render/image/image_files.h"
+
+namespace skyfit {
+namespace {
+
+constexpr int kSide = kMaterialSide;
+constexpr double kGrainPeriod = 1.5, kCragPeriod = 190;  // m: a unit of each texture
+constexpr int kLastLevel = 6;                            // mipmap of one texel
+static_assert(1 << kLastLevel == kSide);
+constexpr int kFlatLevel = 5;  // the first mipmap that holds nothing but the mean
+constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
+
+std::size_t texel(int x, int y, int z) {
+  const auto wrap = [](int i) { return static_cast<std::size_t>((i + kSide) % kSide); };
+  return (wrap(z) * kSide + wrap(y)) * kSide + wrap(x);
+}
+
+double relief_of(Texture texture, const glm::dvec3& p) {
+  double sum = 0, amplitude = 1;
+  for (int period = texture == Texture::kGrains ? 4 : 2; period <= kSide / 4; period *= 2) {
+    const double noise = periodic_gradient_noise(p * static_cast<double>(period), period);
+    sum += amplitude * (texture == Texture::kGrains ? noise : 0.5 - std::abs(1.6 * noise));
+    amplitude *= texture == Texture::kGrains ? 0.6 : 0.55;
+  }
+  return sum;
+}
+
+const char* name_of(Texture texture) { return texture == Texture::kGrains ? "grains" : "crags"; }
+
+// The next mipmap: means of two texels along each axis.
+std::vector<float> halved(std::span<const float> texels, int side) {
+  const int half = side / 2;
+  std::vector<float> means;
+  for (int z = 0; z < half; ++z) {
+    for (int y = 0; y < half; ++y) {
+      for (int x = 0; x < half; ++x) {
+        for (int channel = 0; channel < 4; ++channel) {
+          float sum = 0;
+          for (int corner = 0; corner < 8; ++corner) {
+            const int column = 2 * x + (corner & 1), row = 2 * y + (corner >> 1 & 1);
+            const int slice = 2 * z + (corner >> 2);
+            sum += texels[static_cast<std::size_t>(((slice * side + row) * side + column) * 4 +
+                                                   channel)];
+          }
+          means.push_back(sum / 8);
+        }
+      }
+    }
+  }
+  return means;
+}
+
+GlTexture solid_texture(const MaterialTexels& texels) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_3D, 1, &id);
+  GlTexture texture(id);
+  glTextureStorage3D(id, kLastLevel + 1, GL_RGBA8, kSide, kSide, kSide);
+  GLint level = 0;
+  for (const MaterialTexels& mipmap : mipmaps_of(texels)) {
+    const int side = kSide >> level;
+    glTextureSubImage3D(id, level++, 0, 0, 0, side, side, side, GL_RGBA, GL_UNSIGNED_BYTE,
+                        mipmap.data());
+  }
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
+}  // namespace
+
+MaterialTexels make_texture(Texture texture) {
+  std::vector<double> relief(kTexels);
+  tbb::parallel_for(0, kSide, [&](int z) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        relief[texel(x, y, z)] = relief_of(texture, glm::dvec3(x, y, z) / double{kSide});
+      }
+    }
+  });
+  double mean = 0, square = 0;
+  for (const double value : relief) mean += value / kTexels;
+  for (const double value : relief) square += (value - mean) * (value - mean) / kTexels;
+  const double deviation = std::sqrt(square);
+  // Brightness follows the relief: crests are lighter than hollows.
+  const double contrast = texture == Texture::kGrains ? 0.16 : 0.22;
+  double steepest = 0;
+  const auto gradient = [&](int x, int y, int z) {
+    return glm::dvec3(relief[texel(x + 1, y, z)] - relief[texel(x - 1, y, z)],
+                      relief[texel(x, y + 1, z)] - relief[texel(x, y - 1, z)],
+                      relief[texel(x, y, z + 1)] - relief[texel(x, y, z - 1)]);
+  };
+  MaterialTexels texels(4 * kTexels);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int z = 0; z < kSide; ++z) {
+      for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+          const glm::dvec3 g = gradient(x, y, z);
+          if (pass == 0) {
+            steepest = std::max({steepest, std::abs(g.x), std::abs(g.y), std::abs(g.z)});
+            continue;
+          }
+          const std::size_t i = texel(x, y, z);
+          for (int k = 0; k < 3; ++k) {
+            texels[4 * i + static_cast<std::size_t>(k)] =
+                static_cast<std::uint8_t>(std::lround(127 + 127 * g[k] / steepest));
+          }
+          const double light = 1 + contrast * std::clamp((relief[i] - mean) / deviation, -3.0, 3.0);
+          texels[4 * i + 3] = static_cast<std::uint8_t>(std::lround(127.5 * light));
+        }
+      }
+    }
+  }
+  return texels;
+}
+
+std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels) {
+  std::vector<MaterialTexels> mipmaps = {texels};
+  std::vector<float> values(texels.begin(), texels.end());
+  for (int side = kSide; side > 1; side /= 2) {
+    values = halved(values, side);
+    MaterialTexels& rounded = mipmaps.emplace_back();
+    for (const float value : values)
+      rounded.push_back(static_cast<std::uint8_t>(std::lround(value)));
+  }
+  const MaterialTexels mean = mipmaps.back();
+  for (std::size_t level = kFlatLevel; level < kLastLevel; ++level) {
+    for (std::size_t i = 0; i < mipmaps[level].size(); ++i)
+      mipmaps[level][i] = mean[i % mean.size()];
+  }
+  return mipmaps;
+}
+
+MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory) {
+  if (directory.empty()) return make_texture(texture);
+  const std::filesystem::path file = directory / fmt::format("{}.png", name_of(texture));
+  if (!std::filesystem::exists(file)) {
+    MaterialTexels texels = make_texture(texture);
+    write_png_texels(texels, kSide, kSide * kSide, file);
+    return texels;
+  }
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(file.string(), &as_stored);
+  if (!input)
+    throw std::runtime_error(fmt::format("{}: cannot read: {}", file.string(), OIIO::geterror()));
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width != kSide || spec.height != kSide * kSide || spec.nchannels != 4) {
+    throw std::runtime_error(
+        fmt::format("{}: {} x {} pixels of {} channels: a texture has {} x {} of 4", file.string(),
+                    spec.width, spec.height, spec.nchannels, kSide, kSide * kSide));
+  }
+  MaterialTexels texels(4 * kTexels);
+  if (!input->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, texels.data())) {
+    throw std::runtime_error(fmt::format("{}: cannot read: {}", file.string(), input->geterror()));
+  }
+  return texels;
+}
+
+Materials::Materials(const std::filesystem::path& directory)
+    : grains_(solid_texture(load_texture(Texture::kGrains, directory))),
+      crags_(solid_texture(load_texture(Texture::kCrags, directory))) {
+  glGetTextureImage(grains_.id(), kLastLevel, GL_RGBA, GL_FLOAT, sizeof grain_mean_, &grain_mean_);
+}
+
+double Materials::grainless_distance_m(double pixel_rad) {
+  return kGrainPeriod / kSide * (1 << kFlatLevel) / pixel_rad;
+}
+
+void Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit,
+                     UniformBuffers& buffers) const {
+  glBindTextureUnit(unit, grains_.id());
+  glBindTextureUnit(unit + 1, crags_.id());
+  UniformBlock block(program, "Materials");
+  block.set("grain_phase", glm::vec3(glm::fract(camera / kGrainPeriod)));
+  block.set("grains_per_km", 1e3 / kGrainPeriod);
+  block.set("crag_phase", glm::vec3(glm::fract(camera / kCragPeriod)));
+  block.set("crags_per_km", 1e3 / kCragPeriod);
+  block.set("grain_mean", grain_mean_);
+  block.set("finer_grain_levels", std::log2(kCragPeriod / kGrainPeriod));
+  block.bind(buffers);
+}
+
+}  // namespace skyfit

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/terrain/obj_syntax.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace skyfit {
+namespace {
+
+constexpr std::int64_t kMostTriangles = 50'000'000;
+constexpr std::string_view kSpace = " \t\r";
+
+// Takes the next word off the line; empty at its end.
+std::string_view next_word(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kSpace));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+class Checker {
+ public:
+  explicit Checker(const std::filesystem::path& file) : file_(file) {}
+
+  MaterialUses check() {
+    std::ifstream in(file_);
+    std::string text;
+    while (std::getline(in, text)) {
+      ++line_;
+      check_line(text);
+    }
+    if (!in.eof()) fail_file("cannot be read");
+    if (triangles_ == 0) fail_file("no faces");
+    vertices_.expect_enough(*this);
+    normals_.expect_enough(*this);
+    return uses_;
+  }
+
+ private:
+  // What corners refer to. An index from 1 on may stand before its element.
+  struct Elements {
+    const char* name;
+    std::int64_t count = 0, greatest = 0;
+    int line = 0;  // of the greatest index
+
+    void expect_enough(const Checker& checker) const {
+      if (greatest <= count) return;
+      checker.fail(line, fmt::format("{} {}: the file has {}", name, greatest, count));
+    }
+  };
+
+  [[noreturn]] void fail(int line, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line, what));
+  }
+  [[noreturn]] void fail_file(const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}: {}", file_.string(), what));
+  }
+
+  void check_line(std::string_view line) {
+    const std::string_view kind = next_word(line);
+    if (kind == "v") check_vector(line, vertices_);
+    if (kind == "vn") check_vector(line, normals_);
+    if (kind == "f") check_face(line);
+    if (kind == "usemtl") uses_.emplace(next_word(line), line_);
+  }
+
+  void check_vector(std::string_view line, Elements& elements) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view word = next_word(line);
+      const std::string_view digits = word.substr(word.starts_with('+'));
+      double value = 0;
+      const auto [end, error] =
+          std::from_chars(digits.data(), digits.data() + digits.size(), value);
+      if (error == std::errc() && end == digits.data() + digits.size() &&
+          std::isfinite(static_cast<float>(value)))
+        continue;
+      fail(line_, fmt::format("expected three finite numbers, got \"{}\"", word));
+    }
+    ++elements.count;
+  }
+
+  void check_face(std::string_view line) {
+    int corners = 0;
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      check_corner(word);
+      ++corners;
+    }
+    if (corners < 3) fail(line_, fmt::format("a face of {} corners: expected at least 3", corners));
+    triangles_ += corners - 2;
+    if (triangles_ > kMostTriangles) fail_file("more than 50 million triangles");
+  }
+
+  // vertex, vertex/texture, vertex//normal or vertex/texture/normal.
+  void check_corner(std::string_view word) {
+    const std::size_t first = word.find('/');
+    check_index(word, word.substr(0, first), vertices_);
+    if (first == std::string_view::npos) return;
+    const std::size_t second = word.find('/', first + 1);
+    if (second != std::string_view::npos) check_index(word, word.substr(second + 1), normals_);
+  }
+
+  // From 1 on, or from -1 back from the last element so far.
+  void check_index(std::string_view word, std::string_view digits, Elements& elements) {
+    int index = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (error != std::errc() || end != digits.data() + digits.size() || index == 0)
+      fail(line_, fmt::format("expected a {} from 1 on, got \"{}\"", elements.name, word));
+    if (index < -elements.count) {
+      fail(line_,
+           fmt::format("{} {}: there are {} before it", elements.name, index, elements.count));
+    }
+    if (index <= elements.greatest) return;
+    elements.greatest = index;
+    elements.line = line_;
+  }
+
+  std::filesystem::path file_;
+  int line_ = 0;
+  Elements vertices_{"vertex"}, normals_{"normal"};
+  std::int64_t triangles_ = 0;
+  MaterialUses uses_;
+};
+
+}  // namespace
+
+MaterialUses check_obj(const std::filesystem::path& file) { return Checker(file).check(); }
+
+}  // namespace skyfit

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/terrain/relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+#include "render/gl/terrain/noise.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kEarthRadius = 6360e3;
+// Two scales of mountains: 400 and 2500 cycles per radius.
+constexpr double kMountainHeight = 3250, kMountainLength = kEarthRadius / 400;
+constexpr double kCragHeight = 750, kCragLength = kEarthRadius / 2500;
+constexpr double kHillHeight = 260;
+constexpr double kPlainHeight = 25;
+constexpr double kRoughness = 0.12;  // of the plain at the site
+constexpr double kShore = 0.0015;    // of land_value(): a coast some 8 km wide
+constexpr double kBoulder = 3.2, kBoulderHeight = 0.35;
+constexpr double kSpots = 1500;
+constexpr double kFinest = 0.1;  // no detail below, m
+
+double smoothstep(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+NodeValues mix(const NodeValues& a, const NodeValues& b, double t) {
+  NodeValues r;
+  for (std::size_t k = 0; k < 4; ++k) r[k] = a[k] + t * (b[k] - a[k]);
+  return r;
+}
+
+// Relative reflectances at about 460, 530, 590 and 660 nm; only their ratios matter.
+constexpr NodeValues kSea = {0.60, 0.42, 0.26, 0.20};
+constexpr NodeValues kGrass = {0.36, 0.80, 0.66, 0.46};
+constexpr NodeValues kSteppe = {0.70, 1.08, 1.28, 1.38};
+constexpr NodeValues kRock = {0.95, 1.08, 1.18, 1.25};
+constexpr NodeValues kSnow = {3.6, 3.6, 3.55, 3.5};
+
+// The ranges do not follow the lattice of the noise.
+glm::dvec3 bend(const glm::dvec3& p) {
+  constexpr double kLength = 55e3, kStrength = 14e3;
+  const glm::dvec3 q = p / kLength;
+  return kStrength * glm::dvec3(gradient_noise(q), gradient_noise(q + glm::dvec3(17.3, 5.1, 9.7)),
+                                gradient_noise(q + glm::dvec3(3.9, 31.7, 12.2)));
+}
+
+double land_value(const glm::dvec3& p, double resolution) {
+  return fractal_noise(p + glm::dvec3(1.7e6), 5.2e6, std::max(resolution, 500.0)) - 0.02;
+}
+
+glm::dvec3 fibonacci_direction(int index, int count) {
+  const double z = 1 - (2 * index + 1.0) / count;
+  const double turn = index * std::numbers::pi * (3 - std::sqrt(5.0));
+  const double s = std::sqrt(1 - z * z);
+  return {s * std::cos(turn), s * std::sin(turn), z};
+}
+
+}  // namespace
+
+Relief::Relief(double bottom_radius_m, double ground_albedo)
+    : radius_m_(bottom_radius_m), albedo_(ground_albedo), scale_(bottom_radius_m / kEarthRadius) {
+  settle_on_a_coast();
+  balance_materials();
+}
+
+// The site stands where the land behind it and the sea before it differ most; the sun's azimuth is
+// that of the water.
+void Relief::settle_on_a_coast() {
+  constexpr int kCandidates = 3000;
+  constexpr double kCoarse = 60e3, kFine = 500;
+  const auto value = [](const glm::dvec3& direction, double resolution) {
+    return land_value(glm::normalize(direction) * kEarthRadius, resolution);
+  };
+  const auto ahead = [](const glm::dvec3& from, const glm::dvec3& toward, double distance) {
+    return glm::normalize(from + distance / kEarthRadius * toward);
+  };
+  double best = -1;
+  for (int i = 0; i < kCandidates; ++i) {
+    const glm::dvec3 here = fibonacci_direction(i, kCandidates);
+    if (std::abs(value(here, kCoarse)) > 0.03) continue;
+    const glm::dvec3 east = glm::normalize(glm::cross(glm::dvec3(0.31, 0.17, 0.93), here));
+    const glm::dvec3 north = glm::cross(here, east);
+    const auto slope = [&](const glm::dvec3& way) {
+      return value(ahead(here, way, 100e3), kCoarse) - value(ahead(here, way, -100e3), kCoarse);
+    };
+    const glm::dvec3 downhill = -glm::normalize(east * slope(east) + north * slope(north));
+    const double sea = std::max(value(ahead(here, downhill, 200e3), kCoarse),
+                                value(ahead(here, downhill, 500e3), kCoarse));
+    const double score = value(ahead(here, downhill, -200e3), kCoarse) - sea;
+    if (score <= best) continue;
+    best = score;
+    coast_.z = here;
+    coast_.x = downhill;
+  }
+  // Along that line to the shore itself.
+  double inland = -250e3, offshore = 250e3;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (inland + offshore);
+    (value(ahead(coast_.z, coast_.x, middle), kFine) > 0.5 * kShore ? inland : offshore) = middle;
+  }
+  coast_.z = ahead(coast_.z, coast_.x, inland);
+  coast_.x = glm::normalize(coast_.x - glm::dot(coast_.x, coast_.z) * coast_.z);
+  coast_.y = glm::cross(coast_.z, coast_.x);
+  // Not straight over the water: the coast runs into the picture.
+  constexpr double kTurn = 0.8;
+  const glm::dvec3 seaward = coast_.x;
+  coast_.x = std::cos(kTurn) * seaward + std::sin(kTurn) * coast_.y;
+  coast_.y = glm::cross(coast_.z, coast_.x);
+}
+
+double Relief::height_m(const glm::dvec3& direction, double resolution_m) const {
+  const double resolution = std::max(resolution_m / scale_, kFinest);
+  const glm::dvec3 p = direction * kEarthRadius;
+  const double distance = glm::length(direction - coast_.z) * kEarthRadius;
+  const double near_site = 1 - smoothstep(80e3, 400e3, distance);
+  const double beach = 1 - smoothstep(300, 600, distance);
+  const double continent = land_value(p, resolution);
+  if (continent < 0 && beach <= 0) return 0;
+  const double land = smoothstep(0, 2 * kShore, continent);
+  const double fading = smoothstep(200, 5e3, distance);
+  double roughness = kRoughness * (1 + fractal_noise(p, 9, resolution));
+  if (resolution < kBoulder) {
+    // Boulders: where the noise is high, it breaks through the ground.
+    const double stone = fractal_noise(p + glm::dvec3(31), kBoulder, resolution);
+    roughness += 0.55 * kBoulderHeight * smoothstep(0.42, 0.62, stone) +
+                 kBoulderHeight * std::max(stone - 0.5, 0.0);
+  }
+  const double range = fractal_noise(p + glm::dvec3(0, 9e6, 0), 1.3e6, std::max(resolution, 1e4));
+  const double mountains = std::max(smoothstep(-0.02, 0.6, range), 0.75 * near_site);
+  const glm::dvec3 bent = p + bend(p);
+  const double massif =
+      smoothstep(-0.6, 0.7, fractal_noise(bent + glm::dvec3(6e5), 70e3, std::max(resolution, 2e3)));
+  double height = kPlainHeight * (1 + fractal_noise(p, 30e3, resolution));
+  height += kHillHeight * (0.6 + fractal_noise(bent + glm::dvec3(4e5), 7e3, resolution));
+  height += kMountainHeight * mountains * massif *
+            ridged_noise(bent, kMountainLength, std::max(resolution, 2 * resolution - 6e3));
+  height += kCragHeight * (0.3 + mountains) *
+            ridged_noise(bent + glm::dvec3(9e5), kCragLength, resolution);
+  return std::max(fading * land * height, 0.0) +
+         roughness * std::max(smoothstep(0, 0.1 * kShore, continent), beach);
+}
+
+NodeValues Relief::material(const glm::dvec3& direction, double height_m, double steepness,
+                            double resolution_m) const {
+  const double resolution = std::max(resolution_m / scale_, kFinest);
+  const glm::dvec3 p = direction * kEarthRadius;
+  const double patches =
+      fractal_noise(p + glm::dvec3(2e5, 0, 7e5), 2.4e6, std::max(resolution, 8e3));
+  const double spots = fractal_noise(p, kSpots, resolution);
+  const double grain = fractal_noise(p + glm::dvec3(50), 3, resolution);
+  // Where a vertex stands for a whole mountain, the lines between the materials are as wide as its
+  // height.
+  const double blur = kMountainHeight * 0.3 * std::min(resolution / 15e3, 1.0);
+  NodeValues soil =
+      mix(kGrass, kSteppe, smoothstep(-0.2, 0.7, patches + 0.5 * spots + 0.3 * grain));
+  soil = mix(soil, kRock, smoothstep(900 - blur, 1900 + blur, height_m + 500 * spots));
+  soil = mix(soil, kRock, smoothstep(0.04, 0.14, steepness));
+  const double snow = smoothstep(2100 - blur, 2700 + blur, height_m + 500 * spots);
+  soil = mix(soil, kSnow, snow * (1 - smoothstep(0.12, 0.35, steepness)));
+  for (double& value : soil) value *= std::max(1 + 0.4 * grain + 0.15 * spots, 0.2);
+  return mix(kSea, soil, smoothstep(0.0, 0.05, height_m));
+}
+
+NodeValues Relief::reflectance(const glm::dvec3& direction, double height_m, double steepness,
+                               double resolution_m) const {
+  NodeValues value = material(direction, height_m, steepness, resolution_m);
+  for (std::size_t k = 0; k < 4; ++k) {
+    value[k] = std::clamp(albedo_ * (1 + contrast_ * (value[k] / mean_[k] - 1)), 0.0, 1.0);
+  }
+  return value;
+}
+
+double Relief::rock(const glm::dvec3& direction, double height_m, double steepness,
+                    double resolution_m) const {
+  if (height_m <= 0.01) return -1;
+  const double resolution = std::max(resolution_m / scale_, kFinest);
+  const double spots = fractal_noise(direction * kEarthRadius, kSpots, resolution);
+  const double high = smoothstep(900, 1900, height_m + 500 * spots);
+  return std::max(high, smoothstep(0.04, 0.14, steepness));
+}
+
+double Relief::highest_m() const {
+  // A ridge is at most 1.2 times its first octave; noise of amplitude 1 stays within 1.5.
+  return 1.2 * (kMountainHeight + 1.3 * kCragHeight) + 2.5 * kPlainHeight + 2.1 * kHillHeight;
+}
+
+void Relief::balance_materials() {
+  constexpr int kDirections = 4000;
+  constexpr double kResolution = 2e3;
+  NodeValues sum{}, highest{};
+  for (int i = 0; i < kDirections; ++i) {
+    const glm::dvec3 direction = fibonacci_direction(i, kDirections);
+    const double height = height_m(direction, kResolution * scale_);
+    const NodeValues value = material(direction, height, 0, kResolution * scale_);
+    for (std::size_t k = 0; k < 4; ++k) {
+      sum[k] += value[k];
+      highest[k] = std::max(highest[k], value[k]);
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    mean_[k] = sum[k] / kDirections;
+    // No material above 1: a bright planet has less contrast.
+    const double excess = 1.2 * highest[k] / mean_[k] - 1;
+    contrast_ = std::min(contrast_, (1 - albedo_) / std::max(albedo_ * excess, 1e-9));
+  }
+}
+
+}  // namespace skyfit

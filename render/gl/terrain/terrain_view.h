@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// How finely the planet is drawn: near the ground a quad spans FrameOptions::samples_per_quad
+// samples of the picture, but no block is split beyond 50 times its size (Sperlhofer 2011, C = 50);
+// 9 levels and, near the camera, as many more as show details of a third of a metre.
+#pragma once
+
+#include "render/gl/passes/site_axes.h"
+#include "render/gl/terrain/block_store.h"
+#include "render/gl/terrain/ground.h"
+#include "render/gl/terrain/planet_tree.h"
+#include "render/render.h"
+
+namespace skyfit {
+
+inline constexpr double kFinestQuad = 0.3;  // m
+
+// Distance to where a view from the height touches the bottom sphere.
+double horizon_m(double radius_m, double height_m);
+
+// `ground_distance_m`: of the camera, downward.
+TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, const Ground& ground,
+                         double radius_m, double ground_distance_m);
+
+// The blocks of a view, in the store; where it asks for more than memory should hold, it is made
+// coarser. Throws std::length_error when even the coarsest has too many.
+BlockSelection affordable_blocks(TerrainView& view, BlockStore& store);
+
+}  // namespace skyfit

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/image/image_files.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <stdexcept>
+#include <system_error>
+
+#include "render/image/tone.h"
+
+namespace skyfit {
+namespace {
+
+namespace fs = std::filesystem;
+
+// x and y of red, green, blue and white: IEC 61966-2-1.
+constexpr std::array<float, 8> kSrgbChromaticities = {0.64f, 0.33f, 0.30f,   0.60f,
+                                                      0.15f, 0.06f, 0.3127f, 0.3290f};
+
+// Writes beside the target under another name and renames, so that the file is whole or not there.
+void write_whole(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                 const void* pixels) {
+  const fs::path part = file.parent_path() / fmt::format(".{}.{}{}", file.stem().string(), getpid(),
+                                                         file.extension().string());
+  std::string error;
+  std::error_code code;
+  {
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(part.string());
+    if (!output) {
+      error = OIIO::geterror();
+    } else if (!output->open(part.string(), spec) || !output->write_image(type, pixels) ||
+               !output->close()) {
+      error = output->geterror();
+    }
+  }
+  if (error.empty()) {
+    fs::rename(part, file, code);
+    if (code) error = code.message();
+  }
+  if (error.empty()) return;
+  fs::remove(part, code);
+  throw std::runtime_error(
+      fmt::format("{}: cannot write: {}", file.string(), error.substr(0, error.find('\n'))));
+}
+
+}  // namespace
+
+void write_exr_file(const Frame& frame, const fs::path& file) {
+  struct Channel {
+    std::string name;
+    const std::vector<float>& values;
+    std::size_t first, stride;
+  };
+  std::vector<Channel> channels;
+  const auto add = [&](const std::string& layer, const std::vector<float>& values,
+                       std::string_view suffixes) {
+    for (std::size_t k = 0; k < suffixes.size(); ++k) {
+      channels.push_back({layer + suffixes[k], values, k, suffixes.size()});
+    }
+  };
+  add("", frame.rgb, "RGB");
+  add("luminance.", frame.luminance, "Y");
+  channels.push_back({"view.zenith_deg", frame.view_zenith_deg, 0, 1});
+  channels.push_back({"view.azimuth_deg", frame.view_azimuth_deg, 0, 1});
+  const auto depth = static_cast<int>(channels.size());
+  add("", frame.depth_m, "Z");
+  if (const auto& layers = frame.layers) {
+    add("inscatter.", layers->in_scatter, "RGB");
+    add("reflected.", layers->reflected, "RGB");
+    add("transmittance.", layers->transmittance, "RGB");
+    add("normal.", layers->normal, "XYZ");
+    add("albedo.", layers->albedo, "RGB");
+  }
+  OIIO::ImageSpec spec(frame.width, frame.height, static_cast<int>(channels.size()),
+                       OIIO::TypeDesc::FLOAT);
+  spec.channelnames.clear();
+  for (const Channel& channel : channels) spec.channelnames.push_back(channel.name);
+  spec.z_channel = depth;
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                 kSrgbChromaticities.data());
+  for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
+  const std::size_t pixels = frame.luminance.size();
+  std::vector<float> packed(pixels * channels.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto& [name, values, first, stride] = channels[c];
+    for (std::size_t i = 0; i < pixels; ++i)
+      packed[i * channels.size() + c] = values[i * stride + first];
+  }
+  write_whole(file, spec, OIIO::TypeDesc::FLOAT, packed.data());
+}
+
+void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
+  OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
+  const std::vector<std::uint8_t> bytes = tone_mapped(frame, tone);
+  write_whole(file, spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+void write_png_texels(std::span<const std::uint8_t> rgba, int width, int height,
+                      const fs::path& file) {
+  OIIO::ImageSpec spec(width, height, 4, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  write_whole(file, spec, OIIO::TypeDesc::UINT8, rgba.data());
+}
+
+}  // namespace skyfit

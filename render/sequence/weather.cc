@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/sequence/weather.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/atmosphere/parameters.h"
+#include "model/tables/table_blend.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kLargestStep = 1.25;
+constexpr int kMostSteps = 12;  // between two given ones
+
+// Of the parameter that changes most: its end over its beginning.
+double largest_ratio(const Atmosphere<double>& a, const Atmosphere<double>& b) {
+  double largest = 1;
+  for (const ParameterInfo& info : parameter_table()) {
+    if (!has_parameter(a, info.id) || !has_parameter(b, info.id)) continue;
+    const double from = get_parameter(a, info.id), to = get_parameter(b, info.id);
+    if (!(from > 0 && to > 0)) continue;  // light is linear in what may be 0
+    if (std::abs(std::log(to / from)) > std::abs(std::log(largest))) largest = to / from;
+  }
+  return largest;
+}
+
+Preset preset_between(const Preset& a, const Preset& b, double share) {
+  if (share <= 0) return a;
+  if (share >= 1) return b;
+  Preset preset;
+  preset.name = fmt::format("{:.4g} of the way from {} to {}", share, a.name, b.name);
+  preset.atmosphere = interpolated_atmosphere(a.atmosphere, b.atmosphere, share);
+  return preset;
+}
+
+// The steps after a, up to b. The shares are such that the ratio of the parameter that changes most
+// is the same from step to step.
+void add_steps(const WeatherStep& a, const WeatherStep& b, std::vector<WeatherStep>& steps) {
+  if (preset_to_json(a.preset) != preset_to_json(b.preset)) {
+    const double ratio = largest_ratio(a.preset.atmosphere, b.preset.atmosphere);
+    const int count = static_cast<int>(
+        std::clamp(std::ceil(std::abs(std::log(ratio)) / std::log(kLargestStep) - 1e-9), 1.0,
+                   1.0 * kMostSteps));
+    for (int i = 1; i < count; ++i) {
+      const double share = std::expm1(std::log(ratio) * i / count) / (ratio - 1);
+      steps.push_back(
+          {std::lerp(a.time_s, b.time_s, share), preset_between(a.preset, b.preset, share)});
+    }
+  }
+  steps.push_back(b);
+}
+
+}  // namespace
+
+std::vector<WeatherStep> refined(const std::vector<WeatherStep>& steps) {
+  std::vector<WeatherStep> result = {steps.at(0)};
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    try {
+      interpolated_atmosphere(steps[i - 1].preset.atmosphere, steps[i].preset.atmosphere, 0.5);
+      add_steps(steps[i - 1], steps[i], result);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("presets {} and {} at {:.9g} s and {:.9g} s: {}",
+                                              steps[i - 1].preset.name, steps[i].preset.name,
+                                              steps[i - 1].time_s, steps[i].time_s, error.what()));
+    }
+  }
+  return result;
+}
+
+WeatherMoment moment_at(const std::vector<WeatherStep>& steps, double time_s) {
+  const auto next = std::ranges::upper_bound(steps, time_s, {}, &WeatherStep::time_s);
+  if (next == steps.begin()) return {0, 0, 0};
+  const auto after = static_cast<std::size_t>(next - steps.begin());
+  if (next == steps.end()) return {after - 1, after - 1, 0};
+  const WeatherStep &a = steps[after - 1], &b = *next;
+  const double share = (time_s - a.time_s) / (b.time_s - a.time_s);
+  if (share <= 0) return {after - 1, after - 1, 0};
+  return {after - 1, after, share};
+}
+
+Weather::Weather(std::vector<WeatherStep> steps, Compute compute)
+    : steps_(std::move(steps)), compute_(std::move(compute)) {}
+
+Weather::Now Weather::at(double time_s) {
+  const WeatherMoment moment = moment_at(steps_, time_s);
+  forget_all_but(moment.before, moment.after + 1);
+  const Tables before = tables_of(moment.before).get(), after = tables_of(moment.after).get();
+  if (moment.after + 1 < steps_.size()) tables_of(moment.after + 1);  // in the background
+  const Preset &a = steps_[moment.before].preset, &b = steps_[moment.after].preset;
+  if (before == after) return {a, before};
+  return {preset_between(a, b, moment.share),
+          std::make_shared<AtmosphereTables>(interpolated_tables(*before, *after, moment.share))};
+}
+
+std::shared_future<Weather::Tables> Weather::tables_of(std::size_t step) {
+  const auto same = [&](const Made& made) {
+    return made.step == step ||
+           preset_to_json(steps_[made.step].preset) == preset_to_json(steps_[step].preset);
+  };
+  if (const auto found = std::ranges::find_if(made_, same); found != made_.end()) {
+    if (found->step != step) made_.push_back({step, std::shared_future(found->tables)});
+    return std::ranges::find(made_, step, &Made::step)->tables;
+  }
+  // One after the other: the model keeps what it prepared last.
+  std::vector<std::shared_future<Tables>> earlier;
+  for (const Made& made : made_) earlier.push_back(made.tables);
+  made_.push_back({step, std::async(std::launch::async, [this, step, earlier]() -> Tables {
+                           for (const auto& tables : earlier) tables.wait();
+                           return std::make_shared<AtmosphereTables>(compute_(steps_[step].preset));
+                         }).share()});
+  return made_.back().tables;
+}
+
+void Weather::forget_all_but(std::size_t first, std::size_t last) {
+  std::erase_if(made_, [&](const Made& made) { return made.step < first || made.step > last; });
+}
+
+}  // namespace skyfit

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// An atmosphere that changes over a sequence. Tables are computed at steps in time, in the
+// background while the frames before them are drawn, and interpolated in between.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <vector>
+
+#include "model/atmosphere/preset.h"
+#include "model/tables/tables.h"
+
+namespace skyfit {
+
+struct WeatherStep {
+  double time_s = 0;
+  Preset preset;
+};
+
+// Steps between the given ones where a parameter changes by more than a quarter: tables between two
+// steps are then within 1 % of those of the atmosphere there. Ascending in time. Throws what
+// interpolated_atmosphere() throws, with the times of the two.
+std::vector<WeatherStep> refined(const std::vector<WeatherStep>& steps);
+
+// The steps before and after a time, and the share of the way; the same step twice where nothing
+// changes.
+struct WeatherMoment {
+  std::size_t before = 0, after = 0;
+  double share = 0;
+};
+WeatherMoment moment_at(const std::vector<WeatherStep>& steps, double time_s);
+
+class Weather {
+ public:
+  using Compute = std::function<AtmosphereTables(const Preset&)>;
+  using Tables = std::shared_ptr<const AtmosphereTables>;
+
+  // `compute` is called from another thread, one call at a time.
+  Weather(std::vector<WeatherStep> steps, Compute compute);
+
+  struct Now {
+    Preset preset;
+    Tables tables;  // the same object as before where nothing has changed
+  };
+  // Waits for tables that are not ready. Times may come in any order, ascending ones are cheap.
+  // Throws what `compute` throws.
+  Now at(double time_s);
+
+ private:
+  struct Made {
+    std::size_t step;
+    std::shared_future<Tables> tables;
+  };
+  std::shared_future<Tables> tables_of(std::size_t step);
+  void forget_all_but(std::size_t first, std::size_t last);
+
+  std::vector<WeatherStep> steps_;
+  Compute compute_;
+  std::vector<Made> made_;
+};
+
+}  // namespace skyfit
