@@ -18,6 +18,7 @@
 #include "data_refs/truth.h"
 #include "fit/model_comparison.h"
 #include "fit/problem/residuals.h"
+#include "model/registry.h"
 #include "render/plot/comparison.h"
 #include "render/plot/evaluate.h"
 #include "render/plot/fisheye.h"

@@ -14,6 +14,7 @@
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
+#include "model/registry.h"
 #include "render/plot/evaluate.h"
 #include "render/plot/results.h"
 
@@ -150,7 +151,8 @@ void add_problem_options(CLI::App& command, FitCommandOptions& options) {
 
 std::string parameter_list() {
   std::string text = "Parameters of --free, --fix and --prior:\n";
-  for (const ParameterInfo& info : parameter_table()) {
+  for (const Parameter& parameter : standard_parameters()) {
+    const ParameterInfo info = parameter_info(parameter);
     text += fmt::format("  {:<32}{} ({}){}\n", info.name, info.meaning, info.unit,
                         info.free_by_default ? ", free" : "");
   }

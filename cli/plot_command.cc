@@ -12,6 +12,7 @@
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/spectra.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 #include "render/plot/comparison.h"
 #include "render/plot/measured_figures.h"

@@ -61,7 +61,7 @@ void render_strip(const RenderRequest& request) {
     }
     statistics += table.medians();
   }
-  const ParameterInfo& info = parameter_info(strip.parameter);
+  const ParameterInfo info = parameter_info(strip.parameter);
   std::vector<std::string> values;
   for (const double value : strip.values) values.push_back(fmt::format("{:.9g}", value));
   Frame whole = side_by_side(frames, kGap);

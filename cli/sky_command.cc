@@ -11,6 +11,8 @@
 #include "cli/output.h"
 #include "cli/sky_table.h"
 #include "data_refs/spectra.h"
+#include "model/atmosphere/derived.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 #include "model/solver/reference_model.h"
 
@@ -159,7 +161,7 @@ void run_sky(const SkyOptions& options) {
   Preset preset = preset_named(options.preset);
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
-    preset.atmosphere.rayleigh.site_pressure_hpa = *pressure;
+    set_site_pressure(preset.atmosphere, *pressure);
   const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
   if (options.irradiance) {
     print_irradiance(*model, preset.atmosphere, grid, table);

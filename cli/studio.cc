@@ -2,6 +2,7 @@
 #include "cli/studio.h"
 
 #include "data_refs/spectra.h"
+#include "model/registry.h"
 #include "model/tables/tables.h"
 #include "render/plot/whole_files.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/render_request.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 #include "render/sequence/weather.h"
 

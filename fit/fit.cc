@@ -155,14 +155,12 @@ Solution refine(const Task& task, Solution solution, FitResult& result) {
 std::vector<FittedParameter> parameter_rows(const Task& task, const Atmosphere<double>& fitted,
                                             const Uncertainty& uncertain) {
   std::vector<FittedParameter> rows;
-  for (const ParameterInfo& info : parameter_table()) {
-    if (!has_parameter(fitted, info.id)) continue;
-    FittedParameter row;
-    row.id = info.id;
-    row.start = has_parameter(task.start, info.id) ? get_parameter(task.start, info.id) : kNan;
-    row.fitted = get_parameter(fitted, info.id);
+  for (const Parameter& id : parameters_of(fitted)) {
+    FittedParameter row(id);
+    row.start = has_parameter(task.start, id) ? get_parameter(task.start, id) : kNan;
+    row.fitted = get_parameter(fitted, id);
     for (std::size_t p = 0; p < task.parameters.size(); ++p) {
-      if (task.parameters[p].id != info.id) continue;
+      if (task.parameters[p].id != id) continue;
       row.free = true;
       row.sigma = uncertain.sigma[p];
       row.at_bound = uncertain.at_bound[p];

@@ -46,6 +46,8 @@ struct FitOptions {
 void validate(const FitOptions& options);
 
 struct FittedParameter {
+  explicit FittedParameter(const Parameter& parameter) : id(parameter) {}
+
   Parameter id;
   bool free = false;
   double start = 0;  // NaN when the start has another phase function and thus no such parameter

@@ -35,9 +35,9 @@ void validate(const FitOptions& options) {
   const double exclude_deg = options.exclude_sun * 180 / std::numbers::pi;
   require(exclude_deg >= 0 && exclude_deg < 180, "exclude_sun_deg", exclude_deg,
           ">= 0 and < 180 degrees");
-  for (const auto& [id, prior] : options.priors) require_prior(parameter_info(id).name, prior);
+  for (const auto& [id, prior] : options.priors) require_prior(id.name(), prior);
   for (const auto& [id, value] : options.fix) {
-    require(std::isfinite(value), fmt::format("fix.{}", parameter_info(id).name), value, "finite");
+    require(std::isfinite(value), fmt::format("fix.{}", id.name()), value, "finite");
   }
   if (options.site_pressure_hpa) {
     const double pressure = *options.site_pressure_hpa;

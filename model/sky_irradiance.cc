@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
-#include "model/geometry/ray.h"
 #include "model/numerics/gauss.h"
 #include "model/sky_model.h"
 
@@ -43,25 +43,24 @@ Hemisphere upper_hemisphere(double altitude_m, double sun_zenith) {
   return hemisphere;
 }
 
-using DualIrradiance = Dual<kParameterCount>;
+using DualIrradiance = Dual<kDerivativesAtOnce>;
 
 // exp(-optical depth) toward the sun, the beam itself: nothing of the forward peak is cut off.
 std::vector<DualIrradiance> direct_beam(const Atmosphere<double>& atmosphere,
                                         std::span<const WavelengthNode> wavelengths,
                                         double altitude_m, double mu_s,
                                         std::span<const Parameter> derivatives) {
-  Shells shells = shells_of(atmosphere);
-  shells.ozone = true;  // for its derivative where there is none
+  const Shells shells = shells_of(atmosphere, Keep::kWhatMatters, derivatives);
   const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, mu_s);
   if (to_sun.hits_ground) return std::vector<DualIrradiance>(wavelengths.size());
   PathColumns columns;
   if (to_sun.length > 0) {
     columns = columns_along(shells, to_sun, ray_point(to_sun, shells.bottom_radius, to_sun.length));
   }
-  const auto seeded_atmosphere = seeded<kParameterCount>(atmosphere, derivatives);
+  const auto seeded_atmosphere = seeded<kDerivativesAtOnce>(atmosphere, derivatives);
   std::vector<DualIrradiance> beam;
   for (const WavelengthNode& node : wavelengths) {
-    beam.push_back(exp(-uncut_optics_at(seeded_atmosphere, node).optical_depth(columns)));
+    beam.push_back(exp(-true_optics_at(shells, seeded_atmosphere, node).optical_depth(columns)));
   }
   return beam;
 }
@@ -78,15 +77,8 @@ DualIrradiance diffuse_of(const Hemisphere& hemisphere, const SkyValues& sky, in
   return sum;
 }
 
-}  // namespace
-
-SkyValues SkyModel::irradiance(const Atmosphere<double>& atmosphere,
-                               std::span<const WavelengthNode> wavelengths, double altitude_m,
-                               double sun_zenith, std::span<const Parameter> derivatives) const {
-  const Hemisphere hemisphere = upper_hemisphere(altitude_m, sun_zenith);
-  const SkyValues sky = radiance(atmosphere, wavelengths, hemisphere.points, derivatives);
-  const double mu_s = std::cos(sun_zenith);
-  const auto beam = direct_beam(atmosphere, wavelengths, altitude_m, mu_s, derivatives);
+SkyValues irradiance_of(const Hemisphere& hemisphere, const SkyValues& sky, double mu_s,
+                        const std::vector<DualIrradiance>& beam) {
   SkyValues result{kIrradianceCount, sky.wavelengths, sky.parameters, {}, {}};
   result.value.resize(static_cast<std::size_t>(result.points) * result.wavelengths);
   result.derivative.resize(result.value.size() * result.parameters);
@@ -106,6 +98,20 @@ SkyValues SkyModel::irradiance(const Atmosphere<double>& atmosphere,
     put(kGlobalHorizontal, horizontal + diffuse);
   }
   return result;
+}
+
+}  // namespace
+
+SkyValues SkyModel::irradiance(const Atmosphere<double>& atmosphere,
+                               std::span<const WavelengthNode> wavelengths, double altitude_m,
+                               double sun_zenith, std::span<const Parameter> derivatives) const {
+  const Hemisphere hemisphere = upper_hemisphere(altitude_m, sun_zenith);
+  return in_batches<kDerivativesAtOnce>(derivatives, [&](std::span<const Parameter> batch) {
+    const SkyValues sky = radiance(atmosphere, wavelengths, hemisphere.points, batch);
+    const double mu_s = std::cos(sun_zenith);
+    const auto beam = direct_beam(atmosphere, wavelengths, altitude_m, mu_s, batch);
+    return irradiance_of(hemisphere, sky, mu_s, beam);
+  });
 }
 
 }  // namespace skyfit

@@ -2,22 +2,10 @@
 #include "model/sky_model.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <vector>
-
-#include "model/literature/bodare.h"
-#include "model/literature/bruneton.h"
-#include "model/literature/hoffman_preetham.h"
-#include "model/literature/nielsen.h"
-#include "model/literature/oneil.h"
-#include "model/literature/preetham.h"
-#include "model/literature/schafhitzel.h"
-#include "model/solver/reference_model.h"
-#include "model/tables/table_model.h"
 
 namespace skyfit {
 
@@ -54,40 +42,11 @@ std::size_t SkyModel::prepare(const Atmosphere<double>& atmosphere,
   return 0;
 }
 
-std::span<const SkyModelEntry> sky_models() {
-  static constexpr SkyModelEntry kModels[] = {
-      {"reference", "the yardstick: quadrature and converged multiple scattering in shells"},
-      {"tables", "what the renderer looks up: tables of the reference"},
-      {"bruneton", "Bruneton & Neyret 2008: 4D tables, multiple scattering"},
-      {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering"},
-      {"schafhitzel", "Schafhitzel, Falk & Ertl 2007: 3D table, single scattering"},
-      {"oneil", "O'Neil 2005: five samples along the ray, single scattering"},
-      {"nielsen", "Nielsen 2003: closed form, mean density; day, up to 20 km"},
-      {"hoffman-preetham", "Hoffman & Preetham 2002: closed form, constant density; day, ground"},
-      {"preetham", "Preetham, Shirley & Smits 1999: formula over the turbidity; day, ground, sky"},
-  };
-  return kModels;
-}
-
-std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
-                                         int threads) {
-  if (name == "reference") {
-    ReferenceOptions options;
-    options.threads = threads;
-    return std::make_unique<ReferenceModel>(options);
-  }
-  if (name == "tables") return std::make_unique<TableModel>(threads);
-  if (name == "bruneton") return std::make_unique<BrunetonModel>(threads);
-  if (name == "bodare") return std::make_unique<BodareModel>(threads);
-  if (name == "schafhitzel") return std::make_unique<SchafhitzelModel>(threads);
-  if (name == "oneil") return std::make_unique<ONeilModel>(threads);
-  if (name == "nielsen") return std::make_unique<NielsenModel>();
-  if (name == "hoffman-preetham") return std::make_unique<HoffmanPreethamModel>();
-  if (name == "preetham") return std::make_unique<PreethamModel>(spectra);
-  std::vector<std::string_view> names;
-  for (const SkyModelEntry& entry : sky_models()) names.push_back(entry.name);
-  throw std::invalid_argument(
-      fmt::format("model \"{}\": expected one of {}", name, fmt::join(names, ", ")));
+void check_derivative(std::string_view model, const Atmosphere<double>& atmosphere,
+                      const Parameter& parameter) {
+  if (has_parameter(atmosphere, parameter)) return;
+  throw std::invalid_argument(fmt::format("{} model: the atmosphere has no {} to differentiate by",
+                                          model, parameter.name()));
 }
 
 }  // namespace skyfit

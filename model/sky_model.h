@@ -3,6 +3,7 @@
 // unit solar irradiance comes out, with exact derivatives when asked.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,20 +12,11 @@
 
 #include "model/atmosphere/atmosphere.h"
 #include "model/atmosphere/parameters.h"
+#include "model/geometry/sky_point.h"
 #include "model/photometry/photometry.h"
 #include "model/tables/sky_rays.h"
 
 namespace skyfit {
-
-// One look at the sky. Angles in radians. The observer stands `altitude_m` above the bottom radius;
-// zenith angles are those at the observer. Azimuth 0 looks toward the sun's azimuth. view_zenith >
-// pi/2 looks down.
-struct SkyPoint {
-  double altitude_m = 0;
-  double sun_zenith = 0;
-  double view_zenith = 0;
-  double relative_azimuth = 0;
-};
 
 // Values [point][wavelength] and derivatives [parameter][point][wavelength], row major.
 struct SkyValues {
@@ -89,14 +81,16 @@ class SkyModel {
     return {};
   }
 
-  // The atmosphere as the model sees it: without what it leaves out.
-  virtual Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const { return atmosphere; }
+  // The effective atmosphere: without what the model leaves out.
+  virtual Atmosphere<double> effective_atmosphere(const Atmosphere<double>& atmosphere) const {
+    return atmosphere;
+  }
 
   // Whether a sky can tell the parameter by this model: radiance() depends on it, and not only
   // together with others. A fit leaves the rest as it is.
-  virtual bool can_fit(Parameter) const { return true; }
+  virtual bool can_fit(const Parameter&) const { return true; }
 
-  // How many lobes of the aerosol's phase function a fit can tell apart: 1 or 2.
+  // How many lobes of a phase function a fit can tell apart: 1 or 2.
   virtual int lobes() const { return 2; }
 
   // Computes the model's tables for an atmosphere and keeps those that were asked for last, so that
@@ -112,16 +106,22 @@ void check_model_value(std::string_view model, bool good, std::string_view name,
                        std::string_view expected);
 void check_point(std::string_view model, const SkyPoint& point);
 
-struct SkyModelEntry {
-  std::string_view name;
-  std::string_view meaning;  // one line, with the source
-};
-// Every model, the yardstick first.
-std::span<const SkyModelEntry> sky_models();
+// For the models: throws std::invalid_argument unless the atmosphere has the parameter.
+void check_derivative(std::string_view model, const Atmosphere<double>& atmosphere,
+                      const Parameter& parameter);
 
-// Throws std::invalid_argument that lists the known names. `threads` >= 1; results do not depend on
-// it. `spectra`: what a model that speaks of luminance needs to speak of radiance.
-std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
-                                         int threads);
+// Calls of_batch(parameters) -> SkyValues for at most `kBatch` of the derivatives at a time and
+// puts the results together; at least one call.
+template <std::size_t kBatch, class OfBatch>
+SkyValues in_batches(std::span<const Parameter> derivatives, const OfBatch& of_batch) {
+  SkyValues all = of_batch(derivatives.first(std::min(kBatch, derivatives.size())));
+  for (std::size_t first = kBatch; first < derivatives.size(); first += kBatch) {
+    const SkyValues more =
+        of_batch(derivatives.subspan(first, std::min(kBatch, derivatives.size() - first)));
+    all.derivative.insert(all.derivative.end(), more.derivative.begin(), more.derivative.end());
+    all.parameters += more.parameters;
+  }
+  return all;
+}
 
 }  // namespace skyfit

@@ -22,6 +22,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 #include "notebooks_cpp/notebook.h"
 #include "render/plot/comparison.h"

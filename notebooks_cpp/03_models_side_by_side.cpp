@@ -23,6 +23,7 @@
 #include "fit/fit.h"
 #include "fit/model_comparison.h"
 #include "model/atmosphere/preset.h"
+#include "model/registry.h"
 #include "notebooks_cpp/notebook.h"
 #include "render/plot/comparison.h"
 #include "render/plot/evaluate.h"

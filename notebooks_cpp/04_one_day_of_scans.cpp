@@ -27,6 +27,7 @@
 #include "data_refs/spectra.h"
 #include "fit/classify.h"
 #include "model/atmosphere/preset.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 #include "notebooks_cpp/notebook.h"
 

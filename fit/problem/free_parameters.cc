@@ -8,72 +8,77 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/atmosphere/derived.h"
+
 namespace skyfit::fit {
 namespace {
 
-bool is_scale(Parameter id) {
-  return id == Parameter::kRayleighScattering || id == Parameter::kRayleighScaleHeight ||
-         id == Parameter::kMieScattering || id == Parameter::kMieScaleHeight;
-}
-
-void move_to_bounds_wavelength(PowerLaw<double>& law) {
-  constexpr double kBoundsWavelengthNm = 550;
-  law.value *= std::pow(kBoundsWavelengthNm / law.wavelength_nm, -law.exponent);
-  law.wavelength_nm = kBoundsWavelengthNm;
-}
-
-std::string_view kind_of(const Atmosphere<double>& atmosphere, Parameter id) {
-  const bool is_height = id == Parameter::kRayleighScaleHeight || id == Parameter::kMieScaleHeight;
-  return is_height ? "a tabulated profile" : phase_kind(atmosphere.mie.phase.type);
-}
-
-void require_parameter(const Atmosphere<double>& atmosphere, Parameter id,
-                       std::string_view option) {
-  if (!has_parameter(atmosphere, id)) {
-    throw std::invalid_argument(
-        fmt::format("fit.{}: {}: the atmosphere with {} has no such parameter", option,
-                    parameter_info(id).name, kind_of(atmosphere, id)));
+bool is_scale(const Parameter& id) {
+  switch (id.quantity()) {
+    case Quantity::kScattering:
+    case Quantity::kExtinction:
+    case Quantity::kOpticalDepth:
+    case Quantity::kScaleHeight:
+      return true;
+    default:
+      return false;
   }
 }
 
-std::optional<Prior> prior_of(const FitOptions& options, const ParameterInfo& info) {
-  if (const auto given = options.priors.find(info.id); given != options.priors.end()) {
+void move_to_bounds_wavelength(Constituent<double>& c) {
+  constexpr double kBoundsWavelengthNm = 550;
+  if (c.amount_type == AmountType::kColumn || c.spectrum) return;
+  c.amount *= std::pow(kBoundsWavelengthNm / c.wavelength_nm, -c.angstrom_exponent);
+  c.wavelength_nm = kBoundsWavelengthNm;
+}
+
+void require_parameter_of(const Atmosphere<double>& atmosphere, const Parameter& id,
+                          std::string_view option) {
+  try {
+    require_parameter(atmosphere, id);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("fit.{}: {}", option, error.what()));
+  }
+}
+
+std::optional<Prior> prior_of(const FitOptions& options, const Parameter& id) {
+  if (const auto given = options.priors.find(id); given != options.priors.end()) {
     return given->second;
   }
-  return options.use_priors ? info.prior : std::nullopt;
+  return options.use_priors ? parameter_info(id).prior : std::nullopt;
 }
 
-bool is_free(const FitOptions& options, const ParameterInfo& info) {
-  if (options.fix.contains(info.id)) return false;
-  if (!options.free) return info.free_by_default;
-  return std::find(options.free->begin(), options.free->end(), info.id) != options.free->end();
+bool is_free(const FitOptions& options, const Parameter& id) {
+  if (options.fix.contains(id)) return false;
+  if (!options.free) return parameter_info(id).free_by_default;
+  return std::find(options.free->begin(), options.free->end(), id) != options.free->end();
 }
 
 void check_names(const FitOptions& options, const SkyModel& model,
                  const Atmosphere<double>& atmosphere) {
   for (const Parameter id : options.free.value_or(std::vector<Parameter>{})) {
-    require_parameter(atmosphere, id, "free");
+    require_parameter_of(atmosphere, id, "free");
     if (!model.can_fit(id)) {
-      throw std::invalid_argument(fmt::format("fit.free: {}: the {} model cannot tell it",
-                                              parameter_info(id).name, model.name()));
+      throw std::invalid_argument(
+          fmt::format("fit.free: {}: the {} model cannot tell it", id.name(), model.name()));
     }
     if (options.fix.contains(id)) {
       throw std::invalid_argument(
-          fmt::format("fit.free: {}: also fixed, must be one of the two", parameter_info(id).name));
+          fmt::format("fit.free: {}: also fixed, must be one of the two", id.name()));
     }
   }
   for (const auto& [id, prior] : options.priors) {
-    require_parameter(atmosphere, id, "prior");
-    if (!is_free(options, parameter_info(id))) {
+    require_parameter_of(atmosphere, id, "prior");
+    if (!is_free(options, id)) {
       throw std::invalid_argument(
-          fmt::format("fit.prior: {}: must be free to have a prior", parameter_info(id).name));
+          fmt::format("fit.prior: {}: must be free to have a prior", id.name()));
     }
   }
 }
 
 void check_start(const FreeParameter& parameter, double start) {
   if (start >= parameter.lower && start <= parameter.upper) return;
-  const ParameterInfo& info = parameter_info(parameter.id);
+  const ParameterInfo info = parameter_info(parameter.id);
   throw std::invalid_argument(
       fmt::format("fit.start: {} = {:.9g} {}: a free parameter must start within {:.9g} .. {:.9g}; "
                   "fix it or start elsewhere",
@@ -84,12 +89,14 @@ void check_start(const FreeParameter& parameter, double start) {
 
 Atmosphere<double> with_lobes(const Atmosphere<double>& atmosphere, int lobes) {
   Atmosphere<double> result = atmosphere;
-  AerosolPhase<double>& phase = result.mie.phase;
+  const Constituent<double>* const aerosol = main_aerosol(result);
+  if (aerosol == nullptr) return result;
+  PhaseFunction<double>& phase = result.at(aerosol->name).phase;
   const bool two = phase.type == PhaseType::kTwoLobe;
   if (lobes == 1 && two) {
     phase.g = phase.weight * phase.g1 + (1 - phase.weight) * phase.g2;
     phase.type = phase.lobe;
-  } else if (lobes == 2 && has_parameter(atmosphere, Parameter::kMiePhaseG)) {
+  } else if (lobes == 2 && has_parameter(atmosphere, {aerosol->name, Quantity::kPhaseG})) {
     phase.lobe = phase.type;
     phase.g1 = phase.g;
     phase.g2 = std::min(0.2, phase.g - 0.2);
@@ -103,17 +110,11 @@ Atmosphere<double> start_atmosphere(const FitOptions& options) {
   Atmosphere<double> atmosphere;
   if (options.start) {
     atmosphere = options.start->atmosphere;
-    move_to_bounds_wavelength(atmosphere.rayleigh.scattering_per_m);
-    move_to_bounds_wavelength(atmosphere.mie.scattering_per_m);
-  } else {
-    if (options.lobes == 2) atmosphere.mie.phase.type = PhaseType::kTwoLobe;
-    for (const ParameterInfo& info : parameter_table()) {
-      if (has_parameter(atmosphere, info.id)) {
-        set_parameter(atmosphere, info.id, info.default_value);
-      }
-    }
+    std::ranges::for_each(atmosphere.constituents, move_to_bounds_wavelength);
+  } else if (options.lobes == 2) {
+    atmosphere.at("mie").phase.type = PhaseType::kTwoLobe;
   }
-  if (options.site_pressure_hpa) atmosphere.rayleigh.site_pressure_hpa = *options.site_pressure_hpa;
+  if (options.site_pressure_hpa) set_site_pressure(atmosphere, *options.site_pressure_hpa);
   return atmosphere;
 }
 
@@ -121,7 +122,7 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
                                      const FitOptions& options) {
   Atmosphere<double> result = atmosphere;
   for (const auto& [id, value] : options.fix) {
-    require_parameter(atmosphere, id, "fix");
+    require_parameter_of(atmosphere, id, "fix");
     set_parameter(result, id, value);
   }
   try {
@@ -133,7 +134,7 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
 }
 
 FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior) {
-  const ParameterInfo& info = parameter_info(id);
+  const ParameterInfo info = parameter_info(id);
   return {{info.lower, info.upper, is_scale(id) && info.lower > 0, prior}, id};
 }
 
@@ -148,12 +149,10 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
                                                   const Atmosphere<double>& atmosphere) {
   check_names(options, model, atmosphere);
   std::vector<FreeParameter> result;
-  for (const ParameterInfo& info : parameter_table()) {
-    if (!has_parameter(atmosphere, info.id) || !model.can_fit(info.id) || !is_free(options, info)) {
-      continue;
-    }
-    const FreeParameter parameter = free_parameter(info.id, prior_of(options, info));
-    check_start(parameter, get_parameter(atmosphere, info.id));
+  for (const Parameter& id : parameters_of(atmosphere)) {
+    if (!model.can_fit(id) || !is_free(options, id)) continue;
+    const FreeParameter parameter = free_parameter(id, prior_of(options, id));
+    check_start(parameter, get_parameter(atmosphere, id));
     result.push_back(parameter);
   }
   if (result.empty()) {
@@ -189,14 +188,17 @@ Atmosphere<double> with_scaled_values(Atmosphere<double> atmosphere,
 
 bool lobes_interchangeable(const std::vector<FreeParameter>& parameters) {
   return std::count_if(parameters.begin(), parameters.end(), [](const FreeParameter& parameter) {
-           return !parameter.prior && (parameter.id == Parameter::kMiePhaseG1 ||
-                                       parameter.id == Parameter::kMiePhaseG2 ||
-                                       parameter.id == Parameter::kMiePhaseWeight);
+           const Quantity quantity = parameter.id.quantity();
+           return !parameter.prior &&
+                  (quantity == Quantity::kPhaseG1 || quantity == Quantity::kPhaseG2 ||
+                   quantity == Quantity::kPhaseWeight);
          }) == 3;
 }
 
 bool order_lobes(Atmosphere<double>& atmosphere) {
-  AerosolPhase<double>& phase = atmosphere.mie.phase;
+  const Constituent<double>* const aerosol = main_aerosol(atmosphere);
+  if (aerosol == nullptr) return false;
+  PhaseFunction<double>& phase = atmosphere.at(aerosol->name).phase;
   if (phase.type != PhaseType::kTwoLobe || phase.g1 >= phase.g2) return false;
   std::swap(phase.g1, phase.g2);
   phase.weight = 1 - phase.weight;

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "fit/result/derived.h"
+#include "model/atmosphere/derived.h"
 
 namespace skyfit::fit {
 namespace {
@@ -65,7 +65,7 @@ void add_atmosphere(const MeasuredOptions& options, const std::vector<FreeParame
   for (const Parameter id : options.per_scan) {
     if (std::ranges::count(parameters, id, &FreeParameter::id) > 0) continue;
     throw std::invalid_argument(
-        fmt::format("fit.per_scan: {}: must be a free parameter", parameter_info(id).name));
+        fmt::format("fit.per_scan: {}: must be a free parameter", id.name()));
   }
   for (const FreeParameter& parameter : parameters) {
     for (const int scan : scans_of(options.per_scan.contains(parameter.id), scans))
@@ -122,11 +122,9 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
     result.priors.emplace(Parameter::kMiePhaseG1, kForwardLobePrior);
   if (options.free || !spectral) return result;
   result.free.emplace();
-  for (const ParameterInfo& info : parameter_table()) {
-    const bool free = info.free_by_default || info.id == Parameter::kMieAngstromExponent;
-    if (free && has_parameter(atmosphere, info.id) && model.can_fit(info.id) &&
-        !options.fix.contains(info.id))
-      result.free->push_back(info.id);
+  for (const Parameter& id : parameters_of(atmosphere)) {
+    const bool free = parameter_info(id).free_by_default || id == Parameter::kMieAngstromExponent;
+    if (free && model.can_fit(id) && !options.fix.contains(id)) result.free->push_back(id);
   }
   return result;
 }
@@ -222,7 +220,7 @@ MeasuredProblem measured_problem(const refs::Reference& reference, const Spectra
   Atmosphere<double> given = start_atmosphere(options.common);
   if (const auto elevation = common_elevation(reference);
       elevation && !options.common.start && !options.common.site_pressure_hpa) {
-    given.rayleigh.site_pressure_hpa = standard_pressure_hpa(*elevation);
+    set_site_pressure(given, standard_pressure_hpa(*elevation));
   }
   if (options.ground) given.ground_spectrum = *options.ground;
   const bool evaluate_only = options.common.free && options.common.free->empty();

@@ -36,15 +36,15 @@ PhaseStart phase_start(int n) {
   return {0.2 + 0.7 * part(1), g1, std::min(-0.1 + 0.7 * part(2), g1 - 0.1), 0.15 + 0.7 * part(3)};
 }
 
-double value_of(const PhaseStart& start, Parameter id) {
-  switch (id) {
-    case Parameter::kMiePhaseG:
+double value_of(const PhaseStart& start, const Parameter& id) {
+  switch (id.quantity()) {
+    case Quantity::kPhaseG:
       return start.g;
-    case Parameter::kMiePhaseG1:
+    case Quantity::kPhaseG1:
       return start.g1;
-    case Parameter::kMiePhaseG2:
+    case Quantity::kPhaseG2:
       return start.g2;
-    case Parameter::kMieScattering:
+    case Quantity::kScattering:
       return kMieScattering;
     default:
       return start.weight;
@@ -52,8 +52,15 @@ double value_of(const PhaseStart& start, Parameter id) {
 }
 
 bool is_phase(const FreeParameter& parameter) {
-  return parameter.id == Parameter::kMiePhaseG || parameter.id == Parameter::kMiePhaseG1 ||
-         parameter.id == Parameter::kMiePhaseG2 || parameter.id == Parameter::kMiePhaseWeight;
+  switch (parameter.id.quantity()) {
+    case Quantity::kPhaseG:
+    case Quantity::kPhaseG1:
+    case Quantity::kPhaseG2:
+    case Quantity::kPhaseWeight:
+      return true;
+    default:
+      return false;
+  }
 }
 
 // What the starts set: the phase parameters, and with them the amount of aerosol; or that alone,
@@ -74,8 +81,8 @@ std::vector<FreeParameter> varied_parameters(const std::vector<FreeParameter>& p
 Start named(const Atmosphere<double>& atmosphere, const std::vector<FreeParameter>& varied) {
   std::string name;
   for (const FreeParameter& parameter : varied) {
-    std::string_view short_name = parameter_info(parameter.id).name;
-    short_name.remove_prefix(short_name.rfind('.') + 1);
+    std::string short_name = parameter.id.name();
+    short_name.erase(0, short_name.rfind('.') + 1);
     name += fmt::format("{}{} {:.3g}", name.empty() ? "" : ", ", short_name,
                         get_parameter(atmosphere, parameter.id));
   }

@@ -63,10 +63,10 @@ std::variant<Parameter, Instrument> unknown_from_name(std::string_view name) {
 
 std::string Unknown::name() const {
   const Parameter* parameter = std::get_if<Parameter>(&what);
-  const std::string_view base = parameter != nullptr
-                                    ? parameter_info(*parameter).name
-                                    : instrument_info(std::get<Instrument>(what)).name;
-  return scan == kAllScans ? std::string(base) : fmt::format("{}[{}]", base, scan + 1);
+  const std::string base = parameter != nullptr
+                               ? parameter->name()
+                               : std::string(instrument_info(std::get<Instrument>(what)).name);
+  return scan == kAllScans ? base : fmt::format("{}[{}]", base, scan + 1);
 }
 
 std::string_view Unknown::unit() const {

@@ -7,6 +7,7 @@
 
 #include "fit/problem/measured_problem.h"
 #include "fit/result/preset_record.h"
+#include "model/atmosphere/derived.h"
 
 namespace skyfit::fit {
 namespace {
@@ -83,7 +84,7 @@ Preset measured_preset(const refs::Reference& reference, const SkyModel& model,
                        const MeasuredOptions& options, const MeasuredResult& result) {
   Preset preset;
   preset.atmosphere = result.scans.front().atmosphere;
-  preset.name = fmt::format("{}, {}", reference.name, phase_kind(preset.atmosphere.mie.phase.type));
+  preset.name = fmt::format("{}, {}", reference.name, aerosol_kind(preset.atmosphere));
   json suns = json::array();
   for (const ScanOutcome& scan : result.scans)
     suns.push_back(scan.info.sun_zenith * 180 / std::numbers::pi);

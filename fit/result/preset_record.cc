@@ -8,6 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "model/atmosphere/derived.h"
+
 namespace skyfit::fit {
 namespace {
 
@@ -25,7 +27,7 @@ json parameter_records(const FitResult& result) {
   json records = json::object();
   for (const FittedParameter& row : result.parameters) {
     if (!row.free) continue;
-    const ParameterInfo& info = parameter_info(row.id);
+    const ParameterInfo info = parameter_info(row.id);
     json record = {{"unit", info.unit},
                    {"sigma", finite_or_null(row.sigma)},
                    {"at_bound", row.at_bound},
@@ -39,7 +41,7 @@ json parameter_records(const FitResult& result) {
 
 json covariance_record(const FitResult& result) {
   json names = json::array();
-  for (const Parameter id : result.covariance_parameters) names.push_back(parameter_info(id).name);
+  for (const Parameter id : result.covariance_parameters) names.push_back(id.name());
   return {{"parameters", names}, {"matrix", matrix_json(result.covariance)}};
 }
 
@@ -55,12 +57,13 @@ std::vector<Parameter> read_parameters(const json& names, const Atmosphere<doubl
     const auto fail = [&](std::string_view expected) {
       fail_covariance(source, fmt::format(".parameters: {}: {}", text, expected));
     };
-    Parameter parameter{};
-    try {
-      parameter = parameter_from_name(text);
-    } catch (const std::invalid_argument& error) {
-      fail_covariance(source, fmt::format(".parameters: {}", error.what()));
-    }
+    const Parameter parameter = [&] {
+      try {
+        return parameter_from_name(text);
+      } catch (const std::invalid_argument& error) {
+        fail_covariance(source, fmt::format(".parameters: {}", error.what()));
+      }
+    }();
     if (!has_parameter(atmosphere, parameter)) fail("expected a parameter that the preset has");
     if (std::ranges::count(parameters, parameter) > 0) fail("expected each name once");
     parameters.push_back(parameter);
@@ -87,8 +90,7 @@ Eigen::MatrixXd read_matrix(const json& rows, const std::vector<Parameter>& para
         fail_covariance(
             source, fmt::format(".matrix[{}][{}] = {}: expected a finite number{}; fit again with "
                                 "{} fixed or under a prior",
-                                i, j, value.dump(), i == j ? " >= 0" : "",
-                                parameter_info(parameters[i]).name));
+                                i, j, value.dump(), i == j ? " >= 0" : "", parameters[i].name()));
       }
       matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value;
     }
@@ -144,7 +146,7 @@ nlohmann::json matrix_json(const Eigen::MatrixXd& matrix) {
 Preset fitted_preset(const Atmosphere<double>& atmosphere, const refs::Reference& reference,
                      const SkyModel& model, const FitOptions& options, const FitResult& result) {
   Preset preset;
-  preset.name = fmt::format("{}, {}", reference.name, phase_kind(atmosphere.mie.phase.type));
+  preset.name = fmt::format("{}, {}", reference.name, aerosol_kind(atmosphere));
   preset.atmosphere = atmosphere;
   preset.fit = {
       {"reference",

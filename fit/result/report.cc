@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "fit/fit.h"
-#include "fit/result/derived.h"
+#include "model/atmosphere/derived.h"
 
 namespace skyfit::fit {
 namespace {
@@ -18,7 +18,7 @@ std::string number(double value, int digits = 5) {
 
 std::string remark(const FittedParameter& row) {
   if (!row.free) return "fixed";
-  const ParameterInfo& info = parameter_info(row.id);
+  const ParameterInfo info = parameter_info(row.id);
   if (row.at_bound) {
     const bool lower = row.fitted - info.lower < info.upper - row.fitted;
     return fmt::format("at {} bound", lower ? "lower" : "upper");
@@ -57,7 +57,7 @@ std::string parameter_table_text(const FitResult& result) {
       fmt::format(kRow, "parameter", "unit", "start", "fitted", "one sigma", "prior", "at bound?") +
       "\n";
   for (const FittedParameter& row : result.parameters) {
-    const ParameterInfo& info = parameter_info(row.id);
+    const ParameterInfo info = parameter_info(row.id);
     std::string line =
         fmt::format(kRow, info.name, info.unit, number(row.start, 4), number(row.fitted),
                     row.free ? number(row.sigma, 3) : "-", prior_text(row), remark(row));
@@ -103,7 +103,7 @@ std::string pulled_text(const FitResult& result) {
     const double pull = (row.fitted - row.prior->mean) / row.prior->sigma;
     if (std::abs(pull) < kPulled) continue;
     text += fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there.\n",
-                        parameter_info(row.id).name, pull);
+                        row.id.name(), pull);
   }
   return text.empty() ? text : text + "\n";
 }
@@ -121,8 +121,7 @@ std::string correlation_text(const FitResult& result) {
       result.condition_number);
   const Eigen::Index count = result.correlation.rows();
   for (Eigen::Index i = 0; i < count; ++i) {
-    text +=
-        fmt::format("{:>2} {:<29}", i + 1, parameter_info(result.covariance_parameters[i]).name);
+    text += fmt::format("{:>2} {:<29}", i + 1, result.covariance_parameters[i].name());
     for (Eigen::Index j = 0; j <= i; ++j) text += fmt::format("{:>6.2f}", result.correlation(i, j));
     text += "\n";
   }

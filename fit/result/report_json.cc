@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "fit/fit.h"
-#include "fit/result/derived.h"
 #include "fit/result/preset_record.h"
+#include "model/atmosphere/derived.h"
 
 namespace skyfit::fit {
 namespace {
@@ -14,7 +14,7 @@ using nlohmann::json;
 json parameters_json(const FitResult& result) {
   json rows = json::array();
   for (const FittedParameter& row : result.parameters) {
-    const ParameterInfo& info = parameter_info(row.id);
+    const ParameterInfo info = parameter_info(row.id);
     rows.push_back(
         {{"name", info.name},
          {"unit", info.unit},
@@ -64,7 +64,7 @@ json starts_json(const FitResult& result) {
 
 json names_json(const std::vector<Parameter>& parameters) {
   json names = json::array();
-  for (const Parameter id : parameters) names.push_back(parameter_info(id).name);
+  for (const Parameter id : parameters) names.push_back(id.name());
   return names;
 }
 

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace skyfit {
@@ -17,87 +19,191 @@ void expect(bool holds, std::string_view path, double value, std::string_view ex
   }
 }
 
-void expect_table(bool present, std::string_view path) {
-  if (!present) {
-    throw std::invalid_argument(fmt::format("{} = tabulated: expected a table", path));
-  }
+[[noreturn]] void fail_text(std::string_view path, std::string_view found,
+                            std::string_view expectation) {
+  throw std::invalid_argument(fmt::format("{} = {}: expected {}", path, found, expectation));
 }
 
-void validate_scale_height(const TabulatedProfile& profile, std::string_view path, double height) {
-  expect(profile != nullptr || height > 0.0, path, height, "a height > 0 m");
+// What the solver was tried with, far beyond any sky. Planets: a pebble of 1 km to a giant.
+constexpr double kLeastRadius = 1e3, kMostRadius = 1e9;  // m
+constexpr double kThinnest = 100;                        // m, of the whole atmosphere
+constexpr double kLeastHeight = 1, kMostHeight = 1e7;    // m, scale heights
+constexpr double kMostCoefficient = 10;                  // 1/m
+constexpr double kMostDepth = 1000;                      // vertical optical depth
+constexpr double kMostExponent = 20;
+constexpr double kMostAsymmetry = 0.999;                       // |g|
+constexpr double kLeastWavelength = 1, kMostWavelength = 1e6;  // nm
+constexpr double kMostColumn = 1e5;                            // DU
+constexpr double kMostPressure = 1e6;                          // hPa
+
+void validate_asymmetry(const std::string& path, double g) {
+  expect(std::abs(g) <= kMostAsymmetry, path, g,
+         fmt::format("an asymmetry from -{0} to {0}", kMostAsymmetry));
 }
 
-void validate(const PowerLaw<double>& law, const std::string& path) {
-  expect(law.wavelength_nm > 0.0, path + ".wavelength_nm", law.wavelength_nm,
-         "a wavelength > 0 nm");
-  expect(law.value >= 0.0, path + ".value", law.value, "a coefficient >= 0 1/m");
-  expect(true, path + ".exponent", law.exponent, "a finite number");
-}
-
-void validate_asymmetry(std::string_view path, double g) {
-  expect(std::abs(g) < 1.0, path, g, "an asymmetry between -1 and 1, both excluded");
-}
-
-void validate(const AerosolPhase<double>& phase) {
+void validate(const PhaseFunction<double>& phase, const std::string& path) {
   switch (phase.type) {
     case PhaseType::kCornetteShanks:
     case PhaseType::kHenyeyGreenstein:
-      validate_asymmetry("mie.phase.g", phase.g);
-      return;
+      return validate_asymmetry(path + ".g", phase.g);
     case PhaseType::kTwoLobe:
-      validate_asymmetry("mie.phase.g1", phase.g1);
-      validate_asymmetry("mie.phase.g2", phase.g2);
-      expect(phase.weight >= 0.0 && phase.weight <= 1.0, "mie.phase.weight", phase.weight,
-             "a share from 0 to 1");
-      return;
+      validate_asymmetry(path + ".g1", phase.g1);
+      validate_asymmetry(path + ".g2", phase.g2);
+      return expect(phase.weight >= 0.0 && phase.weight <= 1.0, path + ".weight", phase.weight,
+                    "a share from 0 to 1");
+    case PhaseType::kRayleigh:
+      return expect(phase.depolarisation >= 0.0 && phase.depolarisation <= 1.0,
+                    path + ".depolarisation", phase.depolarisation, "a ratio from 0 to 1");
     case PhaseType::kTabulated:
-      expect_table(phase.table != nullptr, "mie.phase.type");
+      if (phase.table == nullptr) fail_text(path + ".type", "tabulated", "a table");
+      return;
+    case PhaseType::kByWavelength:
+      if (phase.by_wavelength == nullptr)
+        fail_text(path + ".type", "tabulated-by-wavelength", "tables");
       return;
   }
 }
 
-// Ozone that follows the air needs the air's scale height.
-void validate(const Ozone<double>& ozone, bool air_is_exponential) {
-  expect(ozone.column_du >= 0.0, "ozone.column_du", ozone.column_du, "a column >= 0 DU");
-  if (ozone.profile == OzoneProfile::kTabulated) {
-    expect_table(ozone.table != nullptr, "ozone.profile");
+void validate(const Atmosphere<double>& atmosphere, const VerticalProfile<double>& profile,
+              const std::string& path) {
+  const double top = atmosphere.top_radius_m - atmosphere.bottom_radius_m;
+  switch (profile.type) {
+    case ProfileType::kExponential:
+      return expect(profile.scale_height_m >= kLeastHeight && profile.scale_height_m <= kMostHeight,
+                    path + ".scale_height_m", profile.scale_height_m,
+                    fmt::format("a height from {} to {} m", kLeastHeight, kMostHeight));
+    case ProfileType::kTent:
+      expect(profile.half_width_m >= kLeastHeight, path + ".half_width_m", profile.half_width_m,
+             fmt::format("a height >= {} m", kLeastHeight));
+      return expect(profile.peak_m >= profile.half_width_m, path + ".peak_m", profile.peak_m,
+                    fmt::format("a height >= half_width_m = {} m", profile.half_width_m));
+    case ProfileType::kLayer:
+      expect(profile.base_m >= 0, path + ".base_m", profile.base_m, "a height >= 0 m");
+      expect(profile.top_m >= profile.base_m + kLeastHeight, path + ".top_m", profile.top_m,
+             fmt::format("a height >= base_m + {} = {} m", kLeastHeight,
+                         profile.base_m + kLeastHeight));
+      return expect(profile.top_m * (1 + kLayerEdge) <= top, path + ".top_m", profile.top_m,
+                    fmt::format("a height within the atmosphere of {} m", top));
+    case ProfileType::kTabulated:
+      if (profile.table == nullptr) fail_text(path + ".type", "tabulated", "a table");
+      return;
+    case ProfileType::kSameAs: {
+      const Constituent<double>* const other = atmosphere.find(profile.of);
+      if (other == nullptr || other->profile.type == ProfileType::kSameAs)
+        fail_text(path + ".of", profile.of, "the name of a constituent with a profile of its own");
+    }
   }
-  if (ozone.profile == OzoneProfile::kExponential && !air_is_exponential) {
-    throw std::invalid_argument(
-        "ozone.profile = exponential: expected tent or a table, the air has no scale height");
+}
+
+std::string_view amount_path(AmountType type) {
+  switch (type) {
+    case AmountType::kScattering:
+      return "scattering_per_m.value";
+    case AmountType::kExtinction:
+      return "extinction_per_m.value";
+    case AmountType::kOpticalDepth:
+      return "optical_depth.value";
+    case AmountType::kColumn:
+      break;
   }
+  return "column_du";
+}
+
+void validate_amount(const Constituent<double>& c, const std::string& path) {
+  const std::string at = path + "." + std::string(amount_path(c.amount_type));
+  if (c.amount_type == AmountType::kColumn) {
+    return expect(c.amount >= 0 && c.amount <= kMostColumn, at, c.amount,
+                  fmt::format("a column from 0 to {} DU", kMostColumn));
+  }
+  if (c.amount_type == AmountType::kOpticalDepth) {
+    expect(c.amount >= 0 && c.amount <= kMostDepth, at, c.amount,
+           fmt::format("an optical depth from 0 to {}", kMostDepth));
+  } else {
+    expect(c.amount >= 0 && c.amount <= kMostCoefficient, at, c.amount,
+           fmt::format("a coefficient from 0 to {} 1/m", kMostCoefficient));
+  }
+  const std::string law = at.substr(0, at.rfind('.'));
+  expect(c.wavelength_nm >= kLeastWavelength && c.wavelength_nm <= kMostWavelength,
+         law + ".wavelength_nm", c.wavelength_nm,
+         fmt::format("a wavelength from {} to {} nm", kLeastWavelength, kMostWavelength));
+  expect(std::abs(c.angstrom_exponent) <= kMostExponent, law + ".exponent", c.angstrom_exponent,
+         fmt::format("an exponent from -{0} to {0}", kMostExponent));
+  if (c.spectrum && !(c.spectrum->at(c.wavelength_nm) > 0))
+    fail_text(law + ".spectrum", "0 at wavelength_nm", "a coefficient > 0 there");
+}
+
+void validate_albedo(const Constituent<double>& c, const std::string& path) {
+  const double ssa = c.single_scattering_albedo;
+  const bool scattering = c.amount_type == AmountType::kScattering;
+  expect(c.amount_type == AmountType::kColumn || (ssa <= 1 && (scattering ? ssa > 0 : ssa >= 0)),
+         path + ".single_scattering_albedo", ssa,
+         scattering ? "a ratio > 0 and <= 1" : "a ratio from 0 to 1");
+  if (!scattering || !c.albedo_spectrum) return;
+  for (const double value : c.albedo_spectrum->table().y) {
+    expect(value > 0, path + ".single_scattering_albedo", value,
+           "a ratio > 0, for scattering_per_m is divided by it");
+  }
+}
+
+// A letter, then letters, digits and underscores; it is the first part of a parameter's name.
+void validate_name(const Atmosphere<double>& atmosphere, const std::string& name) {
+  constexpr std::size_t kLongest = 24;
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (name.empty() || name.size() > kLongest || !std::ranges::all_of(name, allowed) ||
+      !(name[0] >= 'a' && name[0] <= 'z') || name == "ground") {
+    fail_text("constituents.name", "\"" + name + "\"",
+              fmt::format("a name of 1 to {} small letters, digits and _ that begins with a letter "
+                          "and is not ground",
+                          kLongest));
+  }
+  if (std::ranges::count(atmosphere.constituents, name, &Constituent<double>::name) > 1)
+    fail_text("constituents.name", "\"" + name + "\"", "a name that no other constituent has");
 }
 
 }  // namespace
+
+void fail_without_constituent(std::string_view name) {
+  throw std::invalid_argument(fmt::format("the atmosphere has no constituent \"{}\"", name));
+}
 
 std::string_view phase_kind(PhaseType type) {
   switch (type) {
     case PhaseType::kTwoLobe:
       return "two lobes";
     case PhaseType::kTabulated:
+    case PhaseType::kByWavelength:
       return "a tabulated phase function";
+    case PhaseType::kRayleigh:
+      return "Rayleigh's phase function";
     default:
       return "one lobe";
   }
 }
 
 void validate(const Atmosphere<double>& atmosphere) {
-  const auto& [bottom, top, rayleigh, mie, ozone, albedo, ground_spectrum] = atmosphere;
-  expect(bottom > 0.0, "planet.bottom_radius_m", bottom, "a radius > 0 m");
-  expect(top > bottom, "planet.top_radius_m", top,
-         fmt::format("a radius > bottom_radius_m = {}", bottom));
-  validate(rayleigh.scattering_per_m, "rayleigh.scattering_per_m");
-  validate_scale_height(rayleigh.profile, "rayleigh.scale_height_m", rayleigh.scale_height_m);
-  expect(rayleigh.depolarisation >= 0.0 && rayleigh.depolarisation <= 1.0,
-         "rayleigh.depolarisation", rayleigh.depolarisation, "a ratio from 0 to 1");
-  expect(rayleigh.site_pressure_hpa > 0.0, "rayleigh.site_pressure_hpa", rayleigh.site_pressure_hpa,
-         "a pressure > 0 hPa");
-  validate(mie.scattering_per_m, "mie.scattering_per_m");
-  const double ssa = mie.single_scattering_albedo;
-  expect(ssa > 0.0 && ssa <= 1.0, "mie.single_scattering_albedo", ssa, "a ratio > 0 and <= 1");
-  validate_scale_height(mie.profile, "mie.scale_height_m", mie.scale_height_m);
-  validate(mie.phase);
-  validate(ozone, rayleigh.profile == nullptr);
+  const double bottom = atmosphere.bottom_radius_m, top = atmosphere.top_radius_m;
+  expect(bottom >= kLeastRadius && bottom <= kMostRadius, "planet.bottom_radius_m", bottom,
+         fmt::format("a radius from {} to {} m", kLeastRadius, kMostRadius));
+  expect(top >= bottom + kThinnest && top <= 2 * bottom, "planet.top_radius_m", top,
+         fmt::format("a radius from bottom_radius_m + {} = {} m to twice the bottom radius",
+                     kThinnest, bottom + kThinnest));
+  if (atmosphere.constituents.size() > kMostConstituents) {
+    fail_text("constituents", fmt::format("{} of them", atmosphere.constituents.size()),
+              fmt::format("at most {}", kMostConstituents));
+  }
+  for (const Constituent<double>& c : atmosphere.constituents) {
+    validate_name(atmosphere, c.name);
+    validate_amount(c, c.name);
+    validate_albedo(c, c.name);
+    expect(c.site_pressure_hpa > 0 && c.site_pressure_hpa <= kMostPressure,
+           c.name + ".site_pressure_hpa", c.site_pressure_hpa,
+           fmt::format("a pressure > 0 and <= {} hPa", kMostPressure));
+    validate(atmosphere, c.profile, c.name + ".profile");
+    if (scatters(c)) validate(c.phase, c.name + ".phase");
+  }
+  const double albedo = atmosphere.ground_albedo;
   expect(albedo >= 0.0 && albedo <= 1.0, "ground.albedo", albedo, "an albedo from 0 to 1");
 }
 

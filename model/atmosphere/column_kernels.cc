@@ -253,36 +253,36 @@ void ExponentialDensities(double scale_height, std::size_t count, const double* 
   });
 }
 
-void SumsAlongRay(std::size_t count, const double* weight, const double* height,
-                  const double* const* densities, const double* const* columns,
-                  const double* extinction, RaySums* sums) {
+void WeightedTransmittances(std::size_t count, const double* weight, std::size_t columns_count,
+                            const double* const* columns, const double* extinction, double* e) {
   const D d;
-  V plain[2], by_height[2], by_column[2][6];
-  for (int k = 0; k < 2; ++k) {
-    plain[k] = by_height[k] = hn::Zero(d);
-    for (V& v : by_column[k]) v = hn::Zero(d);
-  }
   for_blocks(d, count, [&](std::size_t first, std::size_t lanes) {
-    V column[6];
-    for (int k = 0; k < 6; ++k) column[k] = load(d, columns[k] + first, lanes);
     V tau = hn::Zero(d);
-    for (int k = 0; k < 3; ++k) tau = hn::MulAdd(hn::Set(d, extinction[k]), column[k], tau);
-    V e = hn::Mul(hn::Exp(d, hn::Neg(tau)), load(d, weight + first, lanes));
-    e = hn::IfThenElseZero(hn::FirstN(d, lanes), e);
-    const V h = load(d, height + first, lanes);
-    for (int k = 0; k < 2; ++k) {
-      const V x = hn::Mul(e, load(d, densities[k] + first, lanes));
-      plain[k] = hn::Add(plain[k], x);
-      by_height[k] = hn::MulAdd(x, h, by_height[k]);
-      for (int c = 0; c < 6; ++c) by_column[k][c] = hn::MulAdd(x, column[c], by_column[k][c]);
-    }
+    for (std::size_t k = 0; k < columns_count; ++k)
+      tau = hn::MulAdd(hn::Set(d, extinction[k]), load(d, columns[k] + first, lanes), tau);
+    store(d, hn::Mul(hn::Exp(d, hn::Neg(tau)), load(d, weight + first, lanes)), e + first, lanes);
   });
-  const auto total = [&](V v) { return hn::GetLane(hn::SumOfLanes(d, v)); };
-  for (int k = 0; k < 2; ++k) {
-    sums[k].plain = total(plain[k]);
-    sums[k].by_height = total(by_height[k]);
-    for (int c = 0; c < 6; ++c) sums[k].by_column[c] = total(by_column[k][c]);
-  }
+}
+
+double ProductAndSum(std::size_t count, const double* x, const double* y, double* out) {
+  const D d;
+  V sum = hn::Zero(d);
+  for_blocks(d, count, [&](std::size_t first, std::size_t lanes) {
+    const V product = hn::Mul(load(d, x + first, lanes), load(d, y + first, lanes));
+    store(d, product, out + first, lanes);
+    sum = hn::Add(sum, hn::IfThenElseZero(hn::FirstN(d, lanes), product));
+  });
+  return hn::GetLane(hn::SumOfLanes(d, sum));
+}
+
+double Dot(std::size_t count, const double* x, const double* y) {
+  const D d;
+  V sum = hn::Zero(d);
+  for_blocks(d, count, [&](std::size_t first, std::size_t lanes) {
+    const V a = hn::IfThenElseZero(hn::FirstN(d, lanes), load(d, x + first, lanes));
+    sum = hn::MulAdd(a, load(d, y + first, lanes), sum);
+  });
+  return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
 }  // namespace skyfit::kernels::HWY_NAMESPACE
@@ -295,7 +295,9 @@ namespace {
 HWY_EXPORT(ExponentialColumns);
 HWY_EXPORT(LinearColumns);
 HWY_EXPORT(ExponentialDensities);
-HWY_EXPORT(SumsAlongRay);
+HWY_EXPORT(WeightedTransmittances);
+HWY_EXPORT(ProductAndSum);
+HWY_EXPORT(Dot);
 
 constexpr double kErfcEnd = 9;  // there the first term left out of the other series is below 1e-14
 constexpr std::size_t kErfcTerms = 26;  // the last are below 1e-17
@@ -342,11 +344,18 @@ void exponential_densities(double scale_height, std::size_t count, const double*
   HWY_DYNAMIC_DISPATCH(ExponentialDensities)(scale_height, count, height, density);
 }
 
-void ray_sums(std::size_t count, const double* weight, const double* height,
-              const double* const densities[2], const double* const columns[6],
-              const double extinction[3], RaySums sums[2]) {
-  HWY_DYNAMIC_DISPATCH(SumsAlongRay)
-  (count, weight, height, densities, columns, extinction, sums);
+void weighted_transmittances(std::size_t count, const double* weight, std::size_t columns_count,
+                             const double* const* columns, const double* extinction, double* e) {
+  HWY_DYNAMIC_DISPATCH(WeightedTransmittances)
+  (count, weight, columns_count, columns, extinction, e);
+}
+
+double product_and_sum(std::size_t count, const double* x, const double* y, double* out) {
+  return HWY_DYNAMIC_DISPATCH(ProductAndSum)(count, x, y, out);
+}
+
+double dot(std::size_t count, const double* x, const double* y) {
+  return HWY_DYNAMIC_DISPATCH(Dot)(count, x, y);
 }
 
 }  // namespace skyfit::kernels

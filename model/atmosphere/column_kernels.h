@@ -27,14 +27,14 @@ void linear_columns(const Sphere& sphere, const LinearProfile& profile, std::siz
 void exponential_densities(double scale_height, std::size_t count, const double* height,
                            double* density);
 
-// Sums over samples of a ray: with e = exp(-optical depth) weight and for each of the two densities
-// rho, sum e rho, the same times each of the six columns (air, aerosol and ozone, then their
-// derivatives by scale height), and times the height: 2 x 8 numbers.
-struct RaySums {
-  double plain, by_column[6], by_height;
-};
-void ray_sums(std::size_t count, const double* weight, const double* height,
-              const double* const densities[2], const double* const columns[6],
-              const double extinction[3], RaySums sums[2]);
+// For samples of a ray: e[i] = exp(-sum_k extinction[k] columns[k][i]) weight[i].
+void weighted_transmittances(std::size_t count, const double* weight, std::size_t columns_count,
+                             const double* const* columns, const double* extinction, double* e);
+
+// out[i] = x[i] y[i]; returns sum_i out[i].
+double product_and_sum(std::size_t count, const double* x, const double* y, double* out);
+
+// sum_i x[i] y[i]
+double dot(std::size_t count, const double* x, const double* y);
 
 }  // namespace skyfit::kernels

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/atmosphere/ground_spectrum.h"
 
+#include <cmath>
 #include <utility>
 
 namespace skyfit {
 namespace {
 
 std::optional<TableFault> ground_fault(const TwoColumns& table) {
-  const double first = table.x.empty() ? 0 : table.x.front();
-  if (auto fault = ascending_fault(kGroundFormat, table, first)) return fault;
-  if (!(first > 0)) return TableFault{0, 0, {}, "a wavelength > 0"};
+  if (auto fault = ascending_fault(kGroundFormat, table, {})) return fault;
+  if (!(table.x.front() > 0)) return TableFault{0, 0, {}, "a wavelength > 0"};
   for (std::size_t i = 0; i < table.y.size(); ++i) {
     if (!(table.y[i] >= 0) || !std::isfinite(table.y[i])) {
       return TableFault{1, i, {}, "an albedo >= 0"};

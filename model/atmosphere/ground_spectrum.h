@@ -2,26 +2,12 @@
 // How the ground's albedo depends on wavelength: a tabulated shape that is 1 at 550 nm.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include "model/atmosphere/table_format.h"
+#include "model/atmosphere/spectrum_table.h"
 
 namespace skyfit {
 
 // Columns wavelength_nm, ascending, and relative_albedo, >= 0 and > 0 at 550 nm; any factor.
 extern const TableFormat kGroundFormat;
-
-// Linear between the arguments, constant beyond the ends.
-inline double clamped_interpolation(const TwoColumns& table, double x) {
-  if (x <= table.x.front()) return table.y.front();
-  if (x >= table.x.back()) return table.y.back();
-  const auto above = std::upper_bound(table.x.begin(), table.x.end(), x);
-  const auto i = static_cast<std::size_t>(above - table.x.begin());
-  return std::lerp(table.y[i - 1], table.y[i],
-                   (x - table.x[i - 1]) / (table.x[i] - table.x[i - 1]));
-}
 
 class GroundSpectrum {
  public:

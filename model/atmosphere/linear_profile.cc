@@ -25,8 +25,13 @@ std::optional<TableFault> profile_fault(const TwoColumns& table) {
 
 const TableFormat kProfileFormat{{"height_m", "relative_density"}, profile_fault};
 
-LinearProfile::LinearProfile(TwoColumns table) : table_(std::move(table)), column_below_{0} {
+LinearProfile::LinearProfile(TwoColumns table) : LinearProfile(std::move(table), Unchecked{}) {
   expect_no_fault(kProfileFormat, table_);
+}
+
+LinearProfile::LinearProfile(TwoColumns table, Unchecked)
+    : table_(std::move(table)), column_below_{0} {
+  if (table_.x.size() != table_.y.size()) return;  // which is a fault
   for (std::size_t i = 0; i + 1 < heights().size(); ++i) {
     column_below_.push_back(column_below_.back() + 0.5 * (densities()[i] + densities()[i + 1]) *
                                                        (heights()[i + 1] - heights()[i]));

@@ -3,6 +3,8 @@
 // ground, it stays what it is there. Heights in metres.
 #pragma once
 
+#include <utility>
+
 #include "model/atmosphere/table_format.h"
 
 namespace skyfit {
@@ -14,6 +16,9 @@ class LinearProfile {
  public:
   // Throws std::invalid_argument unless the table is as kProfileFormat demands.
   explicit LinearProfile(TwoColumns table);
+
+  // Of any sign, for the derivative of a profile; heights may repeat where it jumps.
+  static LinearProfile of_any_sign(TwoColumns table) { return {std::move(table), Unchecked{}}; }
 
   const TwoColumns& table() const { return table_; }
   const std::vector<double>& heights() const { return table_.x; }
@@ -35,6 +40,9 @@ class LinearProfile {
   double height_below(double share) const;
 
  private:
+  struct Unchecked {};
+  LinearProfile(TwoColumns table, Unchecked);
+
   TwoColumns table_;
   std::vector<double> column_below_;  // from the ground to each height
 };

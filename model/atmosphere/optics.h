@@ -1,65 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere at one wavelength, with derivatives by the parameters that seeded it.
-// The forward peak of the aerosol's phase function is cut off (delta-M, Wiscombe 1977): the share f
-// = chi_L of the scattering is taken as not scattered at all, and the moments that are left are
-// (chi - f) / (1 - f). Single scattering keeps the true phase function under the cut extinction
+// The forward peak of a phase function is cut off (delta-M, Wiscombe 1977): the share f = chi_L of
+// the scattering is taken as not scattered at all, and the moments that are left are (chi - f) /
+// (1 - f). Single scattering keeps the true phase function under the delta-M-scaled extinction
 // (TMS, Nakajima & Tanaka 1988).
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "model/atmosphere/phase_moments.h"
-#include "model/atmosphere/profile.h"
+#include "model/atmosphere/shells.h"
 #include "model/numerics/dual.h"
 #include "model/photometry/photometry.h"
 
 namespace skyfit {
 
-// Columns from one point to another of air, aerosol and ozone, metres of their reference density.
-struct PathColumns {
-  Column air, aerosol, ozone;  // ozone by the scale height of the air, see Profiles
-
-  PathColumns& operator+=(const PathColumns& o) {
-    auto add = [](Column& a, const Column& b) {
-      a.value += b.value;
-      a.by_scale_height += b.by_scale_height;
-    };
-    add(air, o.air);
-    add(aerosol, o.aerosol);
-    add(ozone, o.ozone);
-    return *this;
-  }
-  PathColumns operator-() const {
-    return {{-air.value, -air.by_scale_height},
-            {-aerosol.value, -aerosol.by_scale_height},
-            {-ozone.value, -ozone.by_scale_height}};
-  }
-};
-
-// Relative densities of the three at one height.
+// A constituent that scatters.
 template <int N>
-struct Densities {
-  Dual<N> air, aerosol, ozone;
+struct Scatterer {
+  std::size_t constituent;       // its place in the atmosphere's list
+  std::size_t profile;           // of the shells
+  Dual<N> scattering;            // true, where the density is 1, 1/m: for single scattering
+  Dual<N> scaled_scattering;     // delta-M-scaled
+  PhaseFunction<Dual<N>> phase;  // true; never kByWavelength
+  std::vector<Dual<N>> moments;  // of the delta-M-scaled phase function; further ones are 0
 };
+
+// Relative densities of all profiles at one height.
+template <int N>
+using Densities = std::array<Dual<N>, kMostConstituents>;
 
 template <int N>
 struct Optics {
-  Profiles profiles;
-  Dual<N> air;                      // Rayleigh scattering = extinction at h = 0, 1/m
-  Dual<N> air_scale_height;         // m
-  Dual<N> aerosol_extinction;       // cut, at h = 0, 1/m
-  Dual<N> aerosol_extinction_true;  // what weakens the sun's beam itself
-  Dual<N> aerosol_scattering;       // true, at h = 0, 1/m: for single scattering
-  Dual<N> aerosol_scattering_cut;
-  Dual<N> aerosol_scale_height;
-  Dual<N> ozone;  // absorption where the profile is 1, 1/m
+  std::vector<Profile> profiles;
+  std::vector<std::array<Dual<N>, kMostShapes>> shape;  // of each profile: its parameters, m
+  // Where the density of a profile is 1, 1/m, of all its constituents; the second delta-M-scaled.
+  std::vector<Dual<N>> extinction, scaled_extinction;
+  std::vector<Scatterer<N>> scatterers;
   Dual<N> ground_albedo;
-  double depolarisation = 0;
-  std::array<double, 3> air_moments{};  // the others are 0
-  AerosolPhase<Dual<N>> phase;
-  std::vector<Dual<N>> moments;  // of the cut phase function
 
   Densities<N> densities(double height) const {
     return densities_by([height](const Profile& profile) { return profile.density(height); });
@@ -70,66 +51,112 @@ struct Optics {
         [=](const Profile& profile) { return profile.density_at_level(low, height, high); });
   }
 
-  Dual<N> optical_depth(const PathColumns& c) const {
-    Dual<N> tau(air.v * c.air.value + aerosol_extinction.v * c.aerosol.value +
-                ozone.v * c.ozone.value);
-    const double by_air_height = air.v * c.air.by_scale_height + ozone.v * c.ozone.by_scale_height;
-    const double by_aerosol_height = aerosol_extinction.v * c.aerosol.by_scale_height;
-    for (std::size_t p = 0; p < N; ++p) {
-      tau.d[p] = air.d[p] * c.air.value + aerosol_extinction.d[p] * c.aerosol.value +
-                 ozone.d[p] * c.ozone.value + by_air_height * air_scale_height.d[p] +
-                 by_aerosol_height * aerosol_scale_height.d[p];
-    }
-    return tau;
+  Dual<N> optical_depth(const PathColumns& c) const { return depth_by(extinction, c); }
+  Dual<N> scaled_optical_depth(const PathColumns& c) const {
+    return depth_by(scaled_extinction, c);
   }
 
  private:
   template <class DensityOf>
   Densities<N> densities_by(DensityOf density_of) const {
-    auto at = [&](const Profile& profile, const Dual<N>& scale_height) {
-      const Density rho = density_of(profile);
-      return scale_height.chain(rho.value, rho.by_scale_height);
-    };
-    const Dual<N> air_density = at(profiles.air, air_scale_height);
-    return {air_density, at(profiles.aerosol, aerosol_scale_height),
-            profiles.ozone == profiles.air ? air_density : at(profiles.ozone, air_scale_height)};
+    Densities<N> result;
+    for (std::size_t i = 0; i < profiles.size(); ++i) {
+      const Density rho = density_of(profiles[i]);
+      result[i] = Dual<N>(rho.value);
+      for (std::size_t s = 0; s < profiles[i].shapes(); ++s) {
+        for (std::size_t p = 0; p < N; ++p) result[i].d[p] += rho.by_shape[s] * shape[i][s].d[p];
+      }
+    }
+    return result;
+  }
+
+  Dual<N> depth_by(const std::vector<Dual<N>>& coefficient, const PathColumns& c) const {
+    Dual<N> tau;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      tau.v += coefficient[i].v * c[i].value;
+      for (std::size_t p = 0; p < N; ++p) tau.d[p] += coefficient[i].d[p] * c[i].value;
+      for (std::size_t s = 0; s < profiles[i].shapes(); ++s) {
+        const double by_shape = coefficient[i].v * c[i].by_shape[s];
+        for (std::size_t p = 0; p < N; ++p) tau.d[p] += by_shape * shape[i][s].d[p];
+      }
+    }
+    return tau;
   }
 };
 
-// With the true phase function, nothing of its peak cut off; without its moments.
+// The extinction of a constituent where its density is 1, 1/m, and how much of it is scattering.
 template <int N>
-Optics<N> uncut_optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node) {
+struct Coefficients {
+  Dual<N> extinction, scattering;
+};
+template <int N>
+Coefficients<N> coefficients_at(const Constituent<Dual<N>>& c, const Dual<N>& vertical_column,
+                                const WavelengthNode& node) {
   constexpr double kMoleculesPerDobson = 2.687e20;  // 1/m^2
-  auto at = [&](const PowerLaw<Dual<N>>& law) {
-    return law.value * exp(law.exponent * -std::log(node.wavelength_nm / law.wavelength_nm));
-  };
+  if (c.amount_type == AmountType::kColumn) {
+    return {c.amount * (kMoleculesPerDobson * node.ozone_cross_section_m2) / vertical_column, {}};
+  }
+  Dual<N> amount = c.amount;
+  if (c.amount_type == AmountType::kOpticalDepth) amount /= vertical_column;
+  if (c.spectrum) {
+    amount *= Dual<N>(c.spectrum->at(node.wavelength_nm) / c.spectrum->at(c.wavelength_nm));
+  } else {
+    amount *= exp(c.angstrom_exponent * -std::log(node.wavelength_nm / c.wavelength_nm));
+  }
+  amount = amount * (c.site_pressure_hpa / kStandardPressureHpa);
+  const Dual<N> albedo = c.albedo_spectrum ? Dual<N>(c.albedo_spectrum->at(node.wavelength_nm))
+                                           : c.single_scattering_albedo;
+  if (c.amount_type == AmountType::kScattering) return {amount / albedo, amount};
+  return {amount, amount * albedo};
+}
+
+// With the true phase functions, nothing of their peaks cut off; without their moments. The shells
+// are those of the atmosphere.
+template <int N>
+Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
+                         const WavelengthNode& node) {
   Optics<N> o;
-  o.profiles = profiles_of(a);
-  o.air = at(a.rayleigh.scattering_per_m) * (a.rayleigh.site_pressure_hpa / kStandardPressureHpa);
-  o.air_scale_height = a.rayleigh.scale_height_m;
-  o.depolarisation = a.rayleigh.depolarisation;
-  o.air_moments = rayleigh_moments(o.depolarisation);
-  o.phase = a.mie.phase;
-  o.aerosol_scattering = o.aerosol_scattering_cut = at(a.mie.scattering_per_m);
-  o.aerosol_extinction_true = o.aerosol_extinction =
-      o.aerosol_scattering / a.mie.single_scattering_albedo;
-  o.aerosol_scale_height = a.mie.scale_height_m;
-  const Dual<N> column = a.ozone.column_du * (kMoleculesPerDobson * node.ozone_cross_section_m2);
-  const Column unit = o.profiles.ozone.vertical_column();
-  o.ozone = column / a.rayleigh.scale_height_m.chain(unit.value, unit.by_scale_height);
+  o.profiles = shells.profiles;
+  o.shape.resize(o.profiles.size());
+  o.extinction.resize(o.profiles.size());
+  for (std::size_t i = 0; i < a.constituents.size(); ++i) {
+    const Constituent<Dual<N>>& c = a.constituents[i];
+    if (shells.profile_of[i] == Shells::kNone) continue;
+    const auto at = static_cast<std::size_t>(shells.profile_of[i]);
+    const auto& profile =
+        c.profile.type == ProfileType::kSameAs ? a.at(c.profile.of).profile : c.profile;
+    o.shape[at] = profile.type == ProfileType::kLayer
+                      ? std::array{profile.base_m, profile.top_m}
+                      : std::array{profile.scale_height_m, Dual<N>()};
+    const Column unit = o.profiles[at].vertical_column();
+    Dual<N> column(unit.value);
+    for (std::size_t s = 0; s < o.profiles[at].shapes(); ++s) {
+      for (std::size_t p = 0; p < N; ++p) column.d[p] += unit.by_shape[s] * o.shape[at][s].d[p];
+    }
+    const Coefficients<N> k = coefficients_at(c, column, node);
+    o.extinction[at] += k.extinction;
+    if (scatters(c))
+      o.scatterers.push_back(
+          {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}});
+  }
+  o.scaled_extinction = o.extinction;
   o.ground_albedo = ground_albedo_at(a, node.wavelength_nm);
   return o;
 }
 
 template <int N>
-Optics<N> optics_at(const Atmosphere<Dual<N>>& a, const WavelengthNode& node, int moment_count) {
-  Optics<N> o = uncut_optics_at(a, node);
-  o.moments = aerosol_phase_moments(a.mie.phase, moment_count + 1);
-  const Dual<N> cut = o.moments.back();
-  o.moments.pop_back();
-  for (Dual<N>& chi : o.moments) chi = (chi - cut) / (Dual<N>(1.0) - cut);
-  o.aerosol_scattering_cut = o.aerosol_scattering * (Dual<N>(1.0) - cut);
-  o.aerosol_extinction = o.aerosol_extinction_true - o.aerosol_scattering * cut;
+Optics<N> optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a, const WavelengthNode& node,
+                    int moment_count) {
+  Optics<N> o = true_optics_at(shells, a, node);
+  for (Scatterer<N>& s : o.scatterers) {
+    s.moments = phase_moments(s.phase, moment_count + 1);
+    if (static_cast<int>(s.moments.size()) <= moment_count) continue;  // the rest is 0
+    const Dual<N> cut = s.moments.back();
+    s.moments.pop_back();
+    for (Dual<N>& chi : s.moments) chi = (chi - cut) / (Dual<N>(1.0) - cut);
+    s.scaled_scattering = s.scattering * (Dual<N>(1.0) - cut);
+    o.scaled_extinction[s.profile] -= s.scattering * cut;
+  }
   return o;
 }
 

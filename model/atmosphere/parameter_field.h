@@ -11,36 +11,65 @@
 
 namespace skyfit {
 
-// A is Atmosphere of any scalar, const or not.
+// Derivatives that the solver carries at once; more are taken in turns.
+inline constexpr int kDerivativesAtOnce = 12;
+
+// A is Atmosphere of any scalar, const or not. Throws std::invalid_argument for a constituent that
+// it lacks.
 template <class A>
-auto& parameter_field(A& a, Parameter parameter) {
-  switch (parameter) {
-    case Parameter::kRayleighScattering:
-      return a.rayleigh.scattering_per_m.value;
-    case Parameter::kRayleighScaleHeight:
-      return a.rayleigh.scale_height_m;
-    case Parameter::kMieScattering:
-      return a.mie.scattering_per_m.value;
-    case Parameter::kMieAngstromExponent:
-      return a.mie.scattering_per_m.exponent;
-    case Parameter::kMieSingleScatteringAlbedo:
-      return a.mie.single_scattering_albedo;
-    case Parameter::kMieScaleHeight:
-      return a.mie.scale_height_m;
-    case Parameter::kMiePhaseG:
-      return a.mie.phase.g;
-    case Parameter::kMiePhaseG1:
-      return a.mie.phase.g1;
-    case Parameter::kMiePhaseG2:
-      return a.mie.phase.g2;
-    case Parameter::kMiePhaseWeight:
-      return a.mie.phase.weight;
-    case Parameter::kOzoneColumn:
-      return a.ozone.column_du;
-    case Parameter::kGroundAlbedo:
-      return a.ground_albedo;
+auto& parameter_field(A& a, const Parameter& parameter) {
+  if (parameter.quantity() == Quantity::kAlbedo) return a.ground_albedo;
+  auto& c = a.at(parameter.constituent());
+  switch (parameter.quantity()) {
+    case Quantity::kScattering:
+    case Quantity::kExtinction:
+    case Quantity::kOpticalDepth:
+    case Quantity::kColumn:
+      return c.amount;
+    case Quantity::kAngstromExponent:
+      return c.angstrom_exponent;
+    case Quantity::kSingleScatteringAlbedo:
+      return c.single_scattering_albedo;
+    case Quantity::kScaleHeight:
+      return c.profile.scale_height_m;
+    case Quantity::kBase:
+      return c.profile.base_m;
+    case Quantity::kTop:
+      return c.profile.top_m;
+    case Quantity::kPhaseG:
+      return c.phase.g;
+    case Quantity::kPhaseG1:
+      return c.phase.g1;
+    case Quantity::kPhaseG2:
+      return c.phase.g2;
+    case Quantity::kPhaseWeight:
+      return c.phase.weight;
+    case Quantity::kAlbedo:
+      break;
   }
   throw std::logic_error("parameter_field: unknown parameter");
+}
+
+// The same constituent of another scalar, its derivatives 0.
+template <class T>
+Constituent<T> with_scalar(const Constituent<double>& c) {
+  Constituent<T> s;
+  s.name = c.name;
+  s.amount_type = c.amount_type;
+  s.amount = T(c.amount);
+  s.wavelength_nm = c.wavelength_nm;
+  s.angstrom_exponent = T(c.angstrom_exponent);
+  s.spectrum = c.spectrum;
+  s.site_pressure_hpa = c.site_pressure_hpa;
+  s.single_scattering_albedo = T(c.single_scattering_albedo);
+  s.albedo_spectrum = c.albedo_spectrum;
+  s.profile = {
+      c.profile.type,   T(c.profile.scale_height_m), T(c.profile.base_m), T(c.profile.top_m),
+      c.profile.peak_m, c.profile.half_width_m,      c.profile.table,     c.profile.of};
+  s.phase = {c.phase.type,           T(c.phase.g),      T(c.phase.g1),
+             T(c.phase.g2),          T(c.phase.weight), c.phase.lobe,
+             c.phase.depolarisation, c.phase.table,     c.phase.by_wavelength};
+  return s;
 }
 
 // The atmosphere with derivatives 0, 1, .. seeded by the listed parameters; at most N of them.
@@ -49,20 +78,9 @@ Atmosphere<Dual<N>> seeded(const Atmosphere<double>& a, std::span<const Paramete
   Atmosphere<Dual<N>> s;
   s.bottom_radius_m = a.bottom_radius_m;
   s.top_radius_m = a.top_radius_m;
-  s.rayleigh = {{a.rayleigh.scattering_per_m.wavelength_nm, a.rayleigh.scattering_per_m.value,
-                 a.rayleigh.scattering_per_m.exponent},
-                a.rayleigh.scale_height_m,
-                a.rayleigh.depolarisation,
-                a.rayleigh.site_pressure_hpa,
-                a.rayleigh.profile};
-  s.mie.scattering_per_m = {a.mie.scattering_per_m.wavelength_nm, a.mie.scattering_per_m.value,
-                            a.mie.scattering_per_m.exponent};
-  s.mie.single_scattering_albedo = a.mie.single_scattering_albedo;
-  s.mie.scale_height_m = a.mie.scale_height_m;
-  s.mie.phase = {a.mie.phase.type,   a.mie.phase.g,    a.mie.phase.g1,   a.mie.phase.g2,
-                 a.mie.phase.weight, a.mie.phase.lobe, a.mie.phase.table};
-  s.mie.profile = a.mie.profile;
-  s.ozone = {a.ozone.column_du, a.ozone.profile, a.ozone.table};
+  s.constituents.clear();
+  for (const Constituent<double>& c : a.constituents)
+    s.constituents.push_back(with_scalar<Dual<N>>(c));
   s.ground_albedo = a.ground_albedo;
   s.ground_spectrum = a.ground_spectrum;
   if (parameters.size() > static_cast<std::size_t>(N))

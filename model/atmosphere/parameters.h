@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of the atmosphere's continuous parameters: one row each, with the one name that report,
-// command line and preset use. Everything that lists, fits, bounds or differentiates parameters
-// reads this table.
+// The continuous parameters of an atmosphere, each with the one name NAME.QUANTITY that report,
+// command line and preset use: a quantity of the constituent NAME, or of the ground. Everything
+// that lists, fits, bounds or differentiates parameters reads the tables behind parameter_info().
 #pragma once
 
 #include <array>
+#include <compare>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,21 +17,63 @@
 
 namespace skyfit {
 
-enum class Parameter {
-  kRayleighScattering,
-  kRayleighScaleHeight,
-  kMieScattering,
-  kMieAngstromExponent,
-  kMieSingleScatteringAlbedo,
-  kMieScaleHeight,
-  kMiePhaseG,
-  kMiePhaseG1,
-  kMiePhaseG2,
-  kMiePhaseWeight,
-  kOzoneColumn,
-  kGroundAlbedo,
+enum class Quantity {
+  kScattering,
+  kExtinction,
+  kOpticalDepth,
+  kColumn,
+  kAngstromExponent,
+  kSingleScatteringAlbedo,
+  kScaleHeight,
+  kBase,
+  kTop,
+  kPhaseG,
+  kPhaseG1,
+  kPhaseG2,
+  kPhaseWeight,
+  kAlbedo,  // of the ground alone
 };
-inline constexpr int kParameterCount = 12;
+
+class Parameter {
+ public:
+  constexpr Parameter(std::string_view constituent, Quantity quantity) : quantity_(quantity) {
+    if (constituent.size() >= name_.size())
+      throw std::invalid_argument("a constituent's name is too long");
+    for (std::size_t i = 0; i < constituent.size(); ++i) name_[i] = constituent[i];
+  }
+
+  constexpr std::string_view constituent() const { return name_.data(); }  // or "ground"
+  constexpr Quantity quantity() const { return quantity_; }
+  std::string name() const;  // e.g. "mie.phase.g1"
+
+  friend bool operator==(const Parameter&, const Parameter&) = default;
+  friend auto operator<=>(const Parameter&, const Parameter&) = default;
+
+  // Those of the standard constituents.
+  static const Parameter kRayleighScattering, kRayleighScaleHeight, kMieScattering,
+      kMieAngstromExponent, kMieSingleScatteringAlbedo, kMieScaleHeight, kMiePhaseG, kMiePhaseG1,
+      kMiePhaseG2, kMiePhaseWeight, kOzoneColumn, kGroundAlbedo;
+
+ private:
+  std::array<char, 32> name_{};
+  Quantity quantity_;
+};
+
+inline constexpr std::string_view kGround = "ground";
+
+inline constexpr Parameter Parameter::kRayleighScattering{"rayleigh", Quantity::kScattering};
+inline constexpr Parameter Parameter::kRayleighScaleHeight{"rayleigh", Quantity::kScaleHeight};
+inline constexpr Parameter Parameter::kMieScattering{"mie", Quantity::kScattering};
+inline constexpr Parameter Parameter::kMieAngstromExponent{"mie", Quantity::kAngstromExponent};
+inline constexpr Parameter Parameter::kMieSingleScatteringAlbedo{"mie",
+                                                                 Quantity::kSingleScatteringAlbedo};
+inline constexpr Parameter Parameter::kMieScaleHeight{"mie", Quantity::kScaleHeight};
+inline constexpr Parameter Parameter::kMiePhaseG{"mie", Quantity::kPhaseG};
+inline constexpr Parameter Parameter::kMiePhaseG1{"mie", Quantity::kPhaseG1};
+inline constexpr Parameter Parameter::kMiePhaseG2{"mie", Quantity::kPhaseG2};
+inline constexpr Parameter Parameter::kMiePhaseWeight{"mie", Quantity::kPhaseWeight};
+inline constexpr Parameter Parameter::kOzoneColumn{"ozone", Quantity::kColumn};
+inline constexpr Parameter Parameter::kGroundAlbedo{kGround, Quantity::kAlbedo};
 
 // A weak Gaussian prior that holds what the sky cannot say.
 struct Prior {
@@ -36,27 +81,40 @@ struct Prior {
 };
 
 struct ParameterInfo {
-  Parameter id;
-  std::string_view name;  // e.g. "mie.phase.g1"
+  std::string name;       // e.g. "mie.phase.g1"
   std::string_view unit;  // "1/m", "m", "DU" or "1" for a pure number
-  double default_value;
-  double lower, upper;  // physical bounds of a fit; a preset may lie outside
+  double lower, upper;    // physical bounds of a fit; a preset may lie outside
   std::optional<Prior> prior;
   bool free_by_default;
-  std::string_view meaning;  // one line
+  std::string meaning;  // one line
 };
 
-std::span<const ParameterInfo, kParameterCount> parameter_table();
-const ParameterInfo& parameter_info(Parameter parameter);
+// Of the standard constituents a row of their own, of others that of the quantity, without a prior
+// and not free by default.
+ParameterInfo parameter_info(const Parameter& parameter);
 
-// Throws std::invalid_argument that lists the known names when there is no such parameter.
+// Those of the standard constituents and of the ground, whichever of them an atmosphere has.
+std::span<const Parameter> standard_parameters();
+
+// Every parameter that the atmosphere has, constituent by constituent, the ground last.
+std::vector<Parameter> parameters_of(const Atmosphere<double>& atmosphere);
+
+// By name, of a constituent of any name; throws std::invalid_argument that lists the quantities, or
+// for an unknown name of a standard constituent the known names.
 Parameter parameter_from_name(std::string_view name);
 
-// Whether the atmosphere has the parameter: g only with one lobe; g1, g2 and weight only with two;
-// a scale height only of an exponential profile.
-bool has_parameter(const Atmosphere<double>& atmosphere, Parameter parameter);
+// Whether the atmosphere has the parameter: a coefficient, an optical depth or a column as its
+// constituent states its amount; g only with one lobe; g1, g2 and weight only with two; a scale
+// height only of an exponential profile, base and top only of a layer (a base only above the
+// ground).
+bool has_parameter(const Atmosphere<double>& atmosphere, const Parameter& parameter);
 
-double get_parameter(const Atmosphere<double>& atmosphere, Parameter parameter);
-void set_parameter(Atmosphere<double>& atmosphere, Parameter parameter, double value);
+// Throws std::invalid_argument that lists the atmosphere's parameters unless it has this one.
+void require_parameter(const Atmosphere<double>& atmosphere, const Parameter& parameter);
+
+// Of a parameter that the atmosphere has; throws std::invalid_argument for a constituent that it
+// lacks.
+double get_parameter(const Atmosphere<double>& atmosphere, const Parameter& parameter);
+void set_parameter(Atmosphere<double>& atmosphere, const Parameter& parameter, double value);
 
 }  // namespace skyfit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aerosol's phase function and its Legendre moments, for any scalar.
+// A constituent's phase function and its Legendre moments, for any scalar.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,24 @@
 #include <cmath>
 #include <vector>
 
-#include "model/atmosphere/atmosphere.h"
+#include "model/atmosphere/constituent.h"
 #include "model/shared/shared.h"
 
 namespace skyfit {
 
-// 1/sr at the cosine nu of the scattering angle.
+// At one wavelength: a table in the place of those by wavelength.
 template <class T>
-T aerosol_phase(const AerosolPhase<T>& phase, double nu) {
+PhaseFunction<T> phase_at(PhaseFunction<T> phase, double wavelength_nm) {
+  if (phase.type == PhaseType::kByWavelength) {
+    phase.table = phase.by_wavelength->at(wavelength_nm);
+    phase.type = PhaseType::kTabulated;
+  }
+  return phase;
+}
+
+// 1/sr at the cosine nu of the scattering angle; not of kByWavelength, see phase_at().
+template <class T>
+T phase_value(const PhaseFunction<T>& phase, double nu) {
   Shared<T> shared;
   switch (phase.type) {
     case PhaseType::kTwoLobe:
@@ -22,6 +32,8 @@ T aerosol_phase(const AerosolPhase<T>& phase, double nu) {
                                    T(nu));
     case PhaseType::kTabulated:
       return T(phase.table->phase(std::acos(std::clamp(nu, -1.0, 1.0))));
+    case PhaseType::kRayleigh:
+      return shared.rayleigh_phase(T(phase.depolarisation), T(nu));
     default:
       return shared.lobe_phase(static_cast<int>(phase.type), phase.g, T(nu));
   }
@@ -65,23 +77,33 @@ std::vector<T> lobe_moments(PhaseType type, const T& g, int count) {
                                               : cornette_shanks_moments(g, count);
 }
 
-template <class T>
-std::vector<T> aerosol_phase_moments(const AerosolPhase<T>& phase, int count) {
-  if (phase.type == PhaseType::kTabulated) {
-    const std::vector<double> chi = phase.table->moments(count);
-    return std::vector<T>(chi.begin(), chi.end());
-  }
-  if (phase.type != PhaseType::kTwoLobe) return lobe_moments(phase.type, phase.g, count);
-  std::vector<T> chi = lobe_moments(phase.lobe, phase.g1, count);
-  const std::vector<T> second = lobe_moments(phase.lobe, phase.g2, count);
-  for (int l = 0; l < count; ++l)
-    chi[l] = phase.weight * chi[l] + (T(1.0) - phase.weight) * second[l];
-  return chi;
-}
-
-// Of the air: chi_0 .. chi_2, the others are 0.
+// Of Rayleigh's phase function: chi_0 .. chi_2, the others are 0.
 inline std::array<double, 3> rayleigh_moments(double depolarisation) {
   return {1.0, 0.0, Shared<double>{}.rayleigh_second_moment(depolarisation)};
+}
+
+// As many as asked for, fewer where the rest is 0. Not of kByWavelength.
+template <class T>
+std::vector<T> phase_moments(const PhaseFunction<T>& phase, int count) {
+  switch (phase.type) {
+    case PhaseType::kRayleigh: {
+      const std::array<double, 3> chi = rayleigh_moments(phase.depolarisation);
+      return std::vector<T>(chi.begin(), chi.begin() + std::min(count, 3));
+    }
+    case PhaseType::kTabulated: {
+      const std::vector<double> chi = phase.table->moments(count);
+      return std::vector<T>(chi.begin(), chi.end());
+    }
+    case PhaseType::kTwoLobe: {
+      std::vector<T> chi = lobe_moments(phase.lobe, phase.g1, count);
+      const std::vector<T> second = lobe_moments(phase.lobe, phase.g2, count);
+      for (int l = 0; l < count; ++l)
+        chi[l] = phase.weight * chi[l] + (T(1.0) - phase.weight) * second[l];
+      return chi;
+    }
+    default:
+      return lobe_moments(phase.type, phase.g, count);
+  }
 }
 
 }  // namespace skyfit

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// preset.json, version 1: the only thing that crosses from the fit to the renderer.
+// preset.json: the only thing that crosses from the fit to the renderer. Versions 1 and 2 are read,
+// version 2 is written; docs/preset.md says what it holds.
 #pragma once
 
 #include <filesystem>
@@ -14,6 +15,7 @@ namespace skyfit {
 
 struct Preset {
   std::string name;
+  std::string note;  // for the reader, such as where the values come from; may be empty
   Atmosphere<double> atmosphere;
   nlohmann::json fit;  // null, or what it was fitted to, version, RMS, sigmas, covariance
 };

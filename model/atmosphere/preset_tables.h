@@ -22,8 +22,15 @@ class PresetTables {
   // Table is LinearProfile or TabulatedPhase.
   template <class Table>
   std::shared_ptr<const Table> read(const PresetReader& object, const TableFormat& format) const {
+    return read_with(object, format, [](const TwoColumns& columns) {
+      return std::make_shared<const Table>(columns);
+    });
+  }
+  // The same with another way to make the table.
+  template <class Make>
+  auto read_with(const PresetReader& object, const TableFormat& format, const Make& make) const {
     const TwoColumns columns = read_columns(object, format);
-    return object.complaining([&] { return std::make_shared<const Table>(columns); });
+    return object.complaining([&] { return make(columns); });
   }
 
  private:

@@ -4,32 +4,140 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "model/shared/shared.h"
 
 namespace skyfit {
+namespace {
+
+// A corner of a layer and how it moves with the base and the top.
+struct Corner {
+  double height, density;
+  std::array<double, 2> by;
+};
+
+std::vector<Corner> layer_corners(double base, double top) {
+  constexpr double kHalf = 0.5 * kLayerEdge;
+  const double half = kHalf * (top - base);
+  std::vector<Corner> corners;
+  if (base >= half) {
+    corners = {{base - half, 0, {1 + kHalf, -kHalf}}, {base + half, 1, {1 - kHalf, kHalf}}};
+  } else if (base > 0) {  // the edge is as wide as the ground allows
+    corners = {{0, 0, {}}, {2 * base, 1, {2, 0}}};
+  } else {
+    corners = {{0, 1, {}}};
+  }
+  corners.push_back({top - half, 1, {kHalf, 1 - kHalf}});
+  corners.push_back({top + half, 0, {-kHalf, 1 + kHalf}});
+  return corners;
+}
+
+TabulatedProfile layer_table(const std::vector<Corner>& corners) {
+  TwoColumns table;
+  if (corners.front().height > 0) table = {{0}, {0}};
+  for (const Corner& corner : corners) {
+    table.x.push_back(corner.height);
+    table.y.push_back(corner.density);
+  }
+  return std::make_shared<const LinearProfile>(std::move(table));
+}
+
+// On a line whose ends move: d rho / dp = -slope times the speed there, linear between them.
+TabulatedProfile layer_by_shape(const std::vector<Corner>& corners, std::size_t shape) {
+  TwoColumns table{{0, corners.front().height}, {0, 0}};
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Corner &low = corners[i], &high = corners[i + 1];
+    const double slope = (high.density - low.density) / (high.height - low.height);
+    for (const Corner* corner : {&low, &high}) {
+      table.x.push_back(corner->height);
+      table.y.push_back(-slope * corner->by[shape]);
+    }
+  }
+  return std::make_shared<const LinearProfile>(LinearProfile::of_any_sign(std::move(table)));
+}
+
+ByShape shapes_of(const std::vector<TabulatedProfile>& tables, auto value) {
+  ByShape result{};
+  for (std::size_t s = 0; s < tables.size(); ++s) result[s] = value(*tables[s]);
+  return result;
+}
+
+}  // namespace
+
+Profile::Profile(const VerticalProfile<double>& profile) {
+  switch (profile.type) {
+    case ProfileType::kExponential:
+      scale_height_ = profile.scale_height_m;
+      return;
+    case ProfileType::kTent: {
+      const double low = profile.peak_m - profile.half_width_m,
+                   high = profile.peak_m + profile.half_width_m;
+      TwoColumns tent = {{low, profile.peak_m, high}, {0, 1, 0}};
+      if (low > 0) tent = {{0, low, profile.peak_m, high}, {0, 0, 1, 0}};
+      table_ = std::make_shared<const LinearProfile>(std::move(tent));
+      return;
+    }
+    case ProfileType::kLayer: {
+      base_ = profile.base_m;
+      top_ = profile.top_m;
+      const std::vector<Corner> corners = layer_corners(base_, top_);
+      table_ = layer_table(corners);
+      for (std::size_t shape = 0; shape < 2; ++shape)
+        by_shape_.push_back(layer_by_shape(corners, shape));
+      return;
+    }
+    case ProfileType::kTabulated:
+      table_ = profile.table;
+      return;
+    case ProfileType::kSameAs:
+      throw std::logic_error("Profile: one that is the same as another has no shape of its own");
+  }
+}
 
 Density Profile::density(double height) const {
-  if (table_) return {table_->density(height), 0};
+  if (table_) {
+    return {table_->density(height),
+            shapes_of(by_shape_, [&](const LinearProfile& t) { return t.density(height); })};
+  }
   const double value = Shared<double>{}.exponential_density(height, scale_height_);
-  return {value, value * height / (scale_height_ * scale_height_)};
+  return {value, {value * height / (scale_height_ * scale_height_)}};
 }
 
 Density Profile::density_at_level(double low, double height, double high) const {
-  return table_ ? Density{table_->mean_density(low, height, high), 0} : density(height);
+  if (!table_) return density(height);
+  const auto mean = [&](const LinearProfile& t) { return t.mean_density(low, height, high); };
+  return {mean(*table_), shapes_of(by_shape_, mean)};
 }
 
 Column Profile::column_to_top(double bottom_radius, double height, double mu, double top) const {
-  if (table_) return {linear_column(*table_, bottom_radius, height, mu, top), 0};
-  return exponential_column(bottom_radius, height, mu, top, scale_height_);
+  if (!table_) return exponential_column(bottom_radius, height, mu, top, scale_height_);
+  const auto column = [&](const LinearProfile& t) {
+    return linear_column(t, bottom_radius, height, mu, top);
+  };
+  return {column(*table_), shapes_of(by_shape_, column)};
 }
 
 Column Profile::vertical_column() const {
-  return table_ ? Column{table_->vertical_column(), 0} : Column{scale_height_, 1};
+  if (!table_) return {scale_height_, {1}};
+  const auto column = [](const LinearProfile& t) { return t.vertical_column(); };
+  return {column(*table_), shapes_of(by_shape_, column)};
 }
 
 std::vector<double> Profile::quadrature_heights() const {
   std::vector<double> heights;
+  if (top_ > 0) {
+    // Denser toward both ends: light that comes out of a thick layer is scattered there.
+    for (const double x : {0.0, 0.01, 0.03, 0.07, 0.13, 0.2, 0.3, 0.4, 0.5}) {
+      heights.push_back(base_ + x * (top_ - base_));
+      heights.push_back(top_ - x * (top_ - base_));
+    }
+    heights.insert(heights.end(), table_->heights().begin(), table_->heights().end());
+    std::sort(heights.begin(), heights.end());
+    return heights;
+  }
   // In scale heights of an exponential profile.
   for (const double part : {0.0, 0.25, 0.6, 1.0, 1.7, 2.5, 4.0, 7.0}) {
     heights.push_back(table_ ? table_->height_below(std::exp(-part)) : part * scale_height_);
@@ -41,10 +149,24 @@ std::vector<double> Profile::quadrature_heights() const {
   return heights;
 }
 
-TabulatedProfile ozone_tent() {
-  static const auto kTent =
-      std::make_shared<const LinearProfile>(TwoColumns{{0, 10e3, 25e3, 40e3}, {0, 0, 1, 0}});
-  return kTent;
+std::vector<double> Profile::level_heights() const {
+  if (!(top_ > 0)) return {};
+  // A power of two of metres, 16 to 32 of them in the layer's thickness; those of them are taken
+  // that lie within 2 of an end, and every fourth inside.
+  const double step = std::exp2(std::floor(std::log2((top_ - base_) / 16)));
+  const auto first = static_cast<long>(std::lround(base_ / step)),
+             last = static_cast<long>(std::lround(top_ / step));
+  std::set<long> levels;
+  for (long k = -1; k <= 2; ++k) {
+    levels.insert(first + k);
+    levels.insert(last - k);
+  }
+  for (long k = first + 4; k < last - 2; k += 4) levels.insert(k);
+  std::vector<double> heights;
+  for (const long k : levels) {
+    if (k > 0) heights.push_back(static_cast<double>(k) * step);
+  }
+  return heights;
 }
 
 }  // namespace skyfit

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the density of a species falls with height: its value, its column along a ray, and both
-// derived by the scale height where there is one. Heights and columns in metres.
+// How the density of a constituent depends on height: its value, its column along a ray, and both
+// derived by the parameters that give the profile its shape. Heights and columns in metres.
 #pragma once
 
-#include <utility>
+#include <array>
 #include <vector>
 
 #include "model/atmosphere/atmosphere.h"
@@ -12,23 +12,26 @@
 
 namespace skyfit {
 
-// A relative density and its derivative by the scale height (1/m), 0 where there is none.
+// A relative density and its derivatives by the shape (1/m), 0 where there are none.
 struct Density {
   double value = 0;
-  double by_scale_height = 0;
+  ByShape by_shape{};
 };
 
 class Profile {
  public:
-  Profile() = default;
-  // exp(-h / H)
-  explicit Profile(double scale_height) : scale_height_(scale_height) {}
-  // Linear between corners.
-  explicit Profile(TabulatedProfile table) : table_(std::move(table)) {}
+  // Of a type that is not kSameAs.
+  explicit Profile(const VerticalProfile<double>& profile);
 
+  // How many parameters the shape has: 1 of an exponential profile (the scale height), 2 of a layer
+  // (base, top), 0 of the others.
+  std::size_t shapes() const { return is_exponential() ? 1 : by_shape_.size(); }
   bool is_exponential() const { return table_ == nullptr; }
   double scale_height() const { return scale_height_; }   // of an exponential profile
   const LinearProfile& table() const { return *table_; }  // of one that is not
+  // The derivative of the density by a shape parameter, of a profile that is not exponential.
+  const LinearProfile& table_by_shape(std::size_t shape) const { return *by_shape_[shape]; }
+
   Density density(double height) const;
   // The same at a level of a grid between its neighbours `low` and `high`: the value of a table is
   // its mean about the level, so that no layer falls between two levels.
@@ -40,31 +43,18 @@ class Profile {
   // Ascending heights that divide the profile for a quadrature: the same shares of the column lie
   // above them for every profile, and empty layers end at them.
   std::vector<double> quadrature_heights() const;
+  // Heights near which a layer wants levels of the solver, ascending; empty for other profiles.
+  // They lie on a lattice and do not follow base and top continuously, so that a derivative by
+  // these holds the levels fixed, as a small difference does.
+  std::vector<double> level_heights() const;
 
   friend bool operator==(const Profile&, const Profile&) = default;
 
  private:
   double scale_height_ = 1;
   TabulatedProfile table_;
+  std::vector<TabulatedProfile> by_shape_;
+  double base_ = 0, top_ = 0;  // of a layer
 };
-
-// Of all species. Ozone is either linear or has the profile of the air and its scale height.
-struct Profiles {
-  Profile air, aerosol, ozone;
-};
-
-// 0 at 10 km, 1 at 25 km, 0 at 40 km.
-TabulatedProfile ozone_tent();
-
-template <class T>
-Profiles profiles_of(const Atmosphere<T>& a) {
-  const auto profile = [](const auto& species) {
-    return species.profile ? Profile(species.profile) : Profile(value_of(species.scale_height_m));
-  };
-  const Profile air = profile(a.rayleigh);
-  const bool follows_air = a.ozone.profile == OzoneProfile::kExponential;
-  return {air, profile(a.mie),
-          follows_air ? air : Profile(a.ozone.table ? a.ozone.table : ozone_tent())};
-}
 
 }  // namespace skyfit

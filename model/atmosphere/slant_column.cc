@@ -63,7 +63,7 @@ Column column_to_infinity(double bottom_radius, double height, double mu, double
   const double density = shared.exponential_density(height, scale_height);
   const Chapman c = chapman(x, mu);
   return {density * scale_height * c.value,
-          density * (c.value * (1 + height / scale_height) - x * c.by_x)};
+          {density * (c.value * (1 + height / scale_height) - x * c.by_x)}};
 }
 
 // The profile between two heights of its piece number `piece`, along a ray that leaves `height`
@@ -125,7 +125,7 @@ Column exponential_column(double bottom_radius, double height, double mu, double
   Column c = to_infinity(height, std::abs(mu));
   if (mu < 0) {
     const Column tangent = to_infinity(tangent_height(bottom_radius, height, mu), 0);
-    c = {2 * tangent.value - c.value, 2 * tangent.by_scale_height - c.by_scale_height};
+    c = {2 * tangent.value - c.value, {2 * tangent.by_shape[0] - c.by_shape[0]}};
   }
   constexpr double kNothingAbove =
       40;  // scale heights: exp(-40) of the density at the point is beyond doubles' digits
@@ -135,7 +135,7 @@ Column exponential_column(double bottom_radius, double height, double mu, double
         ((top - height) * (top + height + 2 * bottom_radius) + r * r * mu * mu) / (r_top * r_top);
     const Column above = to_infinity(top, std::sqrt(std::max(mu_top2, 0.0)));
     c.value -= above.value;
-    c.by_scale_height -= above.by_scale_height;
+    c.by_shape[0] -= above.by_shape[0];
   }
   return c;
 }

@@ -3,14 +3,20 @@
 // the atmosphere, in metres, in spherical geometry.
 #pragma once
 
+#include <array>
+
 #include "model/atmosphere/linear_profile.h"
 
 namespace skyfit {
 
-// A column and its derivative by the scale height (1).
+// Derivatives by the parameters of a profile's shape: the scale height, or base and top.
+inline constexpr std::size_t kMostShapes = 2;
+using ByShape = std::array<double, kMostShapes>;
+
+// A column and its derivatives by the shape (1).
 struct Column {
   double value = 0;
-  double by_scale_height = 0;
+  ByShape by_shape{};
 };
 
 // exp(-h / H) from height h upward to height top. mu is the cosine of the zenith angle at the

@@ -9,7 +9,7 @@
 namespace skyfit {
 
 std::optional<TableFault> ascending_fault(const TableFormat& format, const TwoColumns& table,
-                                          double first) {
+                                          std::optional<double> first) {
   const std::vector<double>& x = table.x;
   if (x.size() < 2) {
     return TableFault{0, {}, fmt::format("{} values", x.size()), "at least 2"};
@@ -20,7 +20,8 @@ std::optional<TableFault> ascending_fault(const TableFormat& format, const TwoCo
                       fmt::format("{} values", table.y.size()),
                       fmt::format("as many as of {}, {}", format.columns[0], x.size())};
   }
-  if (x[0] != first) return TableFault{0, 0, {}, fmt::format("{}, the first", first)};
+  if (first && x[0] != *first) return TableFault{0, 0, {}, fmt::format("{}, the first", *first)};
+  if (!std::isfinite(x[0])) return TableFault{0, 0, {}, "a finite number"};
   for (std::size_t i = 1; i < x.size(); ++i) {
     if (!(x[i] > x[i - 1]) || !std::isfinite(x[i])) {
       return TableFault{0, i, {}, fmt::format("more than {}, the one before", x[i - 1])};

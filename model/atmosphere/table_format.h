@@ -34,9 +34,10 @@ struct TableFormat {
   std::optional<TableFault> (*fault)(const TwoColumns&);
 };
 
-// What every table must hold: as many values as arguments, at least two, ascending from `first`.
+// What every table must hold: as many values as arguments, at least two, ascending, the first one
+// finite, or `first` where that is given.
 std::optional<TableFault> ascending_fault(const TableFormat& format, const TwoColumns& table,
-                                          double first);
+                                          std::optional<double> first);
 
 // Throws std::invalid_argument, `column[row] = value: expected ...`, when there is a fault.
 void expect_no_fault(const TableFormat& format, const TwoColumns& table);

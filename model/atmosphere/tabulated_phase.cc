@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "model/numerics/gauss.h"
@@ -91,6 +93,56 @@ double TabulatedPhase::phase(double angle) const {
 
 std::vector<double> TabulatedPhase::moments(int count) const {
   return legendre_integrals(angle_, log_phase_, count);
+}
+
+SpectralPhase::SpectralPhase(std::vector<double> wavelengths_nm,
+                             std::vector<std::shared_ptr<const TabulatedPhase>> phases)
+    : wavelengths_nm_(std::move(wavelengths_nm)), phases_(std::move(phases)) {
+  if (wavelengths_nm_.empty() || wavelengths_nm_.size() != phases_.size()) {
+    throw std::invalid_argument(
+        fmt::format("wavelength_nm: {} values: expected as many as phase "
+                    "functions, {}, and at least 1",
+                    wavelengths_nm_.size(), phases_.size()));
+  }
+  double before = 0;
+  for (std::size_t i = 0; i < wavelengths_nm_.size(); ++i) {
+    const double nm = wavelengths_nm_[i];
+    if (!(nm > before) || !std::isfinite(nm)) {
+      throw std::invalid_argument(
+          fmt::format("wavelength_nm[{}] = {}: expected more than {} nm", i, nm, before));
+    }
+    before = nm;
+  }
+}
+
+std::shared_ptr<const TabulatedPhase> SpectralPhase::at(double wavelength_nm) const {
+  const auto above =
+      std::upper_bound(wavelengths_nm_.begin(), wavelengths_nm_.end(), wavelength_nm);
+  const auto i = static_cast<std::size_t>(above - wavelengths_nm_.begin());
+  if (i == 0) return phases_.front();
+  if (i == phases_.size() || wavelength_nm == wavelengths_nm_[i - 1]) return phases_[i - 1];
+  const std::lock_guard lock(mutex_);
+  auto& made = made_[wavelength_nm];
+  if (made == nullptr) made = between(i, wavelength_nm);
+  return made;
+}
+
+std::shared_ptr<const TabulatedPhase> SpectralPhase::between(std::size_t above,
+                                                             double wavelength_nm) const {
+  const TabulatedPhase &low = *phases_[above - 1], &high = *phases_[above];
+  const double part = (wavelength_nm - wavelengths_nm_[above - 1]) /
+                      (wavelengths_nm_[above] - wavelengths_nm_[above - 1]);
+  TwoColumns mixed;
+  std::ranges::set_union(low.table().x, high.table().x, std::back_inserter(mixed.x));
+  for (const double degrees : mixed.x) {
+    const double angle = degrees * (kPi / 180);
+    mixed.y.push_back(
+        std::exp(std::lerp(std::log(low.phase(angle)), std::log(high.phase(angle)), part)));
+  }
+  // A geometric mean of two phase functions integrates to less than 1.
+  const double integral = legendre_integrals(radians(mixed.x), logarithms(mixed.y), 1).front();
+  for (double& value : mixed.y) value /= integral;
+  return std::make_shared<const TabulatedPhase>(std::move(mixed));
 }
 
 }  // namespace skyfit

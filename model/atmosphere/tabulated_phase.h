@@ -3,6 +3,11 @@
 // It is normalised to integrate to 1 over the sphere.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
 #include "model/atmosphere/table_format.h"
 
 namespace skyfit {
@@ -27,6 +32,30 @@ class TabulatedPhase {
  private:
   TwoColumns table_;
   std::vector<double> angle_, log_phase_;  // radians, normalised
+};
+
+// A phase function for each of some wavelengths; between them its logarithm is linear in the
+// wavelength, beyond the first and the last it is theirs.
+class SpectralPhase {
+ public:
+  // At least one; throws std::invalid_argument unless the wavelengths (nm) are > 0 and ascend and
+  // there is one phase function for each.
+  SpectralPhase(std::vector<double> wavelengths_nm,
+                std::vector<std::shared_ptr<const TabulatedPhase>> phases);
+
+  const std::vector<double>& wavelengths_nm() const { return wavelengths_nm_; }
+  const std::vector<std::shared_ptr<const TabulatedPhase>>& phases() const { return phases_; }
+
+  // Made when it is first asked for, then kept. Any number of threads.
+  std::shared_ptr<const TabulatedPhase> at(double wavelength_nm) const;
+
+ private:
+  std::shared_ptr<const TabulatedPhase> between(std::size_t above, double wavelength_nm) const;
+
+  std::vector<double> wavelengths_nm_;
+  std::vector<std::shared_ptr<const TabulatedPhase>> phases_;
+  mutable std::mutex mutex_;
+  mutable std::map<double, std::shared_ptr<const TabulatedPhase>> made_;
 };
 
 }  // namespace skyfit

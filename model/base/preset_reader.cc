@@ -227,6 +227,17 @@ std::vector<double> PresetReader::numbers(std::string_view field) const {
   return found.get<std::vector<double>>();
 }
 
+std::vector<std::vector<double>> PresetReader::rows(std::string_view field) const {
+  const json& found = member(field, "an array of arrays of numbers");
+  const auto is_row = [](const json& row) {
+    return row.is_array() &&
+           std::ranges::all_of(row, [](const json& value) { return value.is_number(); });
+  };
+  if (!found.is_array() || !std::ranges::all_of(found, is_row))
+    fail_value(field, "an array of arrays of numbers");
+  return found.get<std::vector<std::vector<double>>>();
+}
+
 std::string PresetReader::text(std::string_view field) const {
   const json& found = member(field, "a text");
   if (!found.is_string()) fail_value(field, "a text");
@@ -237,6 +248,11 @@ void PresetReader::fail_value(std::string_view field, std::string_view expectati
   const std::string path = path_of(field);
   throw std::invalid_argument(fmt::format("{}: {} = {}: expected {}", document_.place(path), path,
                                           shown(value_.at(std::string(field))), expectation));
+}
+
+void PresetReader::fail_missing(std::string_view expectation) const {
+  throw std::invalid_argument(
+      fmt::format("{}: {}: missing: expected {}", document_.place(path_), path_, expectation));
 }
 
 // A path ends before the first space, bracket or colon.

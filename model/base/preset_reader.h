@@ -54,6 +54,7 @@ class PresetReader {
   }
   double number(std::string_view field) const;
   std::vector<double> numbers(std::string_view field) const;
+  std::vector<std::vector<double>> rows(std::string_view field) const;  // an array of arrays
   std::string text(std::string_view field) const;
 
   // The result of `make`, which may throw std::invalid_argument with a message that begins with a
@@ -68,6 +69,8 @@ class PresetReader {
   }
 
   [[noreturn]] void fail_value(std::string_view field, std::string_view expectation) const;
+  // Something that may have one of several names is missing.
+  [[noreturn]] void fail_missing(std::string_view expectation) const;
 
  private:
   [[noreturn]] void fail_inside(std::string_view message) const;

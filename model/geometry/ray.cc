@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "model/numerics/gauss.h"
 #include "model/shared/shared.h"
@@ -11,22 +10,6 @@
 namespace skyfit {
 namespace {
 Shared<double> shared;  // stateless
-}
-
-PathColumns Shells::columns_to_top(double height, double mu) const {
-  PathColumns c;
-  auto column = [&](const Profile& profile) {
-    return profile.column_to_top(bottom_radius, height, mu, top);
-  };
-  c.air = column(profiles.air);
-  c.aerosol = column(profiles.aerosol);
-  if (ozone) c.ozone = profiles.ozone == profiles.air ? c.air : column(profiles.ozone);
-  return c;
-}
-
-Shells shells_of(const Atmosphere<double>& a) {
-  return {a.bottom_radius_m, a.top_radius_m - a.bottom_radius_m, profiles_of(a),
-          a.ozone.column_du > 0};
 }
 
 ViewRay view_ray(double bottom_radius, double top, double altitude, double mu) {
@@ -60,11 +43,6 @@ RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s) {
   return {s, h, std::clamp(ray.radius_mu_at(s, bottom_radius) / (bottom_radius + h), -1.0, 1.0)};
 }
 
-PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point) {
-  return columns_along([&](double height, double mu) { return shells.columns_to_top(height, mu); },
-                       shells.bottom_radius, ray, point);
-}
-
 std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
                                     const std::vector<double>& heights) {
   std::vector<double> s = {0};
@@ -92,17 +70,6 @@ std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
   std::sort(s.begin(), s.end());
   s.erase(std::unique(s.begin(), s.end()), s.end());
   return s;
-}
-
-std::vector<double> with_table_breaks(const Shells& shells, const ViewRay& ray,
-                                      std::vector<double> breaks) {
-  for (const Profile* profile : {&shells.profiles.air, &shells.profiles.aerosol}) {
-    if (profile->is_exponential()) continue;
-    std::ranges::copy(shell_crossings(ray, shells.bottom_radius, profile->quadrature_heights()),
-                      std::back_inserter(breaks));
-  }
-  std::sort(breaks.begin(), breaks.end());
-  return breaks;
 }
 
 std::vector<QuadratureNode> composite_gauss(const std::vector<double>& breaks, int order) {

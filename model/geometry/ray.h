@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A straight ray through spherical shells: where it runs, nodes of a quadrature along it, and
-// columns along it. Lengths in metres.
+// A straight ray through spherical shells: where it runs, and nodes of a quadrature along it.
+// Lengths in metres.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
-#include "model/atmosphere/optics.h"
-
 namespace skyfit {
 
-// The geometry and the profiles: what columns need, without coefficients.
-struct Shells {
-  double bottom_radius, top;  // top is a height
-  Profiles profiles;
-  bool ozone;  // false: there is none
-
-  // From a point at height h upward to the top; mu < 0 passes the tangent point.
-  PathColumns columns_to_top(double height, double mu) const;
-};
-Shells shells_of(const Atmosphere<double>& atmosphere);
-
-// One look: the part of a ray that lies inside the atmosphere. s is the distance from the ray's
+// The part of a line of sight that lies inside the atmosphere. s is the distance from the ray's
 // entry.
 struct ViewRay {
   double entry_height = 0, entry_mu = 0;  // where the ray begins inside the atmosphere
@@ -42,27 +29,26 @@ struct RayPoint {
 };
 RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s);
 
-// Columns from the ray's entry to the point.
-PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point);
-
-// The same with columns of any kind: to_top(height, mu), mu >= 0, from a point upward.
+// Columns from the ray's entry to the point, of any type with +=, unary - and {} for none:
+// to_top(height, mu), mu >= 0, is that from a point upward.
 template <class ToTop>
-PathColumns columns_along(const ToTop& to_top, double bottom_radius, const ViewRay& ray,
-                          const RayPoint& point) {
-  if (point.s <= 0) return {};
+auto columns_along(const ToTop& to_top, double bottom_radius, const ViewRay& ray,
+                   const RayPoint& point) {
+  using Columns = decltype(to_top(0.0, 0.0));
+  if (point.s <= 0) return Columns{};
   const bool entry_descends = ray.tangent_s > 0, point_descends = point.s < ray.tangent_s;
   if (!entry_descends) {  // both look up
-    PathColumns c = to_top(ray.entry_height, ray.entry_mu);
+    Columns c = to_top(ray.entry_height, ray.entry_mu);
     return c += -to_top(point.height, std::max(point.mu, 0.0));
   }
   if (point_descends) {  // both look down: seen from the other end
-    PathColumns c = to_top(point.height, std::max(-point.mu, 0.0));
+    Columns c = to_top(point.height, std::max(-point.mu, 0.0));
     return c += -to_top(ray.entry_height, -ray.entry_mu);
   }
   // Down to the lowest point, then up.
   const double lowest_mu = ray.hits_ground ? -ray_point(ray, bottom_radius, ray.length).mu : 0;
-  PathColumns c = to_top(ray.tangent_height, lowest_mu);
-  PathColumns up = c;
+  Columns c = to_top(ray.tangent_height, lowest_mu);
+  Columns up = c;
   c += -to_top(ray.entry_height, -ray.entry_mu);
   if (point.s > ray.tangent_s) c += (up += -to_top(point.height, std::max(point.mu, 0.0)));
   return c;
@@ -72,11 +58,6 @@ PathColumns columns_along(const ToTop& to_top, double bottom_radius, const ViewR
 // point, ascending in s.
 std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
                                     const std::vector<double>& heights);
-
-// The breaks of a quadrature along the ray and besides those that tabulated air or aerosol wants,
-// see Profile::quadrature_heights(); ascending.
-std::vector<double> with_table_breaks(const Shells& shells, const ViewRay& ray,
-                                      std::vector<double> breaks);
 
 struct QuadratureNode {
   double s, weight;

@@ -25,7 +25,7 @@ struct BodareMethod {
   static Atmosphere<T> see(const Atmosphere<T>& atmosphere) {
     return atmosphere;
   }
-  static bool can_fit(Parameter) { return true; }
+  static bool can_fit(const Parameter&) { return true; }
 };
 using BodareModel = literature::TabulatedModel<BodareMethod>;
 

@@ -21,9 +21,9 @@ double theta_of(int i) { return kPi * (i + 0.5) / kTheta; }
 }  // namespace
 
 BodareGeometry::BodareGeometry(const Atmosphere<double>& atmosphere)
-    : shells_(shells_of(atmosphere)), rays_(static_cast<std::size_t>(Sizes::height) * Sizes::view) {
+    : shells_(shells_of(atmosphere, Keep::kAll)),
+      rays_(static_cast<std::size_t>(Sizes::height) * Sizes::view) {
   Shared<double> shared;
-  shells_.ozone = true;  // for its derivative where there is none
   const double bottom = shells_.bottom_radius;
   tbb::parallel_for(0, Sizes::height, [&](int i) {
     const double h = height(i), horizon = shared.bodare_horizon(h, bottom);
@@ -71,7 +71,7 @@ double BodareGeometry::sun(int texel) {
 }
 
 template <int N>
-BodareTables<N>::BodareTables(const BodareGeometry& geometry, const Optics<N>& air)
+BodareTables<N>::BodareTables(const BodareGeometry& geometry, const ClearAir<N>& air)
     : geometry_(geometry),
       air_(air),
       sun_(geometry.shells().bottom_radius, geometry.shells().top,
@@ -88,7 +88,7 @@ BodareTables<N>::BodareTables(const BodareGeometry& geometry, const Optics<N>& a
 }
 
 template <int N>
-BodareTables<N>::BodareTables(const BodareGeometry& geometry, const Optics<N>& air,
+BodareTables<N>::BodareTables(const BodareGeometry& geometry, const ClearAir<N>& air,
                               std::span<const View>)
     : BodareTables(geometry, air) {
   const auto all_slices = [](const auto& slices) {
@@ -119,7 +119,7 @@ void BodareTables<N>::make_mean_phases() {
       for (int f = 0; f < kPhi; ++f) {
         const double nu =
             std::clamp(z * mu_s + sine * sun_sine * std::cos(kPi * (f + 0.5) / kPhi), -1.0, 1.0);
-        add_scaled(2 * kPi / kPhi, aerosol_phase(air_.phase, nu), mean_aerosol_[at]);
+        add_scaled(2 * kPi / kPhi, phase_value(air_.phase, nu), mean_aerosol_[at]);
         mean_air_[at] += 2 * kPi / kPhi * Shared<double>{}.elek_rayleigh_phase(nu);
       }
       add_scaled(sine * kPi / kTheta, mean_aerosol_[at], sum);
@@ -146,7 +146,7 @@ void BodareTables<N>::scatter(int first, int last, const Row& row_of, const Ligh
       std::fill_n(air, Sizes::sun, Dual<N>(0.0));
       std::fill_n(aerosol, Sizes::sun, Dual<N>(0.0));
       for (const BodareGeometry::Node& node : geometry_.ray(i, v)) {
-        const Densities<N> density = air_.densities(node.at.height);
+        const auto density = air_.densities(node.at.height);
         const Dual<N> through = node.at.weight * exp(-air_.optical_depth(node.at.columns));
         const Dual<N> by_air = through * air_.air * density.air,
                       by_aerosol = through * air_.aerosol_scattering * density.aerosol;
@@ -256,7 +256,7 @@ RayLight<N> BodareTables<N>::light(const View& view) const {
   if (ray.length > 0) {
     const InScatter in = in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, ray.hits_ground);
     light.air = Shared<double>{}.elek_rayleigh_phase(view.nu) * in.air;
-    light.aerosol = aerosol_phase(air_.phase, view.nu) * in.aerosol;
+    light.aerosol = phase_value(air_.phase, view.nu) * in.aerosol;
   }
   if (ray.hits_ground) {
     light.ground = ground_light(geometry_.shells(), air_, view,

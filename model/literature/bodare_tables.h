@@ -58,9 +58,9 @@ class BodareTables {
 
   // Empty tables, to be filled step by step. `geometry` is that of the atmosphere, and outlives the
   // tables.
-  BodareTables(const BodareGeometry& geometry, const Optics<N>& air);
+  BodareTables(const BodareGeometry& geometry, const ClearAir<N>& air);
   // Filled ones, whatever the views. Runs on the threads of the task arena.
-  BodareTables(const BodareGeometry& geometry, const Optics<N>& air, std::span<const View> views);
+  BodareTables(const BodareGeometry& geometry, const ClearAir<N>& air, std::span<const View> views);
 
   // The steps, in their order: slices of heights [first, last) of the single scattering; for every
   // further order one gathering and its slices; at the end the light on the
@@ -94,7 +94,7 @@ class BodareTables {
   Dual<N> azimuth_sum(int sun, int theta, const Dual<N>& air, const Dual<N>& aerosol) const;
 
   const BodareGeometry& geometry_;
-  Optics<N> air_;
+  ClearAir<N> air_;
   SunColumns<N> sun_;
   Table air_order_, aerosol_order_, air_sum_, aerosol_sum_;
   Grid<N, 2> gathered_;                // [height][sun]

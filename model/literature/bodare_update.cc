@@ -32,7 +32,8 @@ BodareSet::BodareSet(const Atmosphere<double>& atmosphere,
   geometry_ = std::make_unique<const literature::BodareGeometry>(atmosphere);
   const auto air = seeded<0>(atmosphere, {});
   for (const WavelengthNode& node : wavelengths) {
-    tables_.push_back(std::make_unique<BodareTables<0>>(*geometry_, uncut_optics_at(air, node)));
+    tables_.push_back(std::make_unique<BodareTables<0>>(
+        *geometry_, literature::clear_air(geometry_->shells(), air, node)));
   }
 }
 

@@ -27,7 +27,7 @@ struct BrunetonMethod {
   static Atmosphere<T> see(const Atmosphere<T>& atmosphere) {
     return atmosphere;
   }
-  static bool can_fit(Parameter) { return true; }
+  static bool can_fit(const Parameter&) { return true; }
 };
 using BrunetonModel = literature::TabulatedModel<BrunetonMethod>;
 

@@ -26,11 +26,10 @@ double evenly_spaced_cosine(int i) { return 2.0 * i / (kSunPositions - 1.0) - 1.
 }  // namespace
 
 BrunetonGeometry::BrunetonGeometry(const Atmosphere<double>& atmosphere)
-    : shells_(shells_of(atmosphere)),
+    : shells_(shells_of(atmosphere, Keep::kAll)),
       rays_(static_cast<std::size_t>(Sizes::r) * Sizes::mu),
       sun_position_(kSunPositions) {
   Shared<double> shared;
-  shells_.ozone = true;  // for its derivative where there is none
   for (int i = 0; i < Sizes::mu_s; ++i) {
     suns_.push_back(shared.bruneton_sun_from_unit(unit_of(i, Sizes::mu_s), kTableLowestSun,
                                                   bottom(), thickness()));

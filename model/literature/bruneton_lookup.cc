@@ -45,7 +45,7 @@ RayLight<N> BrunetonTables<N>::light(const View& view) const {
     const InScatter in =
         in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, view.nu, ray.hits_ground);
     light.air = Shared<double>{}.rayleigh_phase(air_.depolarisation, view.nu) * in.rayleigh_like;
-    light.aerosol = aerosol_phase(air_.phase, view.nu) * in.single_mie;
+    light.aerosol = phase_value(air_.phase, view.nu) * in.single_mie;
   }
   if (ray.hits_ground) {
     light.ground = ground_light(geometry_.shells(), air_, view,

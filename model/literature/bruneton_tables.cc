@@ -93,7 +93,7 @@ class BrunetonSolver {
       Dual<N>* rayleigh = &tables_.rayleigh_like_.at({r, mu, 0, 0});
       Dual<N>* mie = &tables_.single_mie_.at({r, mu, 0, 0});
       for (const BrunetonGeometry::Node& node : ray.nodes) {
-        const Densities<N> density = air_.densities(node.at.height);
+        const auto density = air_.densities(node.at.height);
         const Dual<N> through = node.at.weight * exp(-air_.optical_depth(node.at.columns));
         const Dual<N> by_air = through * air_.air * density.air,
                       by_aerosol = through * air_.aerosol_scattering * density.aerosol;
@@ -124,7 +124,7 @@ class BrunetonSolver {
       for (int t = 0; t < kTheta; ++t) {
         const double z = std::cos(theta_of(t)), z_sine = std::sin(theta_of(t));
         for (int d = 0; d < kDifferences; ++d) {
-          const Dual<N> phase = aerosol_phase(
+          const Dual<N> phase = phase_value(
               air_.phase,
               std::clamp(mu * z + sine * z_sine * cosines[static_cast<std::size_t>(d * kModes + 1)],
                          -1.0, 1.0));
@@ -166,7 +166,7 @@ class BrunetonSolver {
         const double nu =
             std::cos(theta_of(t)) * mu_s + std::sin(theta_of(t)) * sun_sine * std::cos(phi_of(f));
         Dual<N>& p = phase[static_cast<std::size_t>(t * kPhi + f)];
-        p = aerosol_phase(air_.phase, std::clamp(nu, -1.0, 1.0));
+        p = phase_value(air_.phase, std::clamp(nu, -1.0, 1.0));
         add_scaled(solid_angle(t), p, sum);
       }
     }
@@ -232,7 +232,7 @@ class BrunetonSolver {
   // Light of order k - 1 that air and aerosol at the height of r scatter, per metre.
   void scattering_density(int r, int k) {
     const double height = geometry_.ray(r, 0).height;
-    const Densities<N> density = air_.densities(height);
+    const auto density = air_.densities(height);
     const Dual<N> air = air_.air * density.air, aerosol = air_.aerosol_scattering * density.aerosol;
     const double rho = air_.depolarisation, scale = 3 / (8 * kPi * (2 + rho));
     for (int sun = 0; sun < Sizes::mu_s; ++sun) {
@@ -330,7 +330,7 @@ class BrunetonSolver {
         } else {
           light = shared.rayleigh_phase(air_.depolarisation, sample.nu) *
                       tables_.rayleigh_like_.linear(at) +
-                  aerosol_phase(air_.phase, sample.nu) * tables_.single_mie_.linear(at);
+                  phase_value(air_.phase, sample.nu) * tables_.single_mie_.linear(at);
         }
         add_scaled(sample.weight, light, row[static_cast<std::size_t>(i)]);
       }
@@ -352,7 +352,7 @@ class BrunetonSolver {
 
   BrunetonTables<N>& tables_;
   const BrunetonGeometry& geometry_;
-  const Optics<N>& air_;
+  const ClearAir<N>& air_;
   Grid<N, 4> source_, order_;    // [r][mu][mu_s][nu]
   std::vector<Dual<N>> ground_;  // irradiance of the ground whose reflection comes next
   std::vector<Dual<N>> modes_;   // [r][mu][theta][m]
@@ -360,7 +360,7 @@ class BrunetonSolver {
 };
 
 template <int N>
-BrunetonTables<N>::BrunetonTables(const BrunetonGeometry& geometry, const Optics<N>& air,
+BrunetonTables<N>::BrunetonTables(const BrunetonGeometry& geometry, const ClearAir<N>& air,
                                   std::span<const View>)
     : geometry_(geometry),
       air_(air),

@@ -72,7 +72,7 @@ class BrunetonTables {
 
   // Runs on the threads of the task arena. `geometry` is that of the atmosphere, and outlives the
   // tables; every one is filled, whatever the views.
-  BrunetonTables(const BrunetonGeometry& geometry, const Optics<N>& air,
+  BrunetonTables(const BrunetonGeometry& geometry, const ClearAir<N>& air,
                  std::span<const View> views);
 
   // Of the whole ray.
@@ -97,7 +97,7 @@ class BrunetonTables {
   template <int>
   friend class BrunetonSolver;
   const BrunetonGeometry& geometry_;
-  Optics<N> air_;
+  ClearAir<N> air_;
   Grid<N, 2> optical_depth_;               // [r][mu]
   Grid<N, 2> irradiance_;                  // [r][mu_s]
   Grid<N, 4> rayleigh_like_, single_mie_;  // [r][mu][mu_s][nu]

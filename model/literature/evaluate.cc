@@ -25,11 +25,16 @@ void check_request(std::string_view model, const Atmosphere<double>& atmosphere,
                    std::span<const SkyPoint> points, std::span<const Parameter> derivatives) {
   validate(atmosphere);
   for (const SkyPoint& point : points) check_point(model, point);
-  for (const Parameter parameter : derivatives) {
-    if (has_parameter(atmosphere, parameter)) continue;
+  for (const Parameter& parameter : derivatives) check_derivative(model, atmosphere, parameter);
+  int molecules = 0, aerosols = 0;
+  for (const Constituent<double>& c : atmosphere.constituents) {
+    if (!scatters(c)) continue;
+    int& count = c.phase.type == PhaseType::kRayleigh ? molecules : aerosols;
+    if (++count == 1) continue;
     throw std::invalid_argument(
-        fmt::format("{} model: the atmosphere has no {} to differentiate by", model,
-                    parameter_info(parameter).name));
+        fmt::format("{} model: constituent \"{}\": expected at most one with Rayleigh's phase "
+                    "function and one other that scatters; the reference model has no such limit",
+                    model, c.name));
   }
 }
 
@@ -44,13 +49,11 @@ void check_daylight(std::string_view model, std::span<const SkyPoint> points, do
 }
 
 void check_exponential(std::string_view model, const Atmosphere<double>& atmosphere) {
-  const auto check = [&](const TabulatedProfile& profile, std::string_view path) {
-    if (profile == nullptr) return;
+  for (const Constituent<double>& c : atmosphere.constituents) {
+    if (!scatters(c) || c.profile.type == ProfileType::kExponential) continue;
     throw std::invalid_argument(
-        fmt::format("{} model: {}: a tabulated profile: must be exponential", model, path));
-  };
-  check(atmosphere.rayleigh.profile, "rayleigh.profile");
-  check(atmosphere.mie.profile, "mie.profile");
+        fmt::format("{} model: {}.profile: must be exponential", model, c.name));
+  }
 }
 
 }  // namespace skyfit::literature

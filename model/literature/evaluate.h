@@ -32,12 +32,74 @@ void check_request(std::string_view model, const Atmosphere<double>& atmosphere,
 // that says so.
 void check_daylight(std::string_view model, std::span<const SkyPoint> points, double highest_m);
 
-// Exponential air and aerosol; throws std::invalid_argument that names the other.
+// Exponential profiles of what scatters; throws std::invalid_argument that names another.
 void check_exponential(std::string_view model, const Atmosphere<double>& atmosphere);
+
+// The models of the literature know air with Rayleigh's phase function and one aerosol, and any
+// absorbers besides. The places of the two in the atmosphere's list; -1: there is none.
+struct AirAndAerosol {
+  int air = -1, aerosol = -1;
+};
+template <class T>
+AirAndAerosol air_and_aerosol(const Atmosphere<T>& atmosphere) {
+  AirAndAerosol roles;
+  for (std::size_t i = 0; i < atmosphere.constituents.size(); ++i) {
+    const Constituent<T>& c = atmosphere.constituents[i];
+    if (!scatters(c)) continue;
+    (c.phase.type == PhaseType::kRayleigh ? roles.air : roles.aerosol) = static_cast<int>(i);
+  }
+  return roles;
+}
+
+// The optics of such an atmosphere by the names of the two. What is missing is 0.
+template <int N>
+struct ClearAir : Optics<N> {
+  Dual<N> air;                                     // Rayleigh scattering at density 1, 1/m
+  Dual<N> aerosol_scattering;                      // 1/m
+  Dual<N> aerosol_extinction;                      // 1/m
+  Dual<N> air_scale_height, aerosol_scale_height;  // m
+  double depolarisation = 0;
+  PhaseFunction<Dual<N>> phase;                // of the aerosol
+  int air_profile = -1, aerosol_profile = -1;  // of the shells
+
+  struct Densities {
+    Dual<N> air, aerosol;
+  };
+  Densities densities(double height) const {
+    const skyfit::Densities<N> all = Optics<N>::densities(height);
+    return {air_profile < 0 ? Dual<N>() : all[static_cast<std::size_t>(air_profile)],
+            aerosol_profile < 0 ? Dual<N>() : all[static_cast<std::size_t>(aerosol_profile)]};
+  }
+};
+
+template <int N>
+ClearAir<N> clear_air(const Shells& shells, const Atmosphere<Dual<N>>& atmosphere,
+                      const WavelengthNode& node) {
+  ClearAir<N> air;
+  static_cast<Optics<N>&>(air) = true_optics_at(shells, atmosphere, node);
+  const AirAndAerosol roles = air_and_aerosol(atmosphere);
+  for (const Scatterer<N>& s : air.scatterers) {
+    const auto place = static_cast<int>(s.constituent), profile = static_cast<int>(s.profile);
+    if (place == roles.air) {
+      air.air = s.scattering;
+      air.air_profile = profile;
+      air.air_scale_height = air.shape[s.profile][0];
+      air.depolarisation = s.phase.depolarisation;
+    } else {
+      air.aerosol_scattering = s.scattering;
+      air.aerosol_extinction =
+          s.scattering / atmosphere.constituents[s.constituent].single_scattering_albedo;
+      air.aerosol_profile = profile;
+      air.aerosol_scale_height = air.shape[s.profile][0];
+      air.phase = s.phase;
+    }
+  }
+  return air;
+}
 
 // How many derivatives are carried at once: of closed forms all; of tables seven, for their memory
 // (270 MB while those of Bruneton are made), and because eight doubles fill a register.
-inline constexpr int kAllAtOnce = kParameterCount;
+inline constexpr int kAllAtOnce = kDerivativesAtOnce;
 inline constexpr int kTablesAtOnce = 7;
 
 // Calls radiance.operator()<N>(atmosphere, node, out) for every wavelength and every batch of
@@ -90,11 +152,27 @@ struct SkyRayTexels {
   std::vector<float> air, aerosol;
 };
 
-// The atmosphere as models without absorption see it.
+// Whether models without absorption depend on a parameter.
+inline bool can_fit_without_absorption(const Parameter& parameter) {
+  return parameter.quantity() != Quantity::kSingleScatteringAlbedo &&
+         parameter.quantity() != Quantity::kColumn;
+}
+
+// The effective atmosphere of models without absorption.
 template <class T>
 Atmosphere<T> without_absorption(Atmosphere<T> atmosphere) {
-  atmosphere.mie.single_scattering_albedo = T(1.0);
-  atmosphere.ozone.column_du = T(0.0);
+  for (Constituent<T>& c : atmosphere.constituents) {
+    if (!scatters(c)) {
+      c.amount = T(0.0);
+    } else {
+      // What is stated as extinction: as much of it as scatters at the wavelength of the amount.
+      if (c.amount_type != AmountType::kScattering)
+        c.amount *= c.albedo_spectrum ? T(c.albedo_spectrum->at(c.wavelength_nm))
+                                      : c.single_scattering_albedo;
+      c.single_scattering_albedo = T(1.0);
+      c.albedo_spectrum = nullptr;
+    }
+  }
   return atmosphere;
 }
 

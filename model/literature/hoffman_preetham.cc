@@ -19,27 +19,28 @@ struct Depths {
   Dual<N> air, aerosol;
 };
 template <int N>
-Depths<N> to_sky(const Optics<N>& air, double mu) {
+Depths<N> to_sky(const literature::ClearAir<N>& air, double mu) {
   const double mass = Shared<double>{}.relative_air_mass(mu);
   return {mass * air.air_scale_height, mass * air.aerosol_scale_height};
 }
 
 template <int N>
-Dual<N> transmittance(const Optics<N>& air, const Depths<N>& depths) {
+Dual<N> transmittance(const literature::ClearAir<N>& air, const Depths<N>& depths) {
   return exp(-(air.air * depths.air + air.aerosol_scattering * depths.aerosol));
 }
 
 template <int N>
-Dual<N> radiance_of(const Optics<N>& air, const SkyPoint& point, const literature::View& view) {
+Dual<N> radiance_of(const literature::ClearAir<N>& air, const SkyPoint& point,
+                    const literature::View& view) {
   Shared<Dual<N>> shared;
   const double mu_s = std::cos(point.sun_zenith);
   const Dual<N> sun = transmittance(air, to_sky(air, mu_s));
   const bool ground = view.ray.hits_ground;
   const Dual<N> through = transmittance(air, ground ? Depths<N>{view.ray.length, view.ray.length}
                                                     : to_sky(air, std::cos(point.view_zenith)));
-  const Dual<N> scattered = shared.mixed_path_inscatter(
-      air.air, shared.rayleigh_phase(air.depolarisation, view.nu), air.aerosol_scattering,
-      aerosol_phase(air.phase, view.nu), through);
+  const Dual<N> scattered =
+      shared.mixed_path_inscatter(air.air, shared.rayleigh_phase(air.depolarisation, view.nu),
+                                  air.aerosol_scattering, phase_value(air.phase, view.nu), through);
   if (!ground) return sun * scattered;
   const Dual<N> reflected = air.ground_albedo * (mu_s / std::numbers::pi);
   return sun * (scattered + reflected * through);
@@ -54,18 +55,20 @@ SkyValues HoffmanPreethamModel::radiance(const Atmosphere<double>& atmosphere,
   literature::check_request(kName, atmosphere, points, derivatives);
   literature::check_daylight(kName, points, kHighest);
   literature::check_exponential(kName, atmosphere);
+  const Shells shells = shells_of(atmosphere, Keep::kScatterers);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
       [&]<int N>(const Atmosphere<Dual<N>>& air, const WavelengthNode& node,
                  std::span<Dual<N>> out) {
-        const Optics<N> optics = uncut_optics_at(literature::without_absorption(air), node);
+        const auto optics =
+            literature::clear_air(shells, literature::without_absorption(air), node);
         for (std::size_t i = 0; i < points.size(); ++i)
           out[i] = radiance_of(optics, points[i], literature::view_of(atmosphere, points[i]));
       });
 }
 
-bool HoffmanPreethamModel::can_fit(Parameter parameter) const {
-  return parameter != Parameter::kMieSingleScatteringAlbedo && parameter != Parameter::kOzoneColumn;
+bool HoffmanPreethamModel::can_fit(const Parameter& parameter) const {
+  return literature::can_fit_without_absorption(parameter);
 }
 
 }  // namespace skyfit

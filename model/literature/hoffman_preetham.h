@@ -21,7 +21,7 @@ class HoffmanPreethamModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
-  bool can_fit(Parameter parameter) const override;
+  bool can_fit(const Parameter& parameter) const override;
 };
 
 }  // namespace skyfit

@@ -28,13 +28,12 @@ struct Aerosol {
   Dual<N> hazy_g;
   Dual<N> multiplier;
 };
+// `green`: the air at 550 nm.
 template <int N>
-Aerosol<N> aerosol_of(const Atmosphere<Dual<N>>& air) {
-  const AerosolPhase<Dual<N>>& phase = air.mie.phase;
-  const PowerLaw<Dual<N>>& law = air.mie.scattering_per_m;
+Aerosol<N> aerosol_of(const literature::ClearAir<N>& green) {
+  const PhaseFunction<Dual<N>>& phase = green.phase;
   Aerosol<N> aerosol;
-  aerosol.multiplier = law.value * exp(law.exponent * -std::log(550 / law.wavelength_nm)) *
-                       (1 / unit_mie_coefficient());
+  aerosol.multiplier = green.aerosol_scattering * (1 / unit_mie_coefficient());
   switch (phase.type) {
     case PhaseType::kTwoLobe:
       aerosol.type = phase.lobe;
@@ -52,8 +51,8 @@ Aerosol<N> aerosol_of(const Atmosphere<Dual<N>>& air) {
 }
 
 template <int N>
-Dual<N> radiance_of(const Optics<N>& air, const Aerosol<N>& aerosol, const SkyPoint& point,
-                    const literature::View& view, NielsenMean mean) {
+Dual<N> radiance_of(const literature::ClearAir<N>& air, const Aerosol<N>& aerosol,
+                    const SkyPoint& point, const literature::View& view, NielsenMean mean) {
   Shared<Dual<N>> shared;
   Shared<double> numbers;
   const double height = point.altitude_m, mu_s = std::cos(point.sun_zenith);
@@ -94,12 +93,14 @@ SkyValues NielsenModel::radiance(const Atmosphere<double>& atmosphere,
                                  std::span<const Parameter> derivatives) const {
   literature::check_request(kName, atmosphere, points, derivatives);
   literature::check_daylight(kName, points, kHighest);
+  const Shells shells = shells_of(atmosphere, Keep::kScatterers);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
       [&]<int N>(const Atmosphere<Dual<N>>& seeded_air, const WavelengthNode& node,
                  std::span<Dual<N>> out) {
-        const Optics<N> air = uncut_optics_at(literature::without_absorption(seeded_air), node);
-        const Aerosol<N> aerosol = aerosol_of(seeded_air);
+        const Atmosphere<Dual<N>> clear = literature::without_absorption(seeded_air);
+        const auto air = literature::clear_air(shells, clear, node);
+        const Aerosol<N> aerosol = aerosol_of(literature::clear_air(shells, clear, {550, 0}));
         for (std::size_t i = 0; i < points.size(); ++i) {
           out[i] = radiance_of(air, aerosol, points[i], literature::view_of(atmosphere, points[i]),
                                mean_);
@@ -107,16 +108,10 @@ SkyValues NielsenModel::radiance(const Atmosphere<double>& atmosphere,
       });
 }
 
-bool NielsenModel::can_fit(Parameter parameter) const {
-  switch (parameter) {
-    case Parameter::kRayleighScaleHeight:
-    case Parameter::kMieScaleHeight:
-    case Parameter::kMieSingleScatteringAlbedo:
-    case Parameter::kOzoneColumn:
-      return false;
-    default:
-      return true;
-  }
+// Its scale heights are its own.
+bool NielsenModel::can_fit(const Parameter& parameter) const {
+  return literature::can_fit_without_absorption(parameter) &&
+         parameter.quantity() != Quantity::kScaleHeight;
 }
 
 }  // namespace skyfit

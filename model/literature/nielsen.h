@@ -27,7 +27,7 @@ class NielsenModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
-  bool can_fit(Parameter parameter) const override;
+  bool can_fit(const Parameter& parameter) const override;
   int lobes() const override { return 1; }
 
  private:

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "model/atmosphere/phase_moments.h"
-#include "model/geometry/sky_geometry.h"
+#include "model/geometry/sun_along_ray.h"
 #include "model/literature/evaluate.h"
 #include "model/shared/shared.h"
 
@@ -21,29 +21,33 @@ bool is_oneils_geometry(const Atmosphere<double>& a) {
   constexpr double kThickness = 0.025, kScaleDepth = 0.25, kSame = 1e-3;
   const double thickness = a.top_radius_m - a.bottom_radius_m;
   const auto same = [](double x, double y) { return std::abs(x / y - 1) < kSame; };
-  return !a.rayleigh.profile && !a.mie.profile && same(thickness / a.bottom_radius_m, kThickness) &&
-         same(a.rayleigh.scale_height_m / thickness, kScaleDepth) &&
-         same(a.mie.scale_height_m / thickness, kScaleDepth);
+  return same(thickness / a.bottom_radius_m, kThickness) &&
+         std::ranges::all_of(a.constituents, [&](const Constituent<double>& c) {
+           return !scatters(c) || (c.profile.type == ProfileType::kExponential &&
+                                   same(c.profile.scale_height_m / thickness, kScaleDepth));
+         });
 }
 
 // The columns of one atmosphere by the polynomial or in closed form.
 class Depths {
  public:
   explicit Depths(const Atmosphere<double>& atmosphere)
-      : shells_(shells_of(atmosphere)), polynomial_(is_oneils_geometry(atmosphere)) {
-    shells_.ozone = false;
-  }
+      : shells_(shells_of(atmosphere, Keep::kScatterers)),
+        polynomial_(is_oneils_geometry(atmosphere)) {}
 
+  const Shells& shells() const { return shells_; }
   double bottom() const { return shells_.bottom_radius; }
   PathColumns to_top(double height, double mu) const {
     if (!polynomial_) return shells_.columns_to_top(height, mu);
     const double slant = Shared<double>{}.oneil_slant(mu);
-    const auto column = [&](const Profile& profile) {  // H exp(-h / H) slant
+    PathColumns columns;
+    for (const Profile& profile : shells_.profiles) {  // H exp(-h / H) slant
       const Density density = profile.density(height);
-      return Column{slant * profile.scale_height() * density.value,
-                    slant * (density.value + profile.scale_height() * density.by_scale_height)};
-    };
-    return {column(shells_.profiles.air), column(shells_.profiles.aerosol), {}};
+      const double by_scale_height = density.value + profile.scale_height() * density.by_shape[0];
+      columns.push_back(
+          {slant * profile.scale_height() * density.value, {slant * by_scale_height}});
+    }
+    return columns;
   }
   // From the ray's beginning.
   PathColumns along(const ViewRay& ray, const RayPoint& point) const {
@@ -93,11 +97,11 @@ Path path_of(const Atmosphere<double>& atmosphere, const Depths& depths, const S
 }
 
 template <int N>
-literature::RayLight<N> light_of(const Optics<N>& air, const Path& path) {
+literature::RayLight<N> light_of(const literature::ClearAir<N>& air, const Path& path) {
   Dual<N> by_air(0.0), by_aerosol(0.0);
   for (const Sample& sample : path.lit) {
     const Dual<N> through = exp(-air.optical_depth(sample.columns));
-    const Densities<N> density = air.densities(sample.height);
+    const auto density = air.densities(sample.height);
     by_air += density.air * through;
     by_aerosol += density.aerosol * through;
   }
@@ -105,7 +109,7 @@ literature::RayLight<N> light_of(const Optics<N>& air, const Path& path) {
   literature::RayLight<N> light;
   light.air =
       path.step * Shared<double>{}.rayleigh_phase(air.depolarisation, nu) * air.air * by_air;
-  light.aerosol = path.step * air.aerosol_scattering * aerosol_phase(air.phase, nu) * by_aerosol;
+  light.aerosol = path.step * air.aerosol_scattering * phase_value(air.phase, nu) * by_aerosol;
   if (path.ground_lit) {
     light.ground = air.ground_albedo * (path.ground_mu_s / std::numbers::pi) *
                    exp(-air.optical_depth(path.ground_columns));
@@ -113,9 +117,8 @@ literature::RayLight<N> light_of(const Optics<N>& air, const Path& path) {
   return light;
 }
 
-std::vector<Path> paths_of(const Atmosphere<double>& atmosphere, std::span<const SkyPoint> points,
-                           int threads) {
-  const Depths depths(atmosphere);
+std::vector<Path> paths_of(const Atmosphere<double>& atmosphere, const Depths& depths,
+                           std::span<const SkyPoint> points, int threads) {
   std::vector<Path> paths(points.size());
   tbb::task_arena(threads).execute([&] {
     tbb::parallel_for(std::size_t{0}, points.size(),
@@ -130,7 +133,7 @@ ONeilModel::ONeilModel(int threads) : threads_(threads) {
   check_model_value(kName, threads >= 1, "threads", threads, ">= 1");
 }
 
-Atmosphere<double> ONeilModel::seen(const Atmosphere<double>& atmosphere) const {
+Atmosphere<double> ONeilModel::effective_atmosphere(const Atmosphere<double>& atmosphere) const {
   return literature::without_absorption(atmosphere);
 }
 
@@ -139,12 +142,14 @@ SkyValues ONeilModel::radiance(const Atmosphere<double>& atmosphere,
                                std::span<const SkyPoint> points,
                                std::span<const Parameter> derivatives) const {
   literature::check_request(kName, atmosphere, points, derivatives);
-  const std::vector<Path> paths = paths_of(atmosphere, points, threads_);
+  const Depths depths(atmosphere);
+  const std::vector<Path> paths = paths_of(atmosphere, depths, points, threads_);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
       [&]<int N>(const Atmosphere<Dual<N>>& air, const WavelengthNode& node,
                  std::span<Dual<N>> out) {
-        const Optics<N> optics = uncut_optics_at(literature::without_absorption(air), node);
+        const auto optics =
+            literature::clear_air(depths.shells(), literature::without_absorption(air), node);
         for (std::size_t i = 0; i < paths.size(); ++i) out[i] = light_of(optics, paths[i]).sum();
       });
 }
@@ -153,13 +158,14 @@ ScatteredLight ONeilModel::scattered_light(const Atmosphere<double>& atmosphere,
                                            std::span<const WavelengthNode> wavelengths,
                                            std::span<const SkyPoint> points) const {
   literature::check_request(kName, atmosphere, points, {});
-  const std::vector<Path> paths = paths_of(atmosphere, points, threads_);
+  const Depths depths(atmosphere);
+  const std::vector<Path> paths = paths_of(atmosphere, depths, points, threads_);
   const auto air = literature::without_absorption(seeded<0>(atmosphere, {}));
   ScatteredLight light;
   light.air.resize(points.size() * wavelengths.size());
   light.aerosol.resize(light.air.size());
   for (std::size_t w = 0; w < wavelengths.size(); ++w) {
-    const Optics<0> optics = uncut_optics_at(air, wavelengths[w]);
+    const auto optics = literature::clear_air(depths.shells(), air, wavelengths[w]);
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const literature::RayLight<0> of_ray = light_of(optics, paths[i]);
       light.air[i * wavelengths.size() + w] = of_ray.air.v;
@@ -176,8 +182,8 @@ std::optional<SkyRayTables> ONeilModel::sky_rays(const Atmosphere<double>& atmos
   return SkyRayTables{SkyRayMapping::kONeil, none, none};
 }
 
-bool ONeilModel::can_fit(Parameter parameter) const {
-  return parameter != Parameter::kMieSingleScatteringAlbedo && parameter != Parameter::kOzoneColumn;
+bool ONeilModel::can_fit(const Parameter& parameter) const {
+  return literature::can_fit_without_absorption(parameter);
 }
 
 }  // namespace skyfit

@@ -28,8 +28,8 @@ class ONeilModel final : public SkyModel {
   // None where O'Neil's polynomial is used.
   std::optional<SkyRayTables> sky_rays(const Atmosphere<double>& atmosphere,
                                        std::span<const WavelengthNode, 4> nodes) const override;
-  Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const override;
-  bool can_fit(Parameter parameter) const override;
+  Atmosphere<double> effective_atmosphere(const Atmosphere<double>& atmosphere) const override;
+  bool can_fit(const Parameter& parameter) const override;
 
  private:
   int threads_;

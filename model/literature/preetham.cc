@@ -96,15 +96,16 @@ std::array<Dual<N>, 3> xyz_of(const Dual<N>& t, const Direction& at) {
 }
 
 template <int N>
-Dual<N> turbidity_of(const Atmosphere<Dual<N>>& atmosphere) {
-  const Optics<N> air = uncut_optics_at(atmosphere, {kUnitWavelength, 0});
-  const auto column = [](const Profile& profile, const Dual<N>& scale_height) {
-    const Column unit = profile.vertical_column();
-    return scale_height.chain(unit.value, unit.by_scale_height);
+Dual<N> turbidity_of(const Shells& shells, const Atmosphere<Dual<N>>& atmosphere) {
+  const auto air = literature::clear_air(shells, atmosphere, {kUnitWavelength, 0});
+  const auto column = [&](int profile, const Dual<N>& scale_height) {
+    if (profile < 0) return Dual<N>();
+    const Column unit = air.profiles[static_cast<std::size_t>(profile)].vertical_column();
+    return scale_height.chain(unit.value, unit.by_shape[0]);
   };
   return Dual<N>(1.0) + air.aerosol_extinction *
-                            column(air.profiles.aerosol, air.aerosol_scale_height) /
-                            (air.air * column(air.profiles.air, air.air_scale_height));
+                            column(air.aerosol_profile, air.aerosol_scale_height) /
+                            (air.air * column(air.air_profile, air.air_scale_height));
 }
 
 void check_view(const SkyPoint& point) {
@@ -123,7 +124,7 @@ void check_turbidity(double turbidity) {
 }  // namespace
 
 double preetham_turbidity(const Atmosphere<double>& atmosphere) {
-  return turbidity_of(seeded<0>(atmosphere, {})).v;
+  return turbidity_of(shells_of(atmosphere, Keep::kScatterers), seeded<0>(atmosphere, {})).v;
 }
 
 PreethamModel::PreethamModel(const SpectralData& spectra) {
@@ -151,11 +152,12 @@ SkyValues PreethamModel::radiance(const Atmosphere<double>& atmosphere,
   literature::check_daylight(kName, points, 0);
   for (const SkyPoint& point : points) check_view(point);
   check_turbidity(preetham_turbidity(atmosphere));
+  const Shells shells = shells_of(atmosphere, Keep::kScatterers);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
       [&]<int N>(const Atmosphere<Dual<N>>& air, const WavelengthNode& node,
                  std::span<Dual<N>> out) {
-        const Dual<N> turbidity = turbidity_of(air);
+        const Dual<N> turbidity = turbidity_of(shells, air);
         const double u = node.wavelength_nm / kUnitWavelength;
         for (std::size_t i = 0; i < points.size(); ++i) {
           const double nu = literature::view_of(atmosphere, points[i]).nu;
@@ -171,8 +173,10 @@ SkyValues PreethamModel::radiance(const Atmosphere<double>& atmosphere,
       });
 }
 
-bool PreethamModel::can_fit(Parameter parameter) const {
-  return parameter == Parameter::kMieScattering;
+bool PreethamModel::can_fit(const Parameter& parameter) const {
+  return parameter.constituent() == "mie" && (parameter.quantity() == Quantity::kScattering ||
+                                              parameter.quantity() == Quantity::kOpticalDepth ||
+                                              parameter.quantity() == Quantity::kExtinction);
 }
 
 }  // namespace skyfit

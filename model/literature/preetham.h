@@ -29,7 +29,7 @@ class PreethamModel final : public SkyModel {
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
   // The aerosol's amount alone: the sky fixes one number.
-  bool can_fit(Parameter parameter) const override;
+  bool can_fit(const Parameter& parameter) const override;
 
  private:
   // [power][X, Y, Z]: coefficient of the power of the wavelength (550 nm = 1) per cd/m^2 of X, Y,

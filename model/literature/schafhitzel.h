@@ -21,9 +21,8 @@ struct SchafhitzelMethod {
   static Atmosphere<T> see(const Atmosphere<T>& atmosphere) {
     return literature::without_absorption(atmosphere);
   }
-  static bool can_fit(Parameter parameter) {
-    return parameter != Parameter::kMieSingleScatteringAlbedo &&
-           parameter != Parameter::kOzoneColumn;
+  static bool can_fit(const Parameter& parameter) {
+    return literature::can_fit_without_absorption(parameter);
   }
 };
 using SchafhitzelModel = literature::TabulatedModel<SchafhitzelMethod>;

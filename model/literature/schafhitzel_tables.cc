@@ -19,7 +19,7 @@ double angle_of(int texel) { return kPi * unit_of(texel, kSize); }
 }  // namespace
 
 template <int N>
-SchafhitzelTables<N>::SchafhitzelTables(const SchafhitzelGeometry& geometry, const Optics<N>& air,
+SchafhitzelTables<N>::SchafhitzelTables(const SchafhitzelGeometry& geometry, const ClearAir<N>& air,
                                         std::span<const View> views)
     : geometry_(geometry),
       air_(air),
@@ -30,7 +30,7 @@ SchafhitzelTables<N>::SchafhitzelTables(const SchafhitzelGeometry& geometry, con
   for (int i = 0; i < SchafhitzelSizes::phase; ++i) {
     const double nu = std::cos(kPi * unit_of(i, SchafhitzelSizes::phase));
     air_phase_.at({i}) = Shared<double>{}.rayleigh_phase(air.depolarisation, nu);
-    aerosol_phase_.at({i}) = aerosol_phase(air.phase, nu);
+    aerosol_phase_.at({i}) = phase_value(air.phase, nu);
   }
   std::vector<char> wanted(air_table_.count(), views.empty());
   for (const View& view : views) {
@@ -60,7 +60,7 @@ void SchafhitzelTables<N>::fill_ray(int height, int view, const SunColumns<N>& s
   const double bottom = shells.bottom_radius;
   const bool ground = Shared<double>{}.ray_hits_ground(h, mu, bottom);
   for (const RayNode& node : ray_nodes(shells, table_ray(shells, h, mu, ground))) {
-    const Densities<N> density = air_.densities(node.height);
+    const auto density = air_.densities(node.height);
     const Dual<N> through = node.weight * exp(-air_.optical_depth(node.columns));
     const Dual<N> by_air = through * air_.air * density.air,
                   by_aerosol = through * air_.aerosol_scattering * density.aerosol;

@@ -24,9 +24,7 @@ struct SchafhitzelSizes {
 class SchafhitzelGeometry {
  public:
   explicit SchafhitzelGeometry(const Atmosphere<double>& atmosphere)
-      : shells_(shells_of(atmosphere)) {
-    shells_.ozone = false;
-  }
+      : shells_(shells_of(atmosphere, Keep::kScatterers)) {}
   const Shells& shells() const { return shells_; }
 
  private:
@@ -38,7 +36,7 @@ class SchafhitzelTables {
  public:
   // The texels that the views read; all of them when there are no views. Runs on the threads of the
   // task arena. `geometry` is that of the atmosphere, and outlives the tables.
-  SchafhitzelTables(const SchafhitzelGeometry& geometry, const Optics<N>& air,
+  SchafhitzelTables(const SchafhitzelGeometry& geometry, const ClearAir<N>& air,
                     std::span<const View> views);
 
   // Of the whole ray.
@@ -59,7 +57,7 @@ class SchafhitzelTables {
   void fill_ray(int height, int view, const SunColumns<N>& sun, const std::vector<char>& wanted);
 
   const SchafhitzelGeometry& geometry_;
-  Optics<N> air_;
+  ClearAir<N> air_;
   Grid<N, 3> air_table_, aerosol_table_;  // [height][view][sun]
   Grid<N, 1> air_phase_, aerosol_phase_;  // 1/sr over the angle
 };

@@ -17,7 +17,7 @@ std::vector<RayNode> ray_nodes(const Shells& shells, const ViewRay& ray) {
     heights.push_back(shells.top * x * x * x);
   }
   const auto breaks =
-      with_table_breaks(shells, ray, shell_crossings(ray, shells.bottom_radius, heights));
+      with_profile_breaks(shells, ray, shell_crossings(ray, shells.bottom_radius, heights));
   std::vector<RayNode> nodes;
   for (const QuadratureNode& q : composite_gauss(breaks, kNodes)) {
     const RayPoint at = ray_point(ray, shells.bottom_radius, q.s);

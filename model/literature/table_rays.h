@@ -37,7 +37,7 @@ SunLight sun_light(const Shells& shells, double height, double mu_s);
 // What the ground sends along a view ray that meets it, at the ray's beginning, 1/sr. `sky(mu_s)`
 // is the irradiance of the ground by the sky.
 template <int N, class SkyIrradiance>
-Dual<N> ground_light(const Shells& shells, const Optics<N>& air, const View& view,
+Dual<N> ground_light(const Shells& shells, const ClearAir<N>& air, const View& view,
                      const SkyIrradiance& sky) {
   const double bottom = shells.bottom_radius;
   const RayPoint end = ray_point(view.ray, bottom, view.ray.length);

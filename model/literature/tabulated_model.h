@@ -28,10 +28,10 @@ class TabulatedModel final : public SkyModel {
     check_model_value(Method::kName, threads >= 1, "threads", threads, ">= 1");
   }
   std::string_view name() const override { return Method::kName; }
-  Atmosphere<double> seen(const Atmosphere<double>& atmosphere) const override {
+  Atmosphere<double> effective_atmosphere(const Atmosphere<double>& atmosphere) const override {
     return Method::see(atmosphere);
   }
-  bool can_fit(Parameter parameter) const override { return Method::can_fit(parameter); }
+  bool can_fit(const Parameter& parameter) const override { return Method::can_fit(parameter); }
 
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
@@ -55,7 +55,8 @@ class TabulatedModel final : public SkyModel {
                 return look_up(*tables);
             }
             if (!geometry) geometry = std::make_shared<const Geometry>(atmosphere);
-            look_up(Tables<N>(*geometry, uncut_optics_at(Method::see(air), node), views));
+            look_up(
+                Tables<N>(*geometry, clear_air(geometry->shells(), Method::see(air), node), views));
           });
     });
   }
@@ -113,7 +114,8 @@ class TabulatedModel final : public SkyModel {
       for (const WavelengthNode& node : wavelengths) {
         kept->nodes.push_back(node);
         kept->tables.push_back(std::make_unique<const Tables<0>>(
-            *kept->geometry, uncut_optics_at(air, node), std::span<const View>{}));
+            *kept->geometry, clear_air(kept->geometry->shells(), air, node),
+            std::span<const View>{}));
         bytes += kept->tables.back()->bytes();
       }
     });

@@ -99,13 +99,12 @@ void blend(const double* __restrict near, const double* __restrict q_near,
 }
 
 SKYFIT_CLONES
-void combine(const double* __restrict a, const double* __restrict x, const double* __restrict b,
-             const double* __restrict y, double* __restrict out, std::size_t count) {
-  const Vector fa = *reinterpret_cast<const Vector*>(a), fb = *reinterpret_cast<const Vector*>(b);
+void add_scaled(const double* __restrict a, const double* __restrict x, double* __restrict out,
+                std::size_t count) {
+  const Vector factor = *reinterpret_cast<const Vector*>(a);
   const Vector* const vx = reinterpret_cast<const Vector*>(x);
-  const Vector* const vy = reinterpret_cast<const Vector*>(y);
   Vector* const o = reinterpret_cast<Vector*>(out);
-  for (std::size_t i = 0; i < count; ++i) o[i] = fa * vx[i] + fb * vy[i];
+  for (std::size_t i = 0; i < count; ++i) o[i] += factor * vx[i];
 }
 
 SKYFIT_CLONES
@@ -123,38 +122,62 @@ void add_blend(const double* __restrict near, const double* __restrict q_near,
   }
 }
 
+namespace {
+
+inline __attribute__((always_inline)) const Vector* vectors(const double* p) {
+  return reinterpret_cast<const Vector*>(p);
+}
+
+// K: how many scatterers, known to the compiler where there are few.
+template <std::size_t K>
+inline __attribute__((always_inline)) void layer_tangent_of(const LayerTangent& in, double* out,
+                                                            std::size_t rows, std::size_t suns,
+                                                            std::size_t parameters) {
+  Vector* o = reinterpret_cast<Vector*>(out);
+  const std::size_t scatterers = K > 0 ? K : in.scatterers;
+  constexpr std::size_t kRoom = K > 0 ? K : kMostScatterers;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const Vector* const depth = vectors(in.depth) + r * parameters;
+    for (std::size_t j = 0; j < suns; ++j) {
+      const std::size_t k = r * suns + j;
+      Vector g = -vectors(in.t)[r] * vectors(in.x)[k], g_near{}, g_far{}, by_share[2][kRoom];
+      for (std::size_t i = 0; i < 2; ++i) {
+        const LayerEndTangent& e = in.end[i];
+        Vector diffuse{}, beam{};
+        for (std::size_t s = 0; s < scatterers; ++s) {
+          const ScattererTangent& of = e.scatterer[s];
+          const Vector d = vectors(of.diffuse)[k], b = vectors(of.beam)[k];
+          diffuse += *vectors(of.share) * d;
+          beam += *vectors(of.share) * b;
+          by_share[i][s] = vectors(e.weight)[r] * d + vectors(e.beam)[k] * b;
+        }
+        g += vectors(e.slope)[r] * diffuse + vectors(e.beam_slopes[0])[k] * beam;
+        g_near += vectors(e.beam_slopes[1])[k] * beam;
+        g_far += vectors(e.beam_slopes[2])[k] * beam;
+      }
+      const Vector *sn = vectors(in.sun_near) + j * parameters,
+                   *sf = vectors(in.sun_far) + j * parameters;
+      for (std::size_t p = 0; p < parameters; ++p) {
+        Vector sum = g * depth[p] + g_near * sn[p] + g_far * sf[p];
+        for (std::size_t s = 0; s < scatterers; ++s) {
+          sum += by_share[0][s] * vectors(in.end[0].scatterer[s].share_tangent)[p] +
+                 by_share[1][s] * vectors(in.end[1].scatterer[s].share_tangent)[p];
+        }
+        *o++ = sum;
+      }
+    }
+  }
+}
+
+}  // namespace
+
 SKYFIT_CLONES
 void layer_tangent(const LayerTangent& in, double* __restrict out, std::size_t rows,
                    std::size_t suns, std::size_t parameters) {
-  const auto at = [](const double* p) __attribute__((always_inline)) {
-    return reinterpret_cast<const Vector*>(p);
-  };
-  Vector* o = reinterpret_cast<Vector*>(out);
-  const Vector* const aerosol[2] = {at(in.end[0].aerosol_tangent), at(in.end[1].aerosol_tangent)};
-  const Vector* const air[2] = {at(in.end[0].air_tangent), at(in.end[1].air_tangent)};
-  for (std::size_t r = 0; r < rows; ++r) {
-    const Vector* const depth = at(in.depth) + r * parameters;
-    for (std::size_t j = 0; j < suns; ++j) {
-      const std::size_t k = r * suns + j;
-      Vector g = -at(in.t)[r] * at(in.x)[k], g_near{}, g_far{}, of_aerosol[2], of_air[2];
-      for (int i = 0; i < 2; ++i) {
-        const LayerEndTangent& e = in.end[i];
-        const Vector da = at(e.diffuse_aerosol)[k], db = at(e.diffuse_air)[k];
-        const Vector ba = at(e.beam_aerosol)[k], bb = at(e.beam_air)[k];
-        const Vector diffuse = *at(e.aerosol) * da + *at(e.air) * db;
-        const Vector beam = *at(e.aerosol) * ba + *at(e.air) * bb;
-        g += at(e.slope)[r] * diffuse + at(e.beam_slopes[0])[k] * beam;
-        g_near += at(e.beam_slopes[1])[k] * beam;
-        g_far += at(e.beam_slopes[2])[k] * beam;
-        of_aerosol[i] = at(e.weight)[r] * da + at(e.beam)[k] * ba;
-        of_air[i] = at(e.weight)[r] * db + at(e.beam)[k] * bb;
-      }
-      const Vector *sn = at(in.sun_near) + j * parameters, *sf = at(in.sun_far) + j * parameters;
-      for (std::size_t p = 0; p < parameters; ++p)
-        *o++ = g * depth[p] + g_near * sn[p] + g_far * sf[p] + of_aerosol[0] * aerosol[0][p] +
-               of_aerosol[1] * aerosol[1][p] + of_air[0] * air[0][p] + of_air[1] * air[1][p];
-    }
-  }
+  if (in.scatterers == 1) return layer_tangent_of<1>(in, out, rows, suns, parameters);
+  if (in.scatterers == 2) return layer_tangent_of<2>(in, out, rows, suns, parameters);
+  if (in.scatterers == 3) return layer_tangent_of<3>(in, out, rows, suns, parameters);
+  layer_tangent_of<0>(in, out, rows, suns, parameters);
 }
 
 SKYFIT_CLONES

@@ -25,9 +25,8 @@ void butterfly(double* x, double* y, std::size_t count);
 void blend(const double* near, const double* q_near, const double* far, const double* q_far,
            double* out, std::size_t count);
 
-// out[i] = a x[i] + b y[i] with one element a, b for all.
-void combine(const double* a, const double* x, const double* b, const double* y, double* out,
-             std::size_t count);
+// out[i] += a x[i] with one element a for all.
+void add_scaled(const double* a, const double* x, double* out, std::size_t count);
 
 // out[r][j] += near[r] q_near[r][j] + far[r] q_far[r][j]
 void add_blend(const double* near, const double* q_near, const double* far, const double* q_far,
@@ -35,23 +34,28 @@ void add_blend(const double* near, const double* q_near, const double* far, cons
 
 // How the light that a layer sends along its rays changes with the parameters [p], for suns [j]. Of
 // one end of the layer, near or far:
+struct ScattererTangent {
+  const double* share;           // [1]: of the extinction, source per unit of each below
+  const double* share_tangent;   // [p]
+  const double *diffuse, *beam;  // [r][j]
+};
+inline constexpr std::size_t kMostScatterers = 8;
 struct LayerEndTangent {
   const double* slope;           // [r]: d weight / d depth, of the diffuse source
   const double* weight;          // [r]: of the diffuse source
   const double* beam;            // [r][j]: weight of the beam's source
   const double* beam_slopes[3];  // [r][j]: by depth and the sun's depths at the near and far end
-  const double *aerosol, *air;   // [1]: shares of the extinction, source per unit of each below
-  const double *aerosol_tangent, *air_tangent;  // [p]
-  const double *diffuse_aerosol, *diffuse_air;  // [r][j]
-  const double *beam_aerosol, *beam_air;        // [r][j]
+  ScattererTangent scatterer[kMostScatterers];
 };
 // out[r][j][p] = g[r][j] depth[r][p] + g_near[r][j] sun_near[j][p] + g_far[r][j] sun_far[j][p]
-//                + sum over ends of (weight diffuse_i + beam beam_i) i_tangent[p], i aerosol and
-//                air,
-// with g = sum over ends of (slope diffuse + beam_slopes[0] beam) - t x, x the light that enters,
-// and g_near, g_far those with beam_slopes[1] and [2].
+//                + sum over ends and scatterers of (weight diffuse + beam beam_source)
+//                share_tangent[p],
+// with g = sum over ends of (slope diffuse + beam_slopes[0] beam) - t x, diffuse and beam summed
+// over scatterers by their shares, x the light that enters, and g_near, g_far those with
+// beam_slopes[1] and [2].
 struct LayerTangent {
   LayerEndTangent end[2];
+  std::size_t scatterers;
   const double *t, *x;               // [r], [r][j]
   const double* depth;               // [r][p]
   const double *sun_near, *sun_far;  // [j][p]

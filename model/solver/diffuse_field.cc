@@ -8,32 +8,10 @@
 #include <numbers>
 #include <optional>
 
-#include "model/atmosphere/parameters.h"
+#include "model/atmosphere/parameter_field.h"
 #include "model/solver/mode_pack.h"
 
 namespace skyfit {
-
-std::vector<double> level_heights(double top, int count) {
-  std::vector<double> h(count);
-  for (int i = 0; i < count; ++i) {
-    const double x = static_cast<double>(i) / (count - 1);
-    h[i] = top * x * x * x;
-  }
-  return h;
-}
-
-double level_coordinate(double height, double top, int count) {
-  return std::cbrt(std::clamp(height / top, 0.0, 1.0)) * (count - 1);
-}
-
-LevelStencil level_stencil(double x, int levels) {
-  const int below = static_cast<int>(x);
-  if (x == below) return {below, {1.0}};
-  LevelStencil stencil{std::clamp(below - 1, 0, levels - 4), std::vector<double>(4)};
-  const double node_x[4] = {0, 1, 2, 3};
-  lagrange_weights(node_x, 4, x - stencil.first, stencil.share.data());
-  return stencil;
-}
 
 void normalised_legendre(int m, int count, double mu, double* out) {
   const double sine = std::sqrt(std::max(1 - mu * mu, 0.0));
@@ -69,16 +47,22 @@ ModeBasis mode_basis(const RayFan& fan, const std::vector<double>& sun_mu, int m
 }
 
 // Modes that matter to the field of one wavelength: the moments of order m and above of light that
-// the aerosol has scattered once, scattered again, as a share of all light.
+// has been scattered once, scattered again, as a share of all light.
 template <int N>
 int mode_count(const Optics<N>& optics, int moments, double tolerance) {
-  const int least = std::min(moments, static_cast<int>(optics.air_moments.size()));
-  const double aerosol = optics.aerosol_scattering_cut.v,
-               share = aerosol / std::max(optics.air.v + aerosol, 1e-300);
-  for (int m = least; m < moments; ++m) {
+  constexpr int kLeast = 3;  // those of molecules
+  double all = 1e-300;
+  for (const Scatterer<N>& s : optics.scatterers) all += s.scaled_scattering.v;
+  for (int m = std::min(moments, kLeast); m < moments; ++m) {
     double rest = 0;
-    for (int l = m; l < moments; ++l)
-      rest = std::max(rest, share * optics.moments[l].v * optics.moments[l].v);
+    for (int l = m; l < moments; ++l) {
+      double sum = 0;
+      for (const Scatterer<N>& s : optics.scatterers) {
+        if (l < static_cast<int>(s.moments.size()))
+          sum += s.scaled_scattering.v / all * s.moments[l].v * s.moments[l].v;
+      }
+      rest = std::max(rest, sum);
+    }
     if (rest < tolerance) return m;
   }
   return moments;
@@ -198,8 +182,8 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
 template std::vector<DiffuseField> solve_diffuse_fields<0>(
     const Shells&, std::span<const Optics<0>>, int, const std::vector<double>&,
     const std::vector<double>&, const RayFan&, const SunCoupling&, const DiffuseOptions&);
-template std::vector<DiffuseField> solve_diffuse_fields<kParameterCount>(
-    const Shells&, std::span<const Optics<kParameterCount>>, int, const std::vector<double>&,
+template std::vector<DiffuseField> solve_diffuse_fields<kDerivativesAtOnce>(
+    const Shells&, std::span<const Optics<kDerivativesAtOnce>>, int, const std::vector<double>&,
     const std::vector<double>&, const RayFan&, const SunCoupling&, const DiffuseOptions&);
 
 }  // namespace skyfit

@@ -17,19 +17,6 @@
 
 namespace skyfit {
 
-// Heights of the levels, ascending from 0 to top, h_i = top (i / (count - 1))^3.
-std::vector<double> level_heights(double top, int count);
-// The inverse: the level, or a place between two levels, of a height.
-double level_coordinate(double height, double top, int count);
-
-// What a quantity of the levels is between them: Lagrange's cubic in the coordinate x through four
-// levels; on a level that level's.
-struct LevelStencil {
-  int first;  // of the levels
-  std::vector<double> share;
-};
-LevelStencil level_stencil(double x, int levels);
-
 // Layout of a field: for each mode m, [level][l - m][sun][slice], slice fastest; slice 0 is the
 // value, slice 1 + p the derivative by parameter p.
 struct FieldShape {

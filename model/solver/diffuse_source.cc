@@ -34,23 +34,23 @@ ChebyshevRows chebyshev_rows() {
 }  // namespace
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
-                             const std::vector<double>& heights) {
+                             const std::vector<double>& heights)
+    : levels_(shells, kSourceOptions.levels) {
   std::vector<double> sun_mu;
   for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
-  const std::vector<double> levels = level_heights(shells.top, kSourceOptions.levels);
-  const RayFan fan(shells.bottom_radius, levels, kSourceOptions.streams);
+  const RayFan fan(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
   const std::vector<DiffuseField> fields = solve_diffuse_fields<0>(
-      shells, optics, 1, levels, sun_mu, fan,
+      shells, optics, 1, levels_.heights(), sun_mu, fan,
       sun_coupling(suns_, all, fan, first_coupled_sun(suns_, shells)), {kSourceOptions.moments});
   const int count = static_cast<int>(heights.size());
-  air_.resize(index(count, 0, 1));
-  aerosol_.resize(index(count, 0, kBlocks));
+  for (const Scatterer<0>& scatterer : optics[0].scatterers) {
+    const int blocks = scatterer.moments.size() <= kPowers ? 1 : kBlocks;
+    kept_.push_back({blocks, std::vector<float>(index(count, 0, blocks))});
+  }
   tbb::parallel_for(0, count, [&](int i) {
-    const double level =
-        level_coordinate(heights[static_cast<std::size_t>(i)], shells.top, kSourceOptions.levels);
-    tabulate(i, level, optics, fields);
+    tabulate(i, levels_.coordinate(heights[static_cast<std::size_t>(i)]), optics, fields);
   });
 }
 
@@ -64,7 +64,7 @@ void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
                              const std::vector<DiffuseField>& fields) {
   static const ChebyshevRows kRows = chebyshev_rows();
   const auto suns = static_cast<std::size_t>(suns_.size());
-  const LevelStencil levels = level_stencil(level, kSourceOptions.levels);
+  const LevelStencil levels = levels_.stencil(level);
   std::vector<double> lambda(static_cast<std::size_t>(kSourceOptions.moments)), series(suns);
   auto add = [&](float* out, int blocks, std::size_t wavelength, std::size_t m) {
     for (std::size_t p = m % 2; p <= m; p += 2) {
@@ -91,37 +91,34 @@ void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
                           std::cos(std::numbers::pi * i / (kZeniths - 1)), lambda.data());
       for (std::size_t k = 0; k < fields.size(); ++k) {
         if (moments[k].empty()) continue;
-        const std::size_t rows = lambda.size() - m;
-        std::fill(series.begin(), series.end(), 0.0);
-        for (std::size_t r = 0; r < rows && m + r < optics[k].air_moments.size(); ++r)
-          kernels::add_scaled(lambda[r] * optics[k].air_moments[m + r], &moments[k][r * suns],
-                              series.data(), suns);
-        if (m < optics[k].air_moments.size()) add(&air_[index(height, i, 1)], 1, k, m);
-        std::fill(series.begin(), series.end(), 0.0);
-        for (std::size_t r = 0; r < rows; ++r)
-          kernels::add_scaled(lambda[r] * optics[k].moments[m + r].v, &moments[k][r * suns],
-                              series.data(), suns);
-        add(&aerosol_[index(height, i, kBlocks)], kBlocks, k, m);
+        for (std::size_t n = 0; n < kept_.size(); ++n) {
+          const std::vector<Dual<0>>& chi = optics[k].scatterers[n].moments;
+          std::fill(series.begin(), series.end(), 0.0);
+          for (std::size_t l = m; l < std::min(lambda.size(), chi.size()); ++l)
+            kernels::add_scaled(lambda[l - m] * chi[l].v, &moments[k][(l - m) * suns],
+                                series.data(), suns);
+          if (m < chi.size())
+            add(&kept_[n].values[index(height, i, kept_[n].blocks)], kept_[n].blocks, k, m);
+        }
       }
     }
   }
 }
 
-void DiffuseSource::slice(int height, double mu, const std::array<double, 4>& air,
-                          const std::array<double, 4>& aerosol, std::vector<float>& out) const {
+void DiffuseSource::add_slice(int height, double mu, std::span<const NodeValues> factors,
+                              std::vector<float>& out) const {
   const double x = std::acos(std::clamp(mu, -1.0, 1.0)) / std::numbers::pi * (kZeniths - 1);
   const int column = std::min(static_cast<int>(x), kZeniths - 2);
   const auto part = static_cast<float>(x - column);
-  std::array<float, 4> a, b;
-  for (std::size_t k = 0; k < 4; ++k) {
-    a[k] = static_cast<float>(air[k]);
-    b[k] = static_cast<float>(aerosol[k]);
+  for (std::size_t n = 0; n < kept_.size(); ++n) {
+    std::array<float, 4> factor;
+    for (std::size_t k = 0; k < 4; ++k) factor[k] = static_cast<float>(factors[n][k]);
+    const Kept& kept = kept_[n];
+    kernels::add_source(&kept.values[index(height, column, kept.blocks)],
+                        &kept.values[index(height, column + 1, kept.blocks)], part, factor.data(),
+                        static_cast<std::size_t>(suns_.size() + 1),
+                        static_cast<std::size_t>(kept.blocks), kBlocks, out.data());
   }
-  out.resize(static_cast<std::size_t>(suns_.size() + 1) * kBlocks * kBlock);
-  kernels::mix_sources(&air_[index(height, column, 1)], &air_[index(height, column + 1, 1)],
-                       &aerosol_[index(height, column, kBlocks)],
-                       &aerosol_[index(height, column + 1, kBlocks)], part, a.data(), b.data(),
-                       static_cast<std::size_t>(suns_.size() + 1), kBlocks, out.data());
 }
 
 }  // namespace skyfit

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The source of multiple scattering as a table: light that has been scattered or reflected before
-// and is scattered here toward the eye, per unit of scattering coefficient (1/sr), of the air and
-// of the aerosol, at four wavelengths. From the diffuse field of model/solver/diffuse_field.h,
-// whose Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine.
-// Levels and suns of the field, and what lies between them, are those of the reference model.
+// and is scattered here toward the eye, per unit of scattering coefficient (1/sr) of each
+// scatterer, at four wavelengths. From the diffuse field of model/solver/diffuse_field.h, whose
+// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine. Levels
+// and suns of the field, and what lies between them, are those of the reference model.
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "model/solver/diffuse_field.h"
+#include "model/solver/level_grid.h"
 #include "model/solver/reference_model.h"
 #include "model/solver/sun_grid.h"
 
 namespace skyfit {
 
 using NodeOptics = std::array<Optics<0>, 4>;
+using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blue to red
 
 // Streams and moments are those of the reference model, so that the two agree; optics_at() wants to
 // know the moments.
@@ -35,19 +38,27 @@ class DiffuseSource {
   const SunGrid& suns() const { return suns_; }
 
   // The source at one of the heights toward a view direction (mu is that of the view ray), with a
-  // factor per wavelength for air and aerosol, written to out[1 + sun][block][wavelength][power]
-  // for all suns of the grid; out[0] is the second sun seen across the zenith, at the opposite
-  // azimuth.
-  void slice(int height, double mu, const std::array<double, 4>& air,
-             const std::array<double, 4>& aerosol, std::vector<float>& out) const;
+  // factor per scatterer and wavelength, added to out[1 + sun][block][wavelength][power] for all
+  // suns of the grid; out[0] is the second sun seen across the zenith, at the opposite azimuth.
+  void add_slice(int height, double mu, std::span<const NodeValues> factors,
+                 std::vector<float>& out) const;
+  std::size_t slice_size() const {
+    return static_cast<std::size_t>(suns_.size() + 1) * kBlocks * kBlock;
+  }
 
  private:
+  // Of one scatterer: [height][zenith] as a slice of so many blocks; one for Rayleigh's moments.
+  struct Kept {
+    int blocks;
+    std::vector<float> values;
+  };
   void tabulate(int height, double level, const NodeOptics& optics,
                 const std::vector<DiffuseField>& fields);
   std::size_t index(int height, int zenith, int blocks) const;
 
   SunGrid suns_;
-  std::vector<float> air_, aerosol_;  // [height][zenith] as slice(); air: one block
+  LevelGrid levels_;
+  std::vector<Kept> kept_;
 };
 
 }  // namespace skyfit

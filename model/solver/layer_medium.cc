@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/atmosphere/parameters.h"
+#include "model/atmosphere/parameter_field.h"
 #include "model/shared/shared.h"
 
 namespace skyfit {
@@ -84,13 +84,14 @@ BeamWeight beam_weight(double x, const DiffuseWeights& diffuse, bool lit_near, b
 // Calls f for every array of lanes.
 template <class F>
 void for_each_array(LayerMedium& m, const F& f) {
-  const auto all = [&](std::vector<Lanes>& arrays) { std::ranges::for_each(arrays, f); };
-  for (std::vector<Lanes>* arrays : {&m.chi_tangent, &m.aerosol, &m.air, &m.aerosol_tangent,
-                                     &m.air_tangent, &m.sun_depth_tangent})
-    all(*arrays);
-  for (Lanes* array :
-       {&m.chi, &m.chi_air, &m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent})
-    f(*array);
+  for (LayerMedium::Scatterer& s : m.scatterers) {
+    f(s.chi);
+    std::ranges::for_each(s.share, f);
+    std::ranges::for_each(s.share_tangent, f);
+  }
+  for (LayerMedium::PhaseTangent& t : m.phase_tangents) f(t.chi);
+  std::ranges::for_each(m.sun_depth_tangent, f);
+  for (Lanes* array : {&m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent}) f(*array);
   for (LayerMedium::Layer& layer : m.layers) {
     for (Lanes* array : {&layer.t, &layer.near, &layer.far, &layer.near_slope, &layer.far_slope,
                          &layer.depth_tangent})
@@ -137,13 +138,15 @@ class LaneFiller {
       : optics_(optics), columns_(columns), fan_(fan), lane_(lane), medium_(medium) {}
 
   void fill_levels(const std::vector<double>& heights) {
-    for (std::size_t l = 0; l < static_cast<std::size_t>(medium_.moments); ++l) {
-      medium_.chi[l * kLanes + lane_] = optics_.moments[l].v;
-      if (l < optics_.air_moments.size())
-        medium_.chi_air[l * kLanes + lane_] = optics_.air_moments[l];
-      for (std::size_t q = 0; q < medium_.phase_parameters.size(); ++q)
-        medium_.chi_tangent[q][l * kLanes + lane_] =
-            derivative(optics_.moments[l], medium_.phase_parameters[q]);
+    for (std::size_t k = 0; k < optics_.scatterers.size(); ++k) {
+      const std::vector<Dual<N>>& chi = optics_.scatterers[k].moments;
+      for (std::size_t l = 0; l < chi.size(); ++l)
+        medium_.scatterers[k].chi[l * kLanes + lane_] = chi[l].v;
+    }
+    for (LayerMedium::PhaseTangent& tangent : medium_.phase_tangents) {
+      const std::vector<Dual<N>>& chi = optics_.scatterers[tangent.scatterer].moments;
+      for (std::size_t l = 0; l < chi.size(); ++l)
+        tangent.chi[l * kLanes + lane_] = derivative(chi[l], tangent.parameter);
     }
     for (std::size_t i = 0; i < heights.size(); ++i)
       set_level(i, optics_.densities_at_level(heights[i > 0 ? i - 1 : 0], heights[i],
@@ -161,8 +164,8 @@ class LaneFiller {
     const std::size_t suns = medium_.suns, below = i * suns, above = below + suns;
     for (int k = 0; k < fan_.count(i); ++k) {
       PathColumns c = columns_.rays[i * fan_.most() + k];
-      c += -columns_.rays[(i + 1) * fan_.most() + k];
-      const Dual<N> depth = optics_.optical_depth(c);
+      c -= columns_.rays[(i + 1) * fan_.most() + k];
+      const Dual<N> depth = optics_.scaled_optical_depth(c);
       const DiffuseWeights w = diffuse_weights(depth.v);
       const std::size_t ray = static_cast<std::size_t>(k), at = ray * kLanes + lane_;
       layer.t[at] = w.t;
@@ -188,19 +191,19 @@ class LaneFiller {
   }
 
   void set_level(std::size_t level, const Densities<N>& rho) {
-    const Dual<N> air = optics_.air * rho.air;
-    const Dual<N> extinction =
-        air + optics_.aerosol_extinction * rho.aerosol + optics_.ozone * rho.ozone;
+    Dual<N> extinction;
+    for (std::size_t k = 0; k < optics_.profiles.size(); ++k)
+      extinction += optics_.scaled_extinction[k] * rho[k];
     const bool empty = !(extinction.v > 0);
-    const Dual<N> aerosol =
-        empty ? Dual<N>() : optics_.aerosol_scattering_cut * rho.aerosol / extinction;
-    const Dual<N> air_share = empty ? Dual<N>() : air / extinction;
-    medium_.aerosol[level][lane_] = aerosol.v;
-    medium_.air[level][lane_] = air_share.v;
-    put(medium_.aerosol_tangent[level], 0, aerosol);
-    put(medium_.air_tangent[level], 0, air_share);
+    for (std::size_t k = 0; k < optics_.scatterers.size(); ++k) {
+      const Scatterer<N>& scatterer = optics_.scatterers[k];
+      const Dual<N> share =
+          empty ? Dual<N>() : scatterer.scaled_scattering * rho[scatterer.profile] / extinction;
+      medium_.scatterers[k].share[level][lane_] = share.v;
+      put(medium_.scatterers[k].share_tangent[level], 0, share);
+    }
     for (std::size_t j = 0; j < medium_.suns; ++j) {
-      sun_depth_.push_back(optics_.optical_depth(columns_.suns[level * medium_.suns + j]));
+      sun_depth_.push_back(optics_.scaled_optical_depth(columns_.suns[level * medium_.suns + j]));
       put(medium_.sun_depth_tangent[level], j, sun_depth_.back());
     }
   }
@@ -246,23 +249,18 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& opti
   m.sun_mu = sun_mu;
   const auto sized = [](std::size_t elements) { return Lanes(elements * kLanes, 0.0); };
   const std::size_t l_count = static_cast<std::size_t>(moments);
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    m.aerosol.push_back(sized(1));
-    m.air.push_back(sized(1));
-    m.aerosol_tangent.push_back(sized(parameters));
-    m.air_tangent.push_back(sized(parameters));
-    m.sun_depth_tangent.push_back(sized(m.suns * parameters));
-  }
-  m.chi = sized(l_count);
-  m.chi_air = sized(l_count);
-  for (std::size_t p = 0; p < parameters; ++p) {
-    const bool changes = std::ranges::any_of(optics, [&](const Optics<N>* o) {
-      return std::ranges::any_of(o->moments,
-                                 [&](const Dual<N>& chi) { return derivative(chi, p) != 0; });
-    });
-    if (!changes) continue;
-    m.phase_parameters.push_back(p);
-    m.chi_tangent.push_back(sized(l_count));
+  m.sun_depth_tangent.assign(heights.size(), sized(m.suns * parameters));
+  m.scatterers.assign(optics[0]->scatterers.size(),
+                      {sized(l_count), std::vector<Lanes>(heights.size(), sized(1)),
+                       std::vector<Lanes>(heights.size(), sized(parameters))});
+  for (std::size_t k = 0; k < m.scatterers.size(); ++k) {
+    for (std::size_t p = 0; p < parameters; ++p) {
+      const bool changes = std::ranges::any_of(optics, [&](const Optics<N>* o) {
+        return std::ranges::any_of(o->scatterers[k].moments,
+                                   [&](const Dual<N>& chi) { return derivative(chi, p) != 0; });
+      });
+      if (changes) m.phase_tangents.push_back({k, p, sized(l_count)});
+    }
   }
   m.ground_beam = sized(m.suns);
   m.ground_albedo = sized(1);
@@ -299,8 +297,8 @@ template LayerMedium layer_medium<0>(const std::array<const Optics<0>*, lanes::k
                                      std::size_t, const std::vector<double>&,
                                      const std::vector<double>&, const FieldColumns&, const RayFan&,
                                      int);
-template LayerMedium layer_medium<kParameterCount>(
-    const std::array<const Optics<kParameterCount>*, lanes::kLanes>&, std::size_t,
+template LayerMedium layer_medium<kDerivativesAtOnce>(
+    const std::array<const Optics<kDerivativesAtOnce>*, lanes::kLanes>&, std::size_t,
     const std::vector<double>&, const std::vector<double>&, const FieldColumns&, const RayFan&,
     int);
 

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "model/atmosphere/optics.h"
-#include "model/geometry/ray.h"
 #include "model/numerics/lane_blocks.h"
 #include "model/solver/ray_fan.h"
 
@@ -34,15 +33,22 @@ struct LayerMedium {
   int moments = 0;
   std::size_t suns = 0, parameters = 0;
   std::vector<double> sun_mu;
-  // Source per extinction of the moment l at a level: aerosol chi_l + air chi_air_l.
-  Lanes chi, chi_air;                         // [l]
-  std::vector<std::size_t> phase_parameters;  // those that change chi
-  std::vector<Lanes> chi_tangent;             // per phase parameter: [l]
+  // Source per extinction of the moment l at a level: sum over scatterers of share chi_l.
+  struct Scatterer {
+    Lanes chi;                         // [l]
+    std::vector<Lanes> share;          // per level, one element: of the extinction
+    std::vector<Lanes> share_tangent;  // per level: [parameter]
+  };
+  std::vector<Scatterer> scatterers;
+  // The parameters that change the moments of a scatterer, and how: [l].
+  struct PhaseTangent {
+    std::size_t scatterer, parameter;
+    Lanes chi;
+  };
+  std::vector<PhaseTangent> phase_tangents;
   // Per level.
-  std::vector<Lanes> aerosol, air;                  // one element: shares of the extinction
-  std::vector<Lanes> aerosol_tangent, air_tangent;  // [parameter]
-  std::vector<Lanes> sun_depth_tangent;             // [sun][parameter]
-  Lanes ground_beam;                                // [sun], transmittance
+  std::vector<Lanes> sun_depth_tangent;  // [sun][parameter]
+  Lanes ground_beam;                     // [sun], transmittance
   Lanes ground_albedo, ground_albedo_tangent;
   // Per layer.
   struct Layer {

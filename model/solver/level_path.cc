@@ -132,15 +132,41 @@ const std::array<std::array<double, kOrder>, kOrder> kUpTo = {
      {5.0 / 36 + kRoot15 / 24, 2.0 / 9, 5.0 / 36 - kRoot15 / 24},
      {5.0 / 36 + kRoot15 / 30, 2.0 / 9 + kRoot15 / 15, 5.0 / 36}}};
 
-struct PathDensities {
-  double air, aerosol, ozone;
-};
-
 void add(double share, const LevelWeights& from, LevelWeights& to) {
-  for (int k = 0; k < 4; ++k) {
-    to.air[k] += share * from.air[k];
-    to.aerosol[k] += share * from.aerosol[k];
+  for (std::size_t s = 0; s < from.size(); ++s) {
+    for (std::size_t k = 0; k < 4; ++k) to[s][k] += share * from[s][k];
   }
+}
+
+// Where the ray crosses the ends of layers, ascending in s.
+std::vector<double> layer_edges(const Shells& shells, const ViewRay& ray) {
+  std::vector<double> heights;
+  for (const Profile& profile : shells.profiles) {
+    if (profile.level_heights().empty()) continue;
+    const std::vector<double>& corners = profile.table().heights();
+    heights.insert(heights.end(), corners.begin(), corners.end());
+  }
+  if (heights.empty()) return {};
+  std::ranges::sort(heights);
+  return shell_crossings(ray, shells.bottom_radius, heights);
+}
+
+// A piece between two nodes, its beginning and length along the ray. Layers begin and end between
+// pieces.
+struct Piece {
+  double begin, length;
+};
+std::vector<Piece> pieces_between(const LevelNode& from, const LevelNode& to,
+                                  const std::vector<double>& edges) {
+  std::vector<Piece> pieces;
+  double begin = from.s;
+  for (const double s : edges) {
+    if (!(s > begin && s < to.s)) continue;
+    pieces.push_back({begin, s - begin});
+    begin = s;
+  }
+  pieces.push_back({begin, to.s - begin});
+  return pieces;
 }
 
 }  // namespace
@@ -152,40 +178,44 @@ std::vector<LevelNode> level_path(const Shells& shells, const NodeOptics& optics
       crossings(ray, shells.bottom_radius, heights, level), ray, shells.bottom_radius, heights);
   const Interpolation of_beam(nodes, [](const LevelNode&) { return true; });
   const Interpolation of_source(nodes, [](const LevelNode& n) { return n.has_source(); });
-  std::array<double, 4> tau{};
+  const std::vector<double> edges = layer_edges(shells, ray);
+  const std::size_t profiles = shells.profiles.size(), scatterers = optics[0].scatterers.size();
+  for (LevelNode& node : nodes) {
+    node.beam.resize(scatterers);
+    node.source.resize(scatterers);
+  }
+  NodeValues tau{};
+  LevelWeights here(scatterers);
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const double begin = nodes[i].s, length = nodes[i + 1].s - begin;
-    std::array<PathDensities, kOrder> density;
-    for (int j = 0; j < kOrder; ++j) {
-      const double h = std::max(shared.height_after(shells.bottom_radius, ray.entry_height,
-                                                    ray.entry_mu, begin + length * kNode[j]),
-                                0.0);
-      density[j] = {shells.profiles.air.density(h).value, shells.profiles.aerosol.density(h).value,
-                    shells.ozone ? shells.profiles.ozone.density(h).value : 0};
-    }
-    std::array<std::array<double, 4>, kOrder> extinction;
-    for (int j = 0; j < kOrder; ++j) {
-      for (int k = 0; k < 4; ++k)
-        extinction[j][k] = length * (optics[k].air.v * density[j].air +
-                                     optics[k].aerosol_extinction.v * density[j].aerosol +
-                                     optics[k].ozone.v * density[j].ozone);
-    }
-    for (int j = 0; j < kOrder; ++j) {
-      LevelWeights here;
-      for (int k = 0; k < 4; ++k) {
-        const double depth = tau[k] + kUpTo[j][0] * extinction[0][k] +
-                             kUpTo[j][1] * extinction[1][k] + kUpTo[j][2] * extinction[2][k];
-        const double reaches_eye = length * kWeight[j] * std::exp(-depth);
-        here.air[k] = reaches_eye * density[j].air;
-        here.aerosol[k] = reaches_eye * density[j].aerosol;
+    for (const auto& [begin, length] : pieces_between(nodes[i], nodes[i + 1], edges)) {
+      std::array<std::array<double, kMostConstituents>, kOrder> density;
+      std::array<NodeValues, kOrder> extinction{};
+      for (int j = 0; j < kOrder; ++j) {
+        const double h = std::max(shared.height_after(shells.bottom_radius, ray.entry_height,
+                                                      ray.entry_mu, begin + length * kNode[j]),
+                                  0.0);
+        for (std::size_t p = 0; p < profiles; ++p) {
+          density[j][p] = shells.profiles[p].density(h).value;
+          for (std::size_t k = 0; k < 4; ++k)
+            extinction[j][k] += length * optics[k].scaled_extinction[p].v * density[j][p];
+        }
       }
-      const double place = begin + length * kNode[j];
-      of_beam.share(place, [&](std::size_t n, double share) { add(share, here, nodes[n].beam); });
-      of_source.share(place,
-                      [&](std::size_t n, double share) { add(share, here, nodes[n].source); });
-    }
-    for (int k = 0; k < 4; ++k) {
-      for (int j = 0; j < kOrder; ++j) tau[k] += kWeight[j] * extinction[j][k];
+      for (int j = 0; j < kOrder; ++j) {
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double depth = tau[k] + kUpTo[j][0] * extinction[0][k] +
+                               kUpTo[j][1] * extinction[1][k] + kUpTo[j][2] * extinction[2][k];
+          const double reaches_eye = length * kWeight[j] * std::exp(-depth);
+          for (std::size_t s = 0; s < scatterers; ++s)
+            here[s][k] = reaches_eye * density[j][optics[k].scatterers[s].profile];
+        }
+        const double place = begin + length * kNode[j];
+        of_beam.share(place, [&](std::size_t n, double share) { add(share, here, nodes[n].beam); });
+        of_source.share(place,
+                        [&](std::size_t n, double share) { add(share, here, nodes[n].source); });
+      }
+      for (std::size_t k = 0; k < 4; ++k) {
+        for (int j = 0; j < kOrder; ++j) tau[k] += kWeight[j] * extinction[j][k];
+      }
     }
   }
   return nodes;

@@ -15,10 +15,8 @@
 namespace skyfit {
 
 // Integrals of density times transmittance to the eye, with a node's share in the cubic through its
-// neighbours (m).
-struct LevelWeights {
-  std::array<double, 4> air{}, aerosol{};
-};
+// neighbours (m), for each scatterer.
+using LevelWeights = std::vector<NodeValues>;
 
 // The source is taken at every third level.
 inline constexpr int kSourceStep = 3;

@@ -26,7 +26,8 @@ ModePack::ModePack(const RayFan& fan, const LayerMedium& medium,
 // Rows of moments that a lane's mode does not have stay 0.
 void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
   for (auto* v : {&synthesis_, &analysis_, &omega_}) v->resize(levels());
-  chi_tangent_.resize(medium_->phase_parameters.size());
+  chi_.resize(medium_->scatterers.size());
+  chi_tangent_.resize(medium_->phase_tangents.size());
   for (std::size_t parity = 0; parity < 2; ++parity) {
     const std::size_t count = rows_[parity];
     sun_basis_[parity].assign(count * suns() * kLanes, 0.0);
@@ -35,9 +36,9 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
       analysis_[i][parity].assign(rays(i) * count * kLanes, 0.0);
       omega_[i][parity].assign(count * kLanes, 0.0);
     }
-    chi_[parity].assign(count * kLanes, 0.0);
-    chi_air_[parity].assign(count * kLanes, 0.0);
-    for (Parities& chi : chi_tangent_) chi[parity].assign(count * kLanes, 0.0);
+    for (auto* all : {&chi_, &chi_tangent_}) {
+      for (Parities& chi : *all) chi[parity].assign(count * kLanes, 0.0);
+    }
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const ModeBasis& basis = bases[modes_[lane]];
       const auto m = static_cast<std::size_t>(modes_[lane]),
@@ -46,12 +47,11 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
         const std::size_t offset = 2 * row + parity, l = m + offset;  // offset = l - m
         for (std::size_t j = 0; j < suns(); ++j)
           at(sun_basis_[parity], suns(), row, j)[lane] = basis.at_suns[j * own + offset];
-        const double chi = at(medium_->chi, 1, l, 0)[lane],
-                     air = at(medium_->chi_air, 1, l, 0)[lane];
-        at(chi_[parity], 1, row, 0)[lane] = chi;
-        at(chi_air_[parity], 1, row, 0)[lane] = air;
+        for (std::size_t s = 0; s < chi_.size(); ++s)
+          at(chi_[s][parity], 1, row, 0)[lane] = at(medium_->scatterers[s].chi, 1, l, 0)[lane];
         for (std::size_t q = 0; q < chi_tangent_.size(); ++q)
-          at(chi_tangent_[q][parity], 1, row, 0)[lane] = at(medium_->chi_tangent[q], 1, l, 0)[lane];
+          at(chi_tangent_[q][parity], 1, row, 0)[lane] =
+              at(medium_->phase_tangents[q].chi, 1, l, 0)[lane];
         for (int i = 0; i < levels(); ++i) {
           for (std::size_t k = 0; k < rays(i); ++k) {
             const double value = basis.at_rays[(i * fan_->most() + k) * own + offset];
@@ -59,8 +59,8 @@ void ModePack::set_basis(const std::vector<ModeBasis>& bases) {
             at(analysis_[i][parity], rays(i), row, k)[lane] =
                 2 * std::numbers::pi * fan_->weight(i, static_cast<int>(k)) * value;
           }
-          at(omega_[i][parity], 1, row, 0)[lane] =
-              medium_->aerosol[i][lane] * chi + medium_->air[i][lane] * air;
+          for (const LayerMedium::Scatterer& s : medium_->scatterers)
+            at(omega_[i][parity], 1, row, 0)[lane] += s.share[i][lane] * at(s.chi, 1, l, 0)[lane];
         }
       }
     }
@@ -213,19 +213,23 @@ ModePack::Columns ModePack::sources_by(const Parities& chi,
 }
 
 ModePack::Sources ModePack::sources_of(const std::vector<Parities>& moments) const {
-  Sources sources{sources_by(chi_, moments), sources_by(chi_air_, moments), {}};
+  Sources sources;
+  for (const Parities& chi : chi_) sources.scatterer.push_back(sources_by(chi, moments));
   for (const Parities& chi : chi_tangent_) sources.phase.push_back(sources_by(chi, moments));
   return sources;
 }
 
 ModePack::Columns ModePack::source_function(const Sources& sources) const {
-  Columns r = sources.aerosol;
+  Columns r{suns(), std::vector<Lanes>(levels()), std::vector<Lanes>(levels())};
   for (int i = 0; i < levels(); ++i) {
     const std::size_t count = rays(i) * suns();
     for (auto side : {&Columns::down, &Columns::up}) {
-      lanes::combine(medium_->aerosol[i].data(), (sources.aerosol.*side)[i].data(),
-                     medium_->air[i].data(), (sources.air.*side)[i].data(), (r.*side)[i].data(),
-                     count);
+      Lanes& sum = (r.*side)[i];
+      sum.assign(count * kLanes, 0.0);
+      for (std::size_t s = 0; s < sources.scatterer.size(); ++s) {
+        lanes::add_scaled(medium_->scatterers[s].share[i].data(),
+                          (sources.scatterer[s].*side)[i].data(), sum.data(), count);
+      }
     }
   }
   return r;
@@ -233,7 +237,7 @@ ModePack::Columns ModePack::source_function(const Sources& sources) const {
 
 // What the beam's light, scattered once in a layer, adds to the rays that leave it.
 void ModePack::beam_sources() {
-  if (beam_.aerosol.count == 0) {
+  if (beam_source_.count == 0) {
     beam_ = sources_of(std::vector<Parities>(levels(), sun_basis_));
     beam_source_ = source_function(beam_);
   }
@@ -373,22 +377,23 @@ Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, 
     const auto& slopes = is_near ? b.near_slope : b.far_slope;
     const auto pick = [&](const double* x) { return none ? zero.data() : x; };
     const auto at_level = static_cast<std::size_t>(level[i]);
-    return lanes::LayerEndTangent{
+    lanes::LayerEndTangent tangent{
         pick((is_near ? w.near_slope : w.far_slope).data()),
         pick((is_near ? w.near : w.far).data()),
         pick((is_near ? b.near : b.far).data()),
         {pick(slopes[0].data()), pick(slopes[1].data()), pick(slopes[2].data())},
-        medium_->aerosol[at_level].data(),
-        medium_->air[at_level].data(),
-        medium_->aerosol_tangent[at_level].data(),
-        medium_->air_tangent[at_level].data(),
-        of(diffuse.aerosol, i),
-        of(diffuse.air, i),
-        of(beam_.aerosol, i),
-        of(beam_.air, i)};
+        {}};
+    for (std::size_t s = 0; s < medium_->scatterers.size(); ++s) {
+      const LayerMedium::Scatterer& scatterer = medium_->scatterers[s];
+      tangent.scatterer[s] = {scatterer.share[at_level].data(),
+                              scatterer.share_tangent[at_level].data(), of(diffuse.scatterer[s], i),
+                              of(beam_.scatterer[s], i)};
+    }
+    return tangent;
   };
   Lanes out(rays(layer) * suns() * p_count * kLanes);
   const lanes::LayerTangent in{{end(0), end(1)},
+                               medium_->scatterers.size(),
                                w.t.data(),
                                of(values_, 1),
                                w.depth_tangent.data(),
@@ -396,13 +401,13 @@ Lanes ModePack::layer_tangent(int layer, bool looks_up, const Sources& diffuse, 
                                medium_->sun_depth_tangent[level[1]].data()};
   lanes::layer_tangent(in, out.data(), rays(layer), suns(), p_count);
   for (std::size_t q = 0; q < diffuse.phase.size(); ++q) {
+    const LayerMedium::PhaseTangent& phase = medium_->phase_tangents[q];
     const auto phase_end = [&](int i) {
-      return lanes::PhaseTangent{in.end[i].aerosol, in.end[i].weight, of(diffuse.phase[q], i),
-                                 in.end[i].beam, of(beam_.phase[q], i)};
+      return lanes::PhaseTangent{in.end[i].scatterer[phase.scatterer].share, in.end[i].weight,
+                                 of(diffuse.phase[q], i), in.end[i].beam, of(beam_.phase[q], i)};
     };
     const lanes::PhaseTangent ends[2] = {phase_end(0), phase_end(1)};
-    lanes::add_phase_tangent(ends, out.data(), rays(layer), suns(), p_count,
-                             medium_->phase_parameters[q]);
+    lanes::add_phase_tangent(ends, out.data(), rays(layer), suns(), p_count, phase.parameter);
   }
   return out;
 }

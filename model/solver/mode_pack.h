@@ -85,11 +85,10 @@ class ModePack {
   void eliminate();
   void eliminate_layer(int layer, const Lanes& same, const Lanes& other, const Lanes& same_above,
                        const Lanes& other_above);
-  // The sources of light with given moments, per unit of the shares of aerosol and air, and per
-  // share of aerosol by the phase parameters.
+  // The sources of light with given moments, per unit of each scatterer's share, and the same by
+  // the medium's phase tangents.
   struct Sources {
-    Columns aerosol, air;
-    std::vector<Columns> phase;
+    std::vector<Columns> scatterer, phase;
   };
   Columns at_rays(const std::vector<Parities>& moments, std::size_t columns) const;
   std::vector<Parities> scattered(const std::vector<Parities>& moments) const;
@@ -120,8 +119,8 @@ class ModePack {
   Modes modes_;
   std::array<std::size_t, 2> rows_{};
   std::vector<Parities> synthesis_, analysis_, omega_;  // per level
-  Parities chi_, chi_air_;                              // [l]
-  std::vector<Parities> chi_tangent_;                   // per phase parameter
+  std::vector<Parities> chi_;                           // per scatterer: [l]
+  std::vector<Parities> chi_tangent_;                   // per phase tangent
   Parities sun_basis_;                                  // [l][sun]
   Lanes albedo_, albedo_tangent_;                       // over pi; 0 in modes above 0
   std::vector<Lanes> reflection_, forward_, backward_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "model/atmosphere/parameters.h"
+#include "model/atmosphere/parameter_field.h"
 #include "model/numerics/kernels.h"
 
 namespace skyfit {
@@ -50,18 +50,16 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
   int modes = 0;
   for (const DiffuseField& field : fields_)
     modes = std::max(modes, static_cast<int>(field.moments.size()));
-  const int moments = fields_.front().shape.moments, levels = static_cast<int>(heights_.size());
+  const int moments = fields_.front().shape.moments;
   Bundle bundle{paths, {}, {}};
   std::map<double, std::size_t> groups;
   for (std::size_t path = 0; path < paths.size(); ++path) {
     const std::vector<RayPoint>& nodes = paths[path].path->nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const RayPoint& point = nodes[i];
-      double x = level_coordinate(point.height, heights_.back(), levels);
-      constexpr double kOnLevel = 1e-6;  // of the distance of two levels
-      if (std::abs(x - std::round(x)) < kOnLevel) x = std::round(x);
+      const double x = levels_.coordinate(point.height);
       const auto [at, added] = groups.try_emplace(x, bundle.groups.size());
-      if (added) bundle.groups.push_back({level_stencil(x, levels), {}});
+      if (added) bundle.groups.push_back({levels_.stencil(x), {}});
       Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, {}};
       node.lambda.resize(static_cast<std::size_t>(modes) * moments);
       for (int m = 0; m < modes; ++m)
@@ -125,12 +123,13 @@ void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights
     for (std::size_t r = 0; r < rows; ++r) {
       const Node& node = group.nodes[r];
       const double* const lambda = &node.lambda[m * field.shape.moments + m];
-      const Dual<N>&air = weights[node.path].air[node.node],
-            &aerosol = weights[node.path].aerosol[node.node];
       for (std::size_t k = 0; k < own; ++k) {
         const std::size_t l = k + static_cast<std::size_t>(m);
-        Dual<N> c = aerosol * optics.moments[l];
-        if (l < optics.air_moments.size()) c += air * optics.air_moments[l];
+        Dual<N> c;
+        for (std::size_t s = 0; s < optics.scatterers.size(); ++s) {
+          const std::vector<Dual<N>>& chi = optics.scatterers[s].moments;
+          if (l < chi.size()) c += weights[node.path][s][node.node] * chi[l];
+        }
         coefficient[r * own + k] = c.v * lambda[k];
         for (std::size_t p = 0; p < parameters; ++p)
           tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * lambda[k];
@@ -186,6 +185,6 @@ void MultipleScattering<N>::add(std::span<const PathWithSuns> paths) const {
 }
 
 template class MultipleScattering<0>;
-template class MultipleScattering<kParameterCount>;
+template class MultipleScattering<kDerivativesAtOnce>;
 
 }  // namespace skyfit

@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "model/geometry/sky_geometry.h"
+#include "model/geometry/sun_along_ray.h"
 #include "model/solver/diffuse_field.h"
+#include "model/solver/level_grid.h"
 #include "model/solver/sun_grid.h"
 #include "model/solver/view_path.h"
 
@@ -29,10 +30,9 @@ struct PathWithSuns {
 template <int N>
 class MultipleScattering {
  public:
-  MultipleScattering(const std::vector<double>& heights, const SunGrid& grid,
-                     const std::vector<int>& solved, const std::vector<Optics<N>>& optics,
-                     const std::vector<DiffuseField>& fields)
-      : heights_(heights), grid_(grid), solved_(solved), optics_(optics), fields_(fields) {}
+  MultipleScattering(const LevelGrid& levels, const SunGrid& grid, const std::vector<int>& solved,
+                     const std::vector<Optics<N>>& optics, const std::vector<DiffuseField>& fields)
+      : levels_(levels), grid_(grid), solved_(solved), optics_(optics), fields_(fields) {}
 
   static constexpr int kPathsAtOnce = 6;  // rows of a block of kernels::multiply
   void add(std::span<const PathWithSuns> paths) const;
@@ -46,7 +46,7 @@ class MultipleScattering {
   const double* block_at(const Group& group, const DiffuseField& field, int m,
                          LargeArray& scratch) const;
 
-  const std::vector<double>& heights_;
+  const LevelGrid& levels_;
   const SunGrid& grid_;
   const std::vector<int>& solved_;
   const std::vector<Optics<N>>& optics_;

@@ -10,7 +10,8 @@
 namespace skyfit {
 namespace {
 
-// Shares of the levels at which a limb ray begins. Three times as many change the multiple
+// Where limb rays begin: at the levels nearest to these cube roots of the height over the top's.
+// Three times as many change the multiple
 // scattering seen from 0 .. 20 km and along the limb by less than 1 %.
 constexpr double kLimbLevels[] = {0.2, 0.35, 0.47, 0.6, 0.7, 0.8, 0.9};
 
@@ -33,7 +34,9 @@ RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int gro
   const int levels = static_cast<int>(heights.size());
   std::vector<int> touched;
   for (const double share : kLimbLevels) {
-    const int level = static_cast<int>(std::lround(share * (levels - 1)));
+    const auto apart = [&](double h) { return std::abs(std::cbrt(h / heights.back()) - share); };
+    const int level =
+        static_cast<int>(std::ranges::min_element(heights, {}, apart) - heights.begin());
     if (level > 0 && (touched.empty() || level > touched.back())) touched.push_back(level);
   }
   for (int i = 0; i < levels; ++i) {

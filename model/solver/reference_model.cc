@@ -30,8 +30,13 @@ void check(bool good, std::string_view name, double value, std::string_view expe
 // instead of 2.4 %.
 ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& atmosphere) {
   constexpr double kNarrow = 0.1;  // share of the scattering that would be cut off
-  if (options.moments == ReferenceOptions{}.moments &&
-      aerosol_phase_moments(atmosphere.mie.phase, options.moments + 1).back() > kNarrow) {
+  if (options.moments != ReferenceOptions{}.moments) return options;
+  const auto is_narrow = [&](const Constituent<double>& c) {
+    if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
+    constexpr double kGreen = 550;  // nm
+    return phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back() > kNarrow;
+  };
+  if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
     options.streams *= 2;
     options.moments *= 2;
   }
@@ -62,31 +67,40 @@ ViewRays distinct_view_rays(const Shells& shells, const std::vector<double>& hei
   return rays;
 }
 
+template <int N>
+std::vector<char> profiles_of_scatterers(const Optics<N>& optics) {
+  std::vector<char> scattering(optics.profiles.size());
+  for (const Scatterer<N>& s : optics.scatterers) scattering[s.profile] = true;
+  return scattering;
+}
+
 // Light scattered once, [point][wavelength].
 template <int N>
 std::vector<Dual<N>> single_scattering_of(const Shells& shells,
                                           const std::vector<Optics<N>>& optics,
                                           const ViewRays& rays,
                                           const std::vector<SunAlongRay>& suns) {
-  Shared<double> shared;
+  const std::vector<char> scattering = profiles_of_scatterers(optics.front());
+  const auto nodes_of = [&](const ViewPath& path, const std::vector<double>& edges) {
+    return ray_nodes(shells, scattering, path.ray, edges, N > 0);
+  };
   std::vector<RayNodes> nodes(rays.paths.size());
   tbb::parallel_for(std::size_t{0}, nodes.size(),
-                    [&](std::size_t i) { nodes[i] = ray_nodes(shells, rays.paths[i].ray, {}); });
+                    [&](std::size_t i) { nodes[i] = nodes_of(rays.paths[i], {}); });
   std::vector<Dual<N>> light(suns.size() * optics.size());
   tbb::parallel_for(std::size_t{0}, suns.size(), [&](std::size_t i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
     if (path.nodes.empty()) return;
     const std::vector<double> edges = suns[i].shadow_edges();
     RayNodes own;
-    if (!edges.empty()) own = ray_nodes(shells, path.ray, edges);
+    if (!edges.empty()) own = nodes_of(path, edges);
     const RayNodes& along = edges.empty() ? nodes[rays.path_of_point[i]] : own;
     const SunlitNodes sunlit = sunlit_nodes(shells, along, suns[i]);
     const double nu = suns[i].nu();
     for (std::size_t w = 0; w < optics.size(); ++w) {
-      const SingleScattering<N> single = single_scattering(optics[w], along, sunlit);
-      light[i * optics.size() + w] =
-          single.air * shared.rayleigh_phase(optics[w].depolarisation, nu) +
-          single.aerosol * aerosol_phase(optics[w].phase, nu);
+      const std::vector<Dual<N>> single = single_scattering(optics[w], along, sunlit);
+      for (std::size_t s = 0; s < single.size(); ++s)
+        light[i * optics.size() + w] += single[s] * phase_value(optics[w].scatterers[s].phase, nu);
     }
   });
   return light;
@@ -115,10 +129,9 @@ template <int N>
 SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
                 std::span<const SkyPoint> points, std::span<const Parameter> derivatives,
                 const ReferenceOptions& options) {
-  Shells shells = shells_of(atmosphere);
-  for (const Parameter p : derivatives) shells.ozone |= p == Parameter::kOzoneColumn;
-  const ViewRays rays =
-      distinct_view_rays(shells, level_heights(shells.top, options.levels), points);
+  const Shells shells = shells_of(atmosphere, Keep::kWhatMatters, derivatives);
+  const LevelGrid levels(shells, options.levels);
+  const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
   std::vector<SunAlongRay> suns;
   suns.reserve(points.size());
   std::vector<SunRange> needed;
@@ -136,13 +149,13 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
   std::vector<Optics<N>> optics;
   const auto seeded_atmosphere = seeded<N>(atmosphere, derivatives);
   for (const WavelengthNode& node : wavelengths)
-    optics.push_back(optics_at(seeded_atmosphere, node, options.moments));
+    optics.push_back(optics_at(shells, seeded_atmosphere, node, options.moments));
 
   const bool first = options.order <= 1, further = options.order != 1;
   std::vector<Dual<N>> single(points.size() * optics.size());
   std::optional<SkySolution<N>> solution;
   tbb::parallel_invoke(
-      [&] { solution.emplace(shells, optics, derivatives.size(), needed, options); },
+      [&] { solution.emplace(shells, levels, optics, derivatives.size(), needed, options); },
       [&] {
         if (first) single = single_scattering_of(shells, optics, rays, suns);
       });
@@ -190,20 +203,16 @@ SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
                                    std::span<const Parameter> derivatives) const {
   validate(atmosphere);
   for (const SkyPoint& p : points) check_point("reference", p);
-  for (const Parameter p : derivatives) {
-    if (!has_parameter(atmosphere, p)) {
-      throw std::invalid_argument(fmt::format(
-          "reference model: the atmosphere has no {} to differentiate by", parameter_info(p).name));
-    }
-  }
+  for (const Parameter& p : derivatives) check_derivative("reference", atmosphere, p);
   if (!derivatives.empty())
     check(options_.order == 0, "order", options_.order, "0 where derivatives are asked for");
   const ReferenceOptions options = resolved(options_, atmosphere);
   tbb::task_arena arena(options.threads);
   return arena.execute([&] {
-    return derivatives.empty()
-               ? solve<0>(atmosphere, wavelengths, points, derivatives, options)
-               : solve<kParameterCount>(atmosphere, wavelengths, points, derivatives, options);
+    if (derivatives.empty()) return solve<0>(atmosphere, wavelengths, points, {}, options);
+    return in_batches<kDerivativesAtOnce>(derivatives, [&](std::span<const Parameter> batch) {
+      return solve<kDerivativesAtOnce>(atmosphere, wavelengths, points, batch, options);
+    });
   });
 }
 

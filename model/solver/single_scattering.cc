@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "model/atmosphere/column_kernels.h"
-#include "model/atmosphere/parameters.h"
+#include "model/atmosphere/parameter_field.h"
 
 namespace skyfit {
 namespace {
@@ -37,100 +37,114 @@ std::vector<double> with_short_pieces(const std::vector<double>& breaks, double 
   return pieces;
 }
 
-void set_columns(const Shells& shells, const Profile& profile, const std::vector<double>& height,
-                 const std::vector<double>& mu, std::vector<double>& value,
-                 std::vector<double>& by_scale_height) {
+// Of one profile, from points upward to the top; mu as for exponential_column().
+std::vector<std::vector<double>> columns_to_top(const Shells& shells, const Profile& profile,
+                                                const std::vector<double>& height,
+                                                const std::vector<double>& mu, bool derivatives) {
   const kernels::Sphere sphere{shells.bottom_radius, shells.top};
-  value.resize(height.size());
-  by_scale_height.assign(height.size(), 0.0);
-  if (profile.is_exponential()) {
-    kernels::exponential_columns(sphere, profile.scale_height(), height.size(), height.data(),
-                                 mu.data(), value.data(), by_scale_height.data());
-  } else {
-    kernels::linear_columns(sphere, profile.table(), height.size(), height.data(), mu.data(),
-                            value.data());
+  const auto linear = [&](const LinearProfile& table) {
+    std::vector<double> column(height.size());
+    kernels::linear_columns(sphere, table, height.size(), height.data(), mu.data(), column.data());
+    return column;
+  };
+  if (!profile.is_exponential()) {
+    std::vector<std::vector<double>> c = {linear(profile.table())};
+    for (std::size_t s = 0; derivatives && s < profile.shapes(); ++s)
+      c.push_back(linear(profile.table_by_shape(s)));
+    return c;
   }
-}
-
-// From points upward to the top; mu as for exponential_column().
-ColumnArrays columns_to_top(const Shells& shells, const std::vector<double>& height,
-                            const std::vector<double>& mu) {
-  ColumnArrays c;
-  set_columns(shells, shells.profiles.air, height, mu, c[0], c[3]);
-  set_columns(shells, shells.profiles.aerosol, height, mu, c[1], c[4]);
-  if (!shells.ozone) {
-    c[2].assign(height.size(), 0.0);
-    c[5] = c[2];
-  } else if (shells.profiles.ozone == shells.profiles.air) {
-    c[2] = c[0];
-    c[5] = c[3];
-  } else {
-    set_columns(shells, shells.profiles.ozone, height, mu, c[2], c[5]);
-  }
+  std::vector<std::vector<double>> c(2, std::vector<double>(height.size()));
+  kernels::exponential_columns(sphere, profile.scale_height(), height.size(), height.data(),
+                               mu.data(), c[0].data(), c[1].data());
   return c;
 }
 
-std::array<double, 6> as_array(const PathColumns& c) {
-  return {c.air.value,           c.aerosol.value,           c.ozone.value,
-          c.air.by_scale_height, c.aerosol.by_scale_height, c.ozone.by_scale_height};
+ColumnArrays columns_to_top(const Shells& shells, const std::vector<double>& height,
+                            const std::vector<double>& mu, bool derivatives) {
+  ColumnArrays c;
+  for (const Profile& profile : shells.profiles)
+    c.push_back(columns_to_top(shells, profile, height, mu, derivatives));
+  return c;
+}
+
+double part_of(const Column& c, std::size_t part) {
+  return part == 0 ? c.value : c.by_shape[part - 1];
 }
 
 // Columns from the entry: as columns_along() of model/geometry/ray.h for each node.
-ColumnArrays columns_from_entry(const Shells& shells, const ViewRay& ray, const RayNodes& nodes) {
+ColumnArrays columns_from_entry(const Shells& shells, const ViewRay& ray, const RayNodes& nodes,
+                                bool derivatives) {
   std::vector<double> mu;
   for (const RayPoint& p : nodes.points) {
     const bool descends = p.s < ray.tangent_s;
     mu.push_back(std::max(descends ? -p.mu : p.mu, 0.0));
   }
-  ColumnArrays c = columns_to_top(shells, nodes.height, mu);
+  ColumnArrays c = columns_to_top(shells, nodes.height, mu, derivatives);
   const bool entry_descends = ray.tangent_s > 0;
-  const std::array<double, 6> entry =
-      as_array(shells.columns_to_top(ray.entry_height, std::abs(ray.entry_mu)));
-  std::array<double, 6> lowest{};
+  const PathColumns from_entry = shells.columns_to_top(ray.entry_height, std::abs(ray.entry_mu));
+  PathColumns from_lowest;
   if (entry_descends && !ray.hits_ground)
-    lowest = as_array(shells.columns_to_top(ray.tangent_height, 0));
+    from_lowest = shells.columns_to_top(ray.tangent_height, 0);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    for (std::size_t i = 0; i < mu.size(); ++i) {
-      double& x = c[k][i];
-      if (!entry_descends) {
-        x = entry[k] - x;
-      } else if (nodes.points[i].s < ray.tangent_s) {
-        x -= entry[k];
-      } else {
-        x = 2 * lowest[k] - entry[k] - x;
+    for (std::size_t part = 0; part < c[k].size(); ++part) {
+      const double entry = part_of(from_entry[k], part), lowest = part_of(from_lowest[k], part);
+      for (std::size_t i = 0; i < mu.size(); ++i) {
+        double& x = c[k][part][i];
+        if (!entry_descends) {
+          x = entry - x;
+        } else if (nodes.points[i].s < ray.tangent_s) {
+          x -= entry;
+        } else {
+          x = 2 * lowest - entry - x;
+        }
       }
     }
   }
   return c;
 }
 
-std::vector<double> densities(const Profile& profile, const std::vector<double>& height) {
-  std::vector<double> rho(height.size());
+// The density at the heights and its derivatives by the shape.
+std::vector<std::vector<double>> densities(const Profile& profile,
+                                           const std::vector<double>& height, bool derivatives) {
+  std::vector<std::vector<double>> rho(1, std::vector<double>(height.size()));
   if (profile.is_exponential()) {
-    kernels::exponential_densities(profile.scale_height(), height.size(), height.data(),
-                                   rho.data());
-  } else {
-    std::ranges::transform(height, rho.begin(),
-                           [&](double h) { return profile.table().density(h); });
+    const double scale_height = profile.scale_height();
+    kernels::exponential_densities(scale_height, height.size(), height.data(), rho[0].data());
+    if (!derivatives) return rho;
+    rho.emplace_back(height.size());
+    for (std::size_t i = 0; i < height.size(); ++i)
+      rho[1][i] = rho[0][i] * height[i] / (scale_height * scale_height);
+    return rho;
   }
+  const auto at_heights = [&](const LinearProfile& table, std::vector<double>& out) {
+    std::ranges::transform(height, out.begin(), [&](double h) { return table.density(h); });
+  };
+  at_heights(profile.table(), rho[0]);
+  for (std::size_t s = 0; derivatives && s < profile.shapes(); ++s)
+    at_heights(profile.table_by_shape(s), rho.emplace_back(height.size()));
   return rho;
 }
 
 }  // namespace
 
-RayNodes ray_nodes(const Shells& shells, const ViewRay& ray, const std::vector<double>& edges) {
+RayNodes ray_nodes(const Shells& shells, const std::vector<char>& scattering, const ViewRay& ray,
+                   const std::vector<double>& edges, bool derivatives) {
   std::vector<double> breaks = with_short_pieces(
       shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top)), shells.bottom_radius);
   breaks.insert(breaks.end(), edges.begin(), edges.end());
   RayNodes nodes;
-  for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, ray, breaks), kOrder)) {
+  for (const QuadratureNode& q :
+       composite_gauss(with_profile_breaks(shells, ray, breaks), kOrder)) {
     nodes.points.push_back(ray_point(ray, shells.bottom_radius, q.s));
     nodes.weight.push_back(q.weight);
     nodes.height.push_back(nodes.points.back().height);
   }
-  nodes.density = {densities(shells.profiles.air, nodes.height),
-                   densities(shells.profiles.aerosol, nodes.height)};
-  nodes.columns = columns_from_entry(shells, ray, nodes);
+  for (std::size_t i = 0; i < shells.profiles.size(); ++i) {
+    nodes.density.emplace_back();
+    if (scattering[i])
+      nodes.density.back() = densities(shells.profiles[i], nodes.height, derivatives);
+  }
+  nodes.columns = columns_from_entry(shells, ray, nodes, derivatives);
   return nodes;
 }
 
@@ -144,47 +158,59 @@ SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunA
     result.weight[i] = 0;
     mu_s.back() = 1;  // any that has a column
   }
-  result.columns = columns_to_top(shells, nodes.height, mu_s);
-  for (std::size_t k = 0; k < result.columns.size(); ++k) {
-    for (std::size_t i = 0; i < mu_s.size(); ++i) result.columns[k][i] += nodes.columns[k][i];
+  for (std::size_t k = 0; k < shells.profiles.size(); ++k) {
+    const std::vector<std::vector<double>>& along = nodes.columns[k];
+    result.columns.push_back(
+        columns_to_top(shells, shells.profiles[k], nodes.height, mu_s, along.size() > 1));
+    for (std::size_t part = 0; part < along.size(); ++part) {
+      for (std::size_t i = 0; i < mu_s.size(); ++i) result.columns[k][part][i] += along[part][i];
+    }
   }
   return result;
 }
 
 template <int N>
-SingleScattering<N> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
-                                      const SunlitNodes& sunlit) {
-  const double* const density[2] = {nodes.density[0].data(), nodes.density[1].data()};
-  const double* columns[6];
-  for (std::size_t k = 0; k < 6; ++k) columns[k] = sunlit.columns[k].data();
-  const double extinction[3] = {optics.air.v, optics.aerosol_extinction.v, optics.ozone.v};
-  kernels::RaySums sums[2];
-  kernels::ray_sums(nodes.points.size(), sunlit.weight.data(), nodes.height.data(), density,
-                    columns, extinction, sums);
-  // Sum over the ray of rho T ds; d T = -T d tau, tau = sum of extinction times column.
-  const auto dual = [&](const kernels::RaySums& s, const Profile& profile,
-                        const Dual<N>& scale_height) {
-    Dual<N> sum(s.plain);
-    const double by_air_height = optics.air.v * s.by_column[3] + optics.ozone.v * s.by_column[5];
-    const double by_aerosol_height = optics.aerosol_extinction.v * s.by_column[4];
-    const double by_own_height =
-        profile.is_exponential() ? s.by_height / (scale_height.v * scale_height.v) : 0;
-    for (std::size_t p = 0; p < N; ++p) {
-      sum.d[p] = by_own_height * scale_height.d[p] - optics.air.d[p] * s.by_column[0] -
-                 optics.aerosol_extinction.d[p] * s.by_column[1] -
-                 optics.ozone.d[p] * s.by_column[2] - optics.air_scale_height.d[p] * by_air_height -
-                 optics.aerosol_scale_height.d[p] * by_aerosol_height;
+std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
+                                       const SunlitNodes& sunlit) {
+  const std::size_t count = nodes.points.size(), profiles = optics.profiles.size();
+  std::array<const double*, kMostConstituents> columns;
+  std::array<double, kMostConstituents> extinction;
+  for (std::size_t k = 0; k < profiles; ++k) {
+    columns[k] = sunlit.columns[k][0].data();
+    extinction[k] = optics.scaled_extinction[k].v;
+  }
+  std::vector<double> through(count), scattered(count);
+  kernels::weighted_transmittances(count, sunlit.weight.data(), profiles, columns.data(),
+                                   extinction.data(), through.data());
+  std::vector<Dual<N>> light;
+  for (const Scatterer<N>& scatterer : optics.scatterers) {
+    const std::vector<std::vector<double>>& density = nodes.density[scatterer.profile];
+    // Sum over the ray of rho T ds; d T = -T d tau, tau = sum of extinction times column.
+    Dual<N> sum(
+        kernels::product_and_sum(count, through.data(), density[0].data(), scattered.data()));
+    if constexpr (N > 0) {
+      const auto add = [&](double factor, const Dual<N>& by) {
+        for (std::size_t p = 0; p < N; ++p) sum.d[p] += factor * by.d[p];
+      };
+      for (std::size_t s = 0; s < optics.profiles[scatterer.profile].shapes(); ++s)
+        add(kernels::dot(count, through.data(), density[1 + s].data()),
+            optics.shape[scatterer.profile][s]);
+      for (std::size_t k = 0; k < profiles; ++k) {
+        add(-kernels::dot(count, scattered.data(), columns[k]), optics.scaled_extinction[k]);
+        for (std::size_t s = 0; s < optics.profiles[k].shapes(); ++s)
+          add(-extinction[k] *
+                  kernels::dot(count, scattered.data(), sunlit.columns[k][1 + s].data()),
+              optics.shape[k][s]);
+      }
     }
-    return sum;
-  };
-  return {optics.air * dual(sums[0], optics.profiles.air, optics.air_scale_height),
-          optics.aerosol_scattering *
-              dual(sums[1], optics.profiles.aerosol, optics.aerosol_scale_height)};
+    light.push_back(scatterer.scattering * sum);
+  }
+  return light;
 }
 
-template SingleScattering<0> single_scattering<0>(const Optics<0>&, const RayNodes&,
-                                                  const SunlitNodes&);
-template SingleScattering<kParameterCount> single_scattering<kParameterCount>(
-    const Optics<kParameterCount>&, const RayNodes&, const SunlitNodes&);
+template std::vector<Dual<0>> single_scattering<0>(const Optics<0>&, const RayNodes&,
+                                                   const SunlitNodes&);
+template std::vector<Dual<kDerivativesAtOnce>> single_scattering<kDerivativesAtOnce>(
+    const Optics<kDerivativesAtOnce>&, const RayNodes&, const SunlitNodes&);
 
 }  // namespace skyfit

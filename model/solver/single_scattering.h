@@ -3,25 +3,31 @@
 // shells, the corners of the profiles, the edges of the planet's shadow and the ray's lowest point.
 #pragma once
 
-#include <array>
 #include <vector>
 
-#include "model/geometry/sky_geometry.h"
+#include "model/atmosphere/optics.h"
+#include "model/geometry/sun_along_ray.h"
 
 namespace skyfit {
 
-// Columns of many points: those of air, aerosol and ozone, then their derivatives by scale height.
-using ColumnArrays = std::array<std::vector<double>, 6>;
+// Columns of many points, of each profile of the shells: [0] the column, [1 + s] its derivatives by
+// the profile's shape.
+using ColumnArrays = std::vector<std::vector<std::vector<double>>>;
 
 // The nodes of one ray, with what does not depend on the sun.
 struct RayNodes {
   std::vector<RayPoint> points;
-  std::vector<double> weight, height;          // metres
-  std::array<std::vector<double>, 2> density;  // of air and aerosol
-  ColumnArrays columns;                        // from the ray's entry
+  std::vector<double> weight, height;  // metres
+  // Per profile as ColumnArrays: the density and its derivatives by the shape; empty for profiles
+  // that no scatterer has.
+  ColumnArrays density;
+  ColumnArrays columns;  // from the ray's entry
 };
+// `derivatives` false leaves out what is derived by shapes; `scattering` says per profile whether a
+// scatterer has it.
 // `edges` are further places along the ray at which the rule begins anew.
-RayNodes ray_nodes(const Shells& shells, const ViewRay& ray, const std::vector<double>& edges);
+RayNodes ray_nodes(const Shells& shells, const std::vector<char>& scattering, const ViewRay& ray,
+                   const std::vector<double>& edges, bool derivatives);
 
 // The same nodes in the light of one sun.
 struct SunlitNodes {
@@ -30,15 +36,10 @@ struct SunlitNodes {
 };
 SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunAlongRay& sun);
 
-// Radiance per unit solar irradiance without the phase functions (sr^0): multiply by P_i(nu) and
-// add.
+// Radiance per unit solar irradiance of every scatterer without its phase function (sr^0): multiply
+// by P_i(nu) and add.
 template <int N>
-struct SingleScattering {
-  Dual<N> air, aerosol;
-};
-
-template <int N>
-SingleScattering<N> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
-                                      const SunlitNodes& sunlit);
+std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
+                                       const SunlitNodes& sunlit);
 
 }  // namespace skyfit

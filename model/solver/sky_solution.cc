@@ -9,13 +9,10 @@
 
 namespace skyfit {
 template <int N>
-SkySolution<N>::SkySolution(const Shells& shells, const std::vector<Optics<N>>& optics,
-                            std::size_t derivatives, std::span<const SunRange> needed,
-                            const ReferenceOptions& options)
-    : shells_(shells),
-      heights_(level_heights(shells.top, options.levels)),
-      solved_(grid_.size(), -1),
-      optics_(optics) {
+SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
+                            const std::vector<Optics<N>>& optics, std::size_t derivatives,
+                            std::span<const SunRange> needed, const ReferenceOptions& options)
+    : shells_(shells), levels_(levels), solved_(grid_.size(), -1), optics_(optics) {
   for (const SunRange& range : needed) {
     const SunStencil high = grid_.stencil(range.highest), low = grid_.stencil(range.lowest);
     const auto first = *std::ranges::min_element(high.index),
@@ -33,11 +30,11 @@ SkySolution<N>::SkySolution(const Shells& shells, const std::vector<Optics<N>>& 
     solved_[i] = static_cast<int>(suns.size());
     suns.push_back(grid_.mu(i));
   }
-  const RayFan fan(shells_.bottom_radius, heights_, options.streams);
-  fields_ =
-      solve_diffuse_fields<N>(shells_, optics_, 1 + static_cast<int>(derivatives), heights_, suns,
-                              fan, sun_coupling(grid_, solved_, fan, first),
-                              {options.moments, options.tolerance, std::max(options.order - 1, 0)});
+  const RayFan fan(shells_.bottom_radius, levels_.heights(), options.streams);
+  fields_ = solve_diffuse_fields<N>(
+      shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, fan,
+      sun_coupling(grid_, solved_, fan, first),
+      {options.moments, options.tolerance, std::max(options.order - 1, 0)});
 }
 
 template <int N>
@@ -47,7 +44,7 @@ Dual<N> SkySolution<N>::ground(const ViewPath& path, const SunAlongRay& sun, int
   const Optics<N>& optics = optics_[wavelength];
   const double mu_s = sun.mu_s(path.nodes.back());
   auto transmitted = [&](const PathColumns& c) {
-    const Dual<N> tau = optics.optical_depth(c);
+    const Dual<N> tau = optics.scaled_optical_depth(c);
     const double t = std::exp(-tau.v);
     return tau.chain(t, -t);
   };
@@ -66,6 +63,6 @@ Dual<N> SkySolution<N>::ground(const ViewPath& path, const SunAlongRay& sun, int
 }
 
 template class SkySolution<0>;
-template class SkySolution<kParameterCount>;
+template class SkySolution<kDerivativesAtOnce>;
 
 }  // namespace skyfit

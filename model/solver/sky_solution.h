@@ -22,11 +22,12 @@ class SkySolution {
  public:
   // Solves the diffuse field for every sun of the grid that the ranges touch. `optics` stay where
   // they are.
-  SkySolution(const Shells& shells, const std::vector<Optics<N>>& optics, std::size_t derivatives,
-              std::span<const SunRange> needed, const ReferenceOptions& options);
+  SkySolution(const Shells& shells, const LevelGrid& levels, const std::vector<Optics<N>>& optics,
+              std::size_t derivatives, std::span<const SunRange> needed,
+              const ReferenceOptions& options);
 
   MultipleScattering<N> multiple_scattering() const {
-    return {heights_, grid_, solved_, optics_, fields_};
+    return {levels_, grid_, solved_, optics_, fields_};
   }
   // Light that comes straight from the ground at the end of the path (1/sr), under the sun's beam
   // and under the diffuse field.
@@ -35,7 +36,7 @@ class SkySolution {
 
  private:
   Shells shells_;
-  std::vector<double> heights_;
+  LevelGrid levels_;
   SunGrid grid_;
   std::vector<int> solved_;  // grid index -> solved index, -1 when not needed
   const std::vector<Optics<N>>& optics_;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/atmosphere/parameters.h"
+#include "model/atmosphere/parameter_field.h"
+#include "model/shared/shared.h"
 #include "model/solver/sun_grid.h"
 
 namespace skyfit {
@@ -75,7 +76,7 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
       shell_crossings(path.ray, shells.bottom_radius, heights), path.ray.tangent_s);
   for (const double x : s) path.nodes.push_back(ray_point(path.ray, shells.bottom_radius, x));
   set_sun_points(shells, path);
-  for (const QuadratureNode& q : composite_gauss(with_table_breaks(shells, path.ray, s), 3)) {
+  for (const QuadratureNode& q : composite_gauss(with_profile_breaks(shells, path.ray, s), 3)) {
     ViewPath::Sample sample{ray_point(path.ray, shells.bottom_radius, q.s), q.weight, {}};
     sample.columns = columns_along(shells, path.ray, sample.point);
     set_interpolation(s, sample);
@@ -87,26 +88,24 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
 
 template <int N>
 NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path) {
-  NodeWeights<N> weights;
-  weights.air.resize(path.nodes.size());
-  weights.aerosol.resize(path.nodes.size());
+  NodeWeights<N> weights(optics.scatterers.size(), std::vector<Dual<N>>(path.nodes.size()));
   for (const ViewPath::Sample& sample : path.samples) {
-    const Dual<N> tau = optics.optical_depth(sample.columns);
+    const Dual<N> tau = optics.scaled_optical_depth(sample.columns);
     const double t = std::exp(-tau.v);
     const Dual<N> transmitted = tau.chain(t * sample.weight, -t * sample.weight);
     const Densities<N> rho = optics.densities(sample.point.height);
-    const Dual<N> air = transmitted * optics.air * rho.air;
-    const Dual<N> aerosol = transmitted * optics.aerosol_scattering_cut * rho.aerosol;
-    for (int k = 0; k < sample.count; ++k) {
-      weights.air[sample.first + k] += air * sample.share[k];
-      weights.aerosol[sample.first + k] += aerosol * sample.share[k];
+    for (std::size_t s = 0; s < optics.scatterers.size(); ++s) {
+      const Scatterer<N>& scatterer = optics.scatterers[s];
+      const Dual<N> weight = transmitted * scatterer.scaled_scattering * rho[scatterer.profile];
+      for (int k = 0; k < sample.count; ++k)
+        weights[s][sample.first + k] += weight * sample.share[k];
     }
   }
   return weights;
 }
 
 template NodeWeights<0> node_weights<0>(const Optics<0>&, const ViewPath&);
-template NodeWeights<kParameterCount> node_weights<kParameterCount>(const Optics<kParameterCount>&,
-                                                                    const ViewPath&);
+template NodeWeights<kDerivativesAtOnce> node_weights<kDerivativesAtOnce>(
+    const Optics<kDerivativesAtOnce>&, const ViewPath&);
 
 }  // namespace skyfit

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "model/geometry/ray.h"
+#include "model/atmosphere/optics.h"
 
 namespace skyfit {
 
@@ -30,11 +30,9 @@ struct ViewPath {
 ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
                    double mu);
 
-// Per node, sr^0: radiance = sum over nodes of weight times source per scattering coefficient.
+// Per scatterer and node, sr^0: radiance = sum of weight times source per scattering coefficient.
 template <int N>
-struct NodeWeights {
-  std::vector<Dual<N>> air, aerosol;
-};
+using NodeWeights = std::vector<std::vector<Dual<N>>>;
 template <int N>
 NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path);
 

@@ -28,7 +28,8 @@ class ScatteringBuilder {
         optics_(optics),
         tables_(tables),
         heights_(level_heights()),
-        source_(shells, optics, source_heights(heights_)) {
+        source_(shells, optics, source_heights(heights_)),
+        kinds_(tables.phases.count()) {
     set_sun_steps();
     beam_.resize(heights_.size());
     tbb::parallel_for(0, static_cast<int>(heights_.size()), [&](int i) { set_beam(i); });
@@ -39,12 +40,14 @@ class ScatteringBuilder {
     const std::size_t slice = static_cast<std::size_t>(texels.rows()) * texels.row();
     const int heights = tables_.sizes.scattering_r;
     for (int r = 0; r < heights; ++r) {
-      scatter(texels, kLevelsPerTexel * r, tables_.rayleigh_like, tables_.single_mie,
-              slice * static_cast<std::size_t>(r));
+      scatter(texels, kLevelsPerTexel * r, tables_.rayleigh_like, tables_.single,
+              slice * static_cast<std::size_t>(r), slice * static_cast<std::size_t>(heights));
       if (progress) progress((r + 1.0) / (heights + 1));
     }
-    scatter(tables_.sizes.outside(), static_cast<int>(heights_.size()) - 1, tables_.sky_rays.air,
-            tables_.sky_rays.aerosol, 0);
+    scatter(
+        tables_.sizes.outside(), static_cast<int>(heights_.size()) - 1, tables_.sky_rays.air,
+        tables_.sky_rays.aerosol, 0,
+        static_cast<std::size_t>(tables_.sizes.outside().rows()) * tables_.sizes.outside().row());
     if (progress) progress(1);
   }
 
@@ -89,48 +92,56 @@ class ScatteringBuilder {
       const double mu_s = sun_at(i, kSteps);
       if (i == 0 || mu_s > horizon) columns = shells_.columns_to_top(h, std::max(mu_s, horizon));
       for (const Optics<0>& optics : optics_)
-        beam_[level].push_back(static_cast<float>(std::exp(-optics.optical_depth(columns).v)));
+        beam_[level].push_back(
+            static_cast<float>(std::exp(-optics.scaled_optical_depth(columns).v)));
     }
   }
 
   // What kernel nodes point to.
   struct Scratch {
-    std::vector<float> source, above, beam;
+    std::vector<float> source, beam, single;
   };
 
   // Linear between the levels that are kept.
-  void set_source(const LevelNode& node, const NodeValues& air, const NodeValues& aerosol,
-                  Scratch& scratch) const {
+  void set_source(const LevelNode& node, Scratch& scratch) const {
+    std::vector<NodeValues> factors;
+    const auto slice = [&](int height, double share) {
+      factors.clear();
+      for (std::size_t s = 0; s < node.source.size(); ++s) {
+        factors.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k)
+          factors.back()[k] =
+              share * optics_[k].scatterers[s].scaled_scattering.v * node.source[s][k];
+      }
+      source_.add_slice(height, node.mu, factors, scratch.source);
+    };
+    scratch.source.assign(source_.slice_size(), 0.0f);
     const int below = node.level / kSourceStep;
-    if (node.on_level()) return source_.slice(below, node.mu, air, aerosol, scratch.source);
+    if (node.on_level()) return slice(below, 1);
     const double low = heights_[kSourceStep * below], high = heights_[kSourceStep * (below + 1)];
     const double part = (node.height - low) / (high - low);
-    const auto times = [](const NodeValues& values, double factor) {
-      NodeValues product;
-      for (std::size_t k = 0; k < 4; ++k) product[k] = factor * values[k];
-      return product;
-    };
-    source_.slice(below, node.mu, times(air, 1 - part), times(aerosol, 1 - part), scratch.source);
-    source_.slice(below + 1, node.mu, times(air, part), times(aerosol, part), scratch.above);
-    for (std::size_t i = 0; i < scratch.source.size(); ++i) scratch.source[i] += scratch.above[i];
+    slice(below, 1 - part);
+    slice(below + 1, part);
   }
 
   kernels::TableNode kernel_node(const std::vector<LevelNode>& nodes, std::size_t index,
                                  const RayPoint& sun_point, Scratch& scratch) const {
     const LevelNode& node = nodes[index];
     kernels::TableNode out{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      out.single[k] = static_cast<float>(optics_[k].air.v * node.beam.air[k]);
-      out.single[4 + k] =
-          static_cast<float>(optics_[k].aerosol_scattering.v * node.beam.aerosol[k]);
-    }
-    if (node.has_source()) {
-      NodeValues air, aerosol;
+    scratch.single.assign(4 * kinds_, 0.0f);
+    for (std::size_t s = 0; s < node.beam.size(); ++s) {
       for (std::size_t k = 0; k < 4; ++k) {
-        air[k] = optics_[k].air.v * node.source.air[k];
-        aerosol[k] = optics_[k].aerosol_scattering_cut.v * node.source.aerosol[k];
+        const Scatterer<0>& scatterer = optics_[k].scatterers[s];
+        const auto kind =
+            static_cast<std::size_t>(tables_.phases.of_constituent[scatterer.constituent]);
+        scratch.single[4 * kind + k] +=
+            static_cast<float>(scatterer.scattering.v * node.beam[s][k]);
       }
-      set_source(node, air, aerosol, scratch);
+    }
+    out.single = scratch.single.data();
+    out.kinds = kinds_;
+    if (node.has_source()) {
+      set_source(node, scratch);
       out.source = scratch.source.data();
       out.blocks = DiffuseSource::kBlocks;
     }
@@ -161,21 +172,25 @@ class ScatteringBuilder {
     return out;
   }
 
-  // All rays that begin at a level, into the texels from `first` on.
-  void scatter(const RayTexels& texels, int level, Table& air, Table& aerosol,
-               std::size_t first) const {
+  // All rays that begin at a level, into the texels from `first` on; those of each further kind
+  // `apart` texels later.
+  void scatter(const RayTexels& texels, int level, Table& rayleigh_like, Table& single,
+               std::size_t first, std::size_t apart) const {
     tbb::parallel_for(0, texels.rows(), [&](int row) {
       const std::size_t at = 4 * (first + static_cast<std::size_t>(row) * texels.row());
-      scatter_row(texels, row, level, &air.rgba[at], &aerosol.rgba[at]);
+      std::vector<float*> out = {&rayleigh_like.rgba[at]};
+      for (std::size_t kind = 1; kind < kinds_; ++kind)
+        out.push_back(&single.rgba[at + 4 * apart * (kind - 1)]);
+      scatter_row(texels, row, level, out.data());
     });
   }
 
-  void scatter_row(const RayTexels& texels, int row, int level, float* air, float* aerosol) const {
+  void scatter_row(const RayTexels& texels, int row, int level, float* const* out) const {
     const TexelRay texel = texel_ray(shells_, texels, row, heights_[level]);
     const std::vector<TexelSun> suns =
         texel_suns(texels, shells_.bottom_radius, texel.sun_point.height);
     const std::size_t cells = suns.size();
-    std::vector<float> mu_s(cells), nu(cells), phase(cells), single(8 * cells),
+    std::vector<float> mu_s(cells), nu(cells), phase(cells), single(4 * kinds_ * cells),
         multiple(16 * cells);
     Scratch scratch;
     const auto mu = static_cast<float>(texel.sun_point.mu);
@@ -183,17 +198,16 @@ class ScatteringBuilder {
     for (std::size_t i = 0; i < cells; ++i) {
       mu_s[i] = static_cast<float>(suns[i].mu_s);
       nu[i] = mu * mu_s[i] + sine * static_cast<float>(suns[i].across);
-      phase[i] = static_cast<float>(
-          shared.rayleigh_phase(tables_.atmosphere.rayleigh.depolarisation, nu[i]));
+      phase[i] = static_cast<float>(shared.rayleigh_phase(tables_.phases.depolarisation, nu[i]));
     }
     const std::vector<LevelNode> nodes = level_path(shells_, optics_, heights_, texel.ray, level);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       kernels::add_node(kernel_node(nodes, i, texel.sun_point, scratch), mu_s.data(), nu.data(),
                         cells, single.data(), multiple.data());
     }
-    kernels::store_cells(single.data(), multiple.data(), phase.data(), cells,
+    kernels::store_cells(single.data(), kinds_, multiple.data(), phase.data(), cells,
                          static_cast<float>(1e3 / texel.ray.length),
-                         static_cast<float>(kDarkestScattering), air, aerosol);
+                         static_cast<float>(kDarkestScattering), out);
   }
 
   const Shells& shells_;
@@ -201,6 +215,7 @@ class ScatteringBuilder {
   AtmosphereTables& tables_;
   std::vector<double> heights_;
   DiffuseSource source_;
+  std::size_t kinds_;  // classes of phase functions
   std::vector<kernels::SunStep> sun_steps_;
   std::vector<std::vector<float>> beam_;  // [level][step][wavelength]
 };

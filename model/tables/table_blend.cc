@@ -6,8 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
-
-#include "model/atmosphere/parameters.h"
+#include <utility>
 
 namespace skyfit {
 namespace {
@@ -26,20 +25,36 @@ bool same_table(const Function& a, const Function& b) {
 void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b) {
   require_same(a.bottom_radius_m == b.bottom_radius_m, "planet.bottom_radius_m");
   require_same(a.top_radius_m == b.top_radius_m, "planet.top_radius_m");
-  require_same(same_table(a.rayleigh.profile, b.rayleigh.profile), "rayleigh.profile");
-  require_same(same_table(a.mie.profile, b.mie.profile), "mie.profile");
-  require_same(a.mie.phase.type == b.mie.phase.type, "mie.phase.type");
-  require_same(a.mie.phase.lobe == b.mie.phase.lobe, "mie.phase.lobe");
-  require_same(same_table(a.mie.phase.table, b.mie.phase.table), "mie.phase");
-  require_same(a.ozone.profile == b.ozone.profile && same_table(a.ozone.table, b.ozone.table),
-               "ozone.profile");
+  require_same(a.constituents.size() == b.constituents.size(), "constituents");
+  for (const Constituent<double>& x : a.constituents) {
+    const Constituent<double>* const found = b.find(x.name);
+    require_same(found != nullptr, x.name);
+    const Constituent<double>& y = *found;
+    require_same(x.amount_type == y.amount_type, x.name + ".amount");
+    require_same(same_table(x.spectrum, y.spectrum), x.name + ".spectrum");
+    require_same(same_table(x.albedo_spectrum, y.albedo_spectrum),
+                 x.name + ".single_scattering_albedo");
+    require_same(x.profile.type == y.profile.type && x.profile.of == y.profile.of &&
+                     x.profile.peak_m == y.profile.peak_m &&
+                     x.profile.half_width_m == y.profile.half_width_m &&
+                     same_table(x.profile.table, y.profile.table),
+                 x.name + ".profile");
+    require_same(x.phase.type == y.phase.type, x.name + ".phase.type");
+    require_same(x.phase.lobe == y.phase.lobe, x.name + ".phase.lobe");
+    require_same(
+        same_table(x.phase.table, y.phase.table) && x.phase.by_wavelength == y.phase.by_wavelength,
+        x.name + ".phase");
+  }
   require_same(same_table(a.ground_spectrum, b.ground_spectrum), "ground.spectrum");
 }
 
-// The same law with its coefficient stated at another wavelength.
-PowerLaw<double> stated_at(const PowerLaw<double>& law, double wavelength_nm) {
-  return {wavelength_nm, law.value * std::pow(wavelength_nm / law.wavelength_nm, -law.exponent),
-          law.exponent};
+// The same with its amount stated at another wavelength.
+Constituent<double> stated_at(Constituent<double> c, double wavelength_nm) {
+  if (c.amount_type == AmountType::kColumn) return c;
+  c.amount *= c.spectrum ? c.spectrum->at(wavelength_nm) / c.spectrum->at(c.wavelength_nm)
+                         : std::pow(wavelength_nm / c.wavelength_nm, -c.angstrom_exponent);
+  c.wavelength_nm = wavelength_nm;
+  return c;
 }
 
 Table interpolated(const Table& a, const Table& b, double share) {
@@ -58,18 +73,24 @@ Atmosphere<double> interpolated_atmosphere(const Atmosphere<double>& a, const At
   require_comparable(a, b);
   if (share <= 0) return a;
   if (share >= 1) return b;
-  Atmosphere<double> end = b, result = a;
-  end.rayleigh.scattering_per_m =
-      stated_at(b.rayleigh.scattering_per_m, a.rayleigh.scattering_per_m.wavelength_nm);
-  end.mie.scattering_per_m =
-      stated_at(b.mie.scattering_per_m, a.mie.scattering_per_m.wavelength_nm);
-  for (const ParameterInfo& info : parameter_table())
-    set_parameter(result, info.id,
-                  std::lerp(get_parameter(a, info.id), get_parameter(end, info.id), share));
-  result.rayleigh.depolarisation =
-      std::lerp(a.rayleigh.depolarisation, b.rayleigh.depolarisation, share);
-  result.rayleigh.site_pressure_hpa =
-      std::lerp(a.rayleigh.site_pressure_hpa, b.rayleigh.site_pressure_hpa, share);
+  Atmosphere<double> result = a;
+  const auto mix = [&](double x, double y) { return std::lerp(x, y, share); };
+  for (Constituent<double>& c : result.constituents) {
+    const Constituent<double> end = stated_at(b.at(c.name), c.wavelength_nm);
+    c.amount = mix(c.amount, end.amount);
+    c.angstrom_exponent = mix(c.angstrom_exponent, end.angstrom_exponent);
+    c.site_pressure_hpa = mix(c.site_pressure_hpa, end.site_pressure_hpa);
+    c.single_scattering_albedo = mix(c.single_scattering_albedo, end.single_scattering_albedo);
+    c.profile.scale_height_m = mix(c.profile.scale_height_m, end.profile.scale_height_m);
+    c.profile.base_m = mix(c.profile.base_m, end.profile.base_m);
+    c.profile.top_m = mix(c.profile.top_m, end.profile.top_m);
+    c.phase.g = mix(c.phase.g, end.phase.g);
+    c.phase.g1 = mix(c.phase.g1, end.phase.g1);
+    c.phase.g2 = mix(c.phase.g2, end.phase.g2);
+    c.phase.weight = mix(c.phase.weight, end.phase.weight);
+    c.phase.depolarisation = mix(c.phase.depolarisation, end.phase.depolarisation);
+  }
+  result.ground_albedo = mix(a.ground_albedo, b.ground_albedo);
   return result;
 }
 
@@ -77,13 +98,16 @@ AtmosphereTables interpolated_tables(const AtmosphereTables& a, const Atmosphere
                                      double share) {
   require_same(a.color.nodes == b.color.nodes, "wavelengths of tables");
   require_same(a.sky_rays.mapping == b.sky_rays.mapping, "sky model of tables");
-  return {interpolated_atmosphere(a.atmosphere, b.atmosphere, share),
+  Atmosphere<double> atmosphere = interpolated_atmosphere(a.atmosphere, b.atmosphere, share);
+  PhaseClasses phases = phase_classes(atmosphere);
+  return {std::move(atmosphere),
+          std::move(phases),
           a.color,
           a.sizes,
           interpolated(a.optical_depth, b.optical_depth, share),
           interpolated(a.irradiance, b.irradiance, share),
           interpolated(a.rayleigh_like, b.rayleigh_like, share),
-          interpolated(a.single_mie, b.single_mie, share),
+          interpolated(a.single, b.single, share),
           interpolated(a.phase, b.phase, share),
           {a.sky_rays.mapping, interpolated(a.sky_rays.air, b.sky_rays.air, share),
            interpolated(a.sky_rays.aerosol, b.sky_rays.aerosol, share)}};

@@ -26,27 +26,17 @@ void mix(const float* __restrict low, const float* __restrict high, float part, 
 }
 
 SKYFIT_CLONES
-void mix_sources(const float* __restrict air_low, const float* __restrict air_high,
-                 const float* __restrict aerosol_low, const float* __restrict aerosol_high,
-                 float part, const float* __restrict air_factor,
-                 const float* __restrict aerosol_factor, std::size_t suns, std::size_t blocks,
-                 float* __restrict out) {
-  float air_near[16], air_far[16], aerosol_near[16], aerosol_far[16];
+void add_source(const float* __restrict low, const float* __restrict high, float part,
+                const float* __restrict factor, std::size_t suns, std::size_t own,
+                std::size_t blocks, float* __restrict out) {
+  float near[16], far[16];
   for (std::size_t i = 0; i < 16; ++i) {
-    air_near[i] = (1 - part) * air_factor[i / 4];
-    air_far[i] = part * air_factor[i / 4];
-    aerosol_near[i] = (1 - part) * aerosol_factor[i / 4];
-    aerosol_far[i] = part * aerosol_factor[i / 4];
+    near[i] = (1 - part) * factor[i / 4];
+    far[i] = part * factor[i / 4];
   }
-  for (std::size_t j = 0; j < suns; ++j) {
-    for (std::size_t b = 0; b < blocks; ++b, aerosol_low += 16, aerosol_high += 16, out += 16) {
-      for (std::size_t i = 0; i < 16; ++i)
-        out[i] = aerosol_near[i] * aerosol_low[i] + aerosol_far[i] * aerosol_high[i];
-      if (b > 0) continue;
-      for (std::size_t i = 0; i < 16; ++i)
-        out[i] += air_near[i] * air_low[i] + air_far[i] * air_high[i];
-      air_low += 16;
-      air_high += 16;
+  for (std::size_t j = 0; j < suns; ++j, out += 16 * blocks) {
+    for (std::size_t b = 0; b < own; ++b, low += 16, high += 16) {
+      for (std::size_t i = 0; i < 16; ++i) out[16 * b + i] += near[i] * low[i] + far[i] * high[i];
     }
   }
 }
@@ -54,9 +44,7 @@ void mix_sources(const float* __restrict air_low, const float* __restrict air_hi
 SKYFIT_CLONES
 void add_node(const TableNode& node, const float* __restrict mu_s, const float* __restrict nu,
               std::size_t cells, float* __restrict single, float* __restrict multiple) {
-  Vector4 air, aerosol;
-  std::memcpy(&air, &node.single[0], sizeof air);
-  std::memcpy(&aerosol, &node.single[4], sizeof aerosol);
+  const std::size_t kinds = node.kinds;
   const float sun_steps = static_cast<float>(node.sun_step_count - 1) / (1 - node.lowest);
   const float beam_steps = static_cast<float>(node.beam_count - 1) / (1 - node.lowest);
   const auto last_beam = static_cast<int>(node.beam_count) - 2;
@@ -88,13 +76,14 @@ void add_node(const TableNode& node, const float* __restrict mu_s, const float* 
       std::memcpy(&low, node.beam + 4 * beam_step[i], sizeof low);
       std::memcpy(&high, node.beam + 4 * beam_step[i] + 4, sizeof high);
       low = lit[i] * (low + beam_part[i] * (high - low));
-      float* to = single + 8 * (begin + i);
-      std::memcpy(&sum, to, sizeof sum);
-      sum += air * low;
-      std::memcpy(to, &sum, sizeof sum);
-      std::memcpy(&sum, to + 4, sizeof sum);
-      sum += aerosol * low;
-      std::memcpy(to + 4, &sum, sizeof sum);
+      float* to = single + 4 * kinds * (begin + i);
+      for (std::size_t kind = 0; kind < kinds; ++kind, to += 4) {
+        Vector4 weight;
+        std::memcpy(&weight, node.single + 4 * kind, sizeof weight);
+        std::memcpy(&sum, to, sizeof sum);
+        sum += weight * low;
+        std::memcpy(to, &sum, sizeof sum);
+      }
     }
     if (node.source == nullptr) continue;
     for (std::size_t i = 0; i < count; ++i) {
@@ -121,20 +110,27 @@ void add_node(const TableNode& node, const float* __restrict mu_s, const float* 
 }
 
 SKYFIT_CLONES
-void store_cells(const float* __restrict single, const float* __restrict multiple,
-                 const float* __restrict phase, std::size_t cells, float scale, float darkest,
-                 float* __restrict rayleigh_like, float* __restrict single_mie) {
+void store_cells(const float* __restrict single, std::size_t kinds,
+                 const float* __restrict multiple, const float* __restrict phase, std::size_t cells,
+                 float scale, float darkest, float* const* out) {
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    float* const values = out[kind];
+    for (std::size_t i = 0; i < cells; ++i) {
+      for (std::size_t k = 0; k < 4; ++k)
+        values[4 * i + k] = scale * single[4 * (kinds * i + kind) + k];
+    }
+  }
   for (std::size_t i = 0; i < cells; ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
       const float* m = multiple + 16 * i + 4 * k;
       const float sum = m[0] + m[1] + m[2] + m[3];
       // The series of the diffuse field may swing below 0 where the field is dark.
-      rayleigh_like[4 * i + k] = scale * (single[8 * i + k] + std::max(sum, 0.0f) / phase[i]);
-      single_mie[4 * i + k] = scale * single[8 * i + 4 + k];
+      out[0][4 * i + k] += scale * std::max(sum, 0.0f) / phase[i];
     }
   }
   // log(m 2^e) = e log 2 + 2 atanh((m - 1) / (m + 1)), m about 1: to the last digits of a float.
-  for (float* values : {rayleigh_like, single_mie}) {
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    float* const values = out[kind];
     for (std::size_t i = 0; i < 4 * cells; ++i) {
       const float x = values[i] > darkest ? values[i] : darkest;
       const auto bits = std::bit_cast<std::int32_t>(x);

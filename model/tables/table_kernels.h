@@ -13,11 +13,10 @@ namespace skyfit::kernels {
 // out[i] = (1 - part) low[i] + part high[i]
 void mix(const float* low, const float* high, float part, std::size_t count, float* out);
 
-// out[sun][block][16] = air + aerosol, each its factor times the mix of its low and high; air has
-// block 0 only; one factor per wavelength.
-void mix_sources(const float* air_low, const float* air_high, const float* aerosol_low,
-                 const float* aerosol_high, float part, const float* air_factor,
-                 const float* aerosol_factor, std::size_t suns, std::size_t blocks, float* out);
+// out[sun][block][16] += factor times the mix of low and high, which have the first `own` of the
+// blocks; one factor per wavelength.
+void add_source(const float* low, const float* high, float part, const float* factor,
+                std::size_t suns, std::size_t own, std::size_t blocks, float* out);
 
 // The cubic through four suns of the grid, at even steps of the cosine.
 struct SunStep {
@@ -41,17 +40,19 @@ struct TableNode {
   std::size_t beam_count;
   const float* source;  // [sun][block][16]: of multiple scattering, weight included; null: none
   std::size_t blocks;
-  std::array<float, 8> single;  // weights of the beam: air, aerosol
+  const float* single;  // [kind][wavelength]: weights of the beam, by who scatters it
+  std::size_t kinds;
 };
 
-// single[cell][8] += weights * beam; multiple[cell][16] += source * (1, c, c^2, c^3), c the cosine
-// of the local azimuth.
+// single[cell][kind][4] += weights * beam; multiple[cell][16] += source * (1, c, c^2, c^3), c the
+// cosine of the local azimuth.
 void add_node(const TableNode& node, const float* mu_s, const float* nu, std::size_t cells,
               float* single, float* multiple);
 
-// The texels of a ray: logarithms of scale * (air + multiple / phase) and of scale * aerosol, at
-// least `darkest` before the logarithm. [cell][wavelength].
-void store_cells(const float* single, const float* multiple, const float* phase, std::size_t cells,
-                 float scale, float darkest, float* rayleigh_like, float* single_mie);
+// The texels of a ray: logarithms of scale * (single of kind 0 + multiple / phase) and of scale *
+// single of each other kind, at least `darkest` before the logarithm. out[kind]:
+// [cell][wavelength].
+void store_cells(const float* single, std::size_t kinds, const float* multiple, const float* phase,
+                 std::size_t cells, float scale, float darkest, float* const* out);
 
 }  // namespace skyfit::kernels

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "model/atmosphere/phase_moments.h"
 #include "model/shared/shared.h"
@@ -29,6 +31,13 @@ struct Between {
     low = std::min(static_cast<int>(x), std::max(size - 2, 0));
     high = std::min(low + 1, size - 1);
     part = x - low;
+  }
+  // The same place in a table that begins so many texels later.
+  Between later(int texels) const {
+    Between there = *this;
+    there.low += texels;
+    there.high += texels;
+    return there;
   }
   int low, high;
   double part;
@@ -78,18 +87,21 @@ struct TableRay {
   }
 
   // From the logarithms of the amplitudes.
-  NodeValues radiance(const NodeValues& rayleigh, const NodeValues& mie) const {
-    const Atmosphere<double>& a = tables.atmosphere;
-    const double rayleigh_phase = shared.rayleigh_phase(a.rayleigh.depolarisation, nu),
-                 mie_phase = aerosol_phase(a.mie.phase, nu);
+  NodeValues radiance(const NodeValues& rayleigh_like, std::span<const NodeValues> single) const {
+    const double rayleigh_phase = shared.rayleigh_phase(tables.phases.depolarisation, nu);
     const double length =
         hits_ground ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
                     : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
                                                       planet.thickness);
     const double light = 1e-3 * length * deep_twilight(sun, kTableLowestSun);
     NodeValues sum;
-    for (std::size_t k = 0; k < 4; ++k)
-      sum[k] = light * (std::exp(rayleigh[k]) * rayleigh_phase + std::exp(mie[k]) * mie_phase);
+    for (std::size_t k = 0; k < 4; ++k) {
+      sum[k] = light * std::exp(rayleigh_like[k]) * rayleigh_phase;
+      for (std::size_t c = 0; c < single.size(); ++c) {
+        const auto phase = phase_at(tables.phases.others[c], tables.color.nodes[k].wavelength_nm);
+        sum[k] += light * std::exp(single[c][k]) * phase_value(phase, nu);
+      }
+    }
     return sum;
   }
 
@@ -181,14 +193,17 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   Between u(sun_coordinate(ray.sun, s.scattering_mu_s), s.scattering_mu_s);
   u.low += first * s.scattering_mu_s;
   u.high += first * s.scattering_mu_s;
-  NodeValues rayleigh{}, mie{};
+  NodeValues rayleigh_like{};
+  std::vector<NodeValues> single(tables.phases.others.size(), NodeValues{});
   for (const double weight : {1 - turn + first, turn - first}) {
-    accumulate(tables.rayleigh_like, u, v, w, weight, rayleigh);
-    accumulate(tables.single_mie, u, v, w, weight, mie);
+    accumulate(tables.rayleigh_like, u, v, w, weight, rayleigh_like);
+    for (std::size_t c = 0; c < single.size(); ++c)
+      accumulate(tables.single, u, v, w.later(static_cast<int>(c) * s.scattering_r), weight,
+                 single[c]);
     u.low += s.scattering_mu_s;
     u.high += s.scattering_mu_s;
   }
-  return ray.radiance(rayleigh, mie);
+  return ray.radiance(rayleigh_like, single);
 }
 
 NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double mu, double mu_s,
@@ -198,10 +213,13 @@ NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double m
   const Between u(sun_coordinate(ray.sun, texels.mu_s), texels.mu_s),
       v(shared.texture_from_unit(ray.azimuth, texels.azimuth), texels.azimuth),
       w = ray.view(texels);
-  NodeValues rayleigh{}, mie{};
-  accumulate(tables.sky_rays.air, u, v, w, 1, rayleigh);
-  accumulate(tables.sky_rays.aerosol, u, v, w, 1, mie);
-  return ray.radiance(rayleigh, mie);
+  NodeValues rayleigh_like{};
+  std::vector<NodeValues> single(tables.phases.others.size(), NodeValues{});
+  accumulate(tables.sky_rays.air, u, v, w, 1, rayleigh_like);
+  for (std::size_t c = 0; c < single.size(); ++c)
+    accumulate(tables.sky_rays.aerosol, u, v, w.later(static_cast<int>(c) * texels.rows()), 1,
+               single[c]);
+  return ray.radiance(rayleigh_like, single);
 }
 
 }  // namespace skyfit

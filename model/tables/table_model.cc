@@ -104,7 +104,7 @@ std::size_t TableModel::prepare(const Atmosphere<double>& atmosphere,
   const std::shared_ptr<const Kept> made = tables_for(atmosphere, wavelengths);
   std::size_t bytes = 0;
   for (const AtmosphereTables& t : made->tables) {
-    for (const Table* table : {&t.optical_depth, &t.irradiance, &t.rayleigh_like, &t.single_mie,
+    for (const Table* table : {&t.optical_depth, &t.irradiance, &t.rayleigh_like, &t.single,
                                &t.phase, &t.sky_rays.air, &t.sky_rays.aerosol})
       bytes += table->rgba.size() * sizeof(float);
   }

@@ -29,9 +29,10 @@ Table make_table(int width, int height, int depth) {
   return table;
 }
 
-SkyRayTables outside_tables(const RayTexels& texels) {
-  const Table table = make_table(texels.mu_s, texels.azimuth, texels.rows());
-  return {SkyRayMapping::kFromOutside, table, table};
+SkyRayTables outside_tables(const RayTexels& texels, const PhaseClasses& phases) {
+  const int classes = static_cast<int>(phases.others.size());
+  return {SkyRayMapping::kFromOutside, make_table(texels.mu_s, texels.azimuth, texels.rows()),
+          make_table(texels.mu_s, texels.azimuth, classes * texels.rows())};
 }
 
 void store(Table& table, int x, int y, const NodeValues& value) {
@@ -39,23 +40,35 @@ void store(Table& table, int x, int y, const NodeValues& value) {
   for (std::size_t k = 0; k < 4; ++k) table.rgba[4 * texel + k] = static_cast<float>(value[k]);
 }
 
+bool is_tabulated(const PhaseFunction<double>& phase) {
+  return phase.type == PhaseType::kTabulated || phase.type == PhaseType::kByWavelength;
+}
+
 // Even steps of the angle, in which the logarithm is piecewise linear.
-Table phase_table(const AerosolPhase<double>& phase) {
+Table phase_table(const PhaseClasses& phases, const ColorRule& color) {
   constexpr int kSteps = 4095;  // of 0.044 degrees
-  if (phase.type != PhaseType::kTabulated) return make_table(1, 1, 1);
-  Table table = make_table(kSteps + 1, 1, 1);
-  for (int i = 0; i <= kSteps; ++i) {
-    const double value = std::log(phase.table->phase(std::numbers::pi * i / kSteps));
-    store(table, i, 0, {value, value, value, value});
+  if (std::ranges::none_of(phases.others, is_tabulated)) return make_table(1, 1, 1);
+  Table table = make_table(kSteps + 1, static_cast<int>(phases.others.size()), 1);
+  for (std::size_t y = 0; y < phases.others.size(); ++y) {
+    if (!is_tabulated(phases.others[y])) continue;
+    for (int i = 0; i <= kSteps; ++i) {
+      NodeValues value;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto phase = phase_at(phases.others[y], color.nodes[k].wavelength_nm);
+        value[k] = std::log(phase.table->phase(std::numbers::pi * i / kSteps));
+      }
+      store(table, i, static_cast<int>(y), value);
+    }
   }
   return table;
 }
 
-NodeOptics optics_of(const Atmosphere<double>& atmosphere, const ColorRule& color) {
+NodeOptics optics_of(const Shells& shells, const Atmosphere<double>& atmosphere,
+                     const ColorRule& color) {
   const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
   NodeOptics optics;
   for (std::size_t k = 0; k < 4; ++k)
-    optics[k] = optics_at<0>(plain, color.nodes[k], kSourceOptions.moments);
+    optics[k] = optics_at<0>(shells, plain, color.nodes[k], kSourceOptions.moments);
   return optics;
 }
 
@@ -73,11 +86,7 @@ void make_optical_depth(const Shells& shells, const NodeOptics& optics, Atmosphe
           shared.mu_from_upward_unit(x / (columns - 1.0), h, shells.bottom_radius, shells.top);
       const PathColumns path = shells.columns_to_top(h, mu);
       NodeValues tau;
-      for (std::size_t k = 0; k < 4; ++k) {
-        tau[k] = optics[k].air.v * path.air.value +
-                 optics[k].aerosol_extinction_true.v * path.aerosol.value +
-                 optics[k].ozone.v * path.ozone.value;
-      }
+      for (std::size_t k = 0; k < 4; ++k) tau[k] = optics[k].optical_depth(path).v;
       store(tables.optical_depth, x, y, tau);
     }
   });
@@ -107,7 +116,8 @@ void make_irradiance(double top, AtmosphereTables& tables) {
 // A model's light on all rays from a height, into the texels from `first` on.
 void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
                    const ColorRule& color, const Shells& shells, const RayTexels& texels,
-                   double height, Table& rayleigh_like, Table& single_mie, std::size_t first) {
+                   double height, const PhaseClasses& phases, Table& rayleigh_like, Table& single,
+                   std::size_t first) {
   std::vector<SkyPoint> points;
   std::vector<double> length_km, nus;
   for (int row = 0; row < texels.rows(); ++row) {
@@ -130,15 +140,16 @@ void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
   }
   const ScatteredLight light = model.scattered_light(atmosphere, color.nodes, points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double air_phase = shared.rayleigh_phase(atmosphere.rayleigh.depolarisation, nus[i]),
-                 aerosol = aerosol_phase(atmosphere.mie.phase, nus[i]);
+    const double air_phase = shared.rayleigh_phase(phases.depolarisation, nus[i]);
     for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
       const auto logarithm = [&](double radiance, double phase) {
         return static_cast<float>(
             std::log(std::max(radiance / (phase * length_km[i]), kDarkestScattering)));
       };
       rayleigh_like.rgba[4 * first + k] = logarithm(light.air[k], air_phase);
-      single_mie.rgba[4 * first + k] = logarithm(light.aerosol[k], aerosol);
+      // A model that can be tabulated has one aerosol at most.
+      const auto phase = phase_at(phases.others[0], color.nodes[k % 4].wavelength_nm);
+      single.rgba[4 * first + k] = logarithm(light.aerosol[k], phase_value(phase, nus[i]));
     }
   }
 }
@@ -151,16 +162,16 @@ void tabulate(const SkyModel& model, const Shells& shells, AtmosphereTables& tab
   const int slices = tables.sizes.scattering_r;
   for (int i = 0; i < slices; ++i) {
     tabulate_rays(model, tables.atmosphere, tables.color, shells, texels,
-                  height_of_row(i, slices, shells.top), tables.rayleigh_like, tables.single_mie,
-                  slice * static_cast<std::size_t>(i));
+                  height_of_row(i, slices, shells.top), tables.phases, tables.rayleigh_like,
+                  tables.single, slice * static_cast<std::size_t>(i));
     progress((i + 1.0) / (slices + 1));
   }
   if (std::optional<SkyRayTables> own = model.sky_rays(tables.atmosphere, tables.color.nodes)) {
     tables.sky_rays = std::move(*own);
   } else {
-    tables.sky_rays = outside_tables(tables.sizes.outside());
+    tables.sky_rays = outside_tables(tables.sizes.outside(), tables.phases);
     tabulate_rays(model, tables.atmosphere, tables.color, shells, tables.sizes.outside(),
-                  shells.top, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
+                  shells.top, tables.phases, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
   }
   progress(1);
 }
@@ -173,14 +184,17 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   tables.atmosphere = atmosphere;
   tables.color = color;
   tables.sizes = sizes;
-  tables.phase = phase_table(atmosphere.mie.phase);
-  const Shells shells = shells_of(atmosphere);
-  const NodeOptics optics =
-      optics_of(model != nullptr ? model->seen(atmosphere) : atmosphere, color);
+  tables.phases = phase_classes(atmosphere);
+  tables.phase = phase_table(tables.phases, color);
+  const Atmosphere<double> effective =
+      model != nullptr ? model->effective_atmosphere(atmosphere) : atmosphere;
+  const Shells shells = shells_of(effective, Keep::kWhatMatters);
+  const NodeOptics optics = optics_of(shells, effective, color);
   const RayTexels texels = sizes.scattering();
   tables.rayleigh_like =
       make_table(texels.mu_s * texels.azimuth, texels.rows(), sizes.scattering_r);
-  tables.single_mie = tables.rayleigh_like;
+  tables.single = make_table(texels.mu_s * texels.azimuth, texels.rows(),
+                             sizes.scattering_r * static_cast<int>(tables.phases.others.size()));
   constexpr double kBefore = 0.15, kScattering = 0.75;  // shares of the time
   const auto of_scattering = [&](double part) {
     if (progress) progress(kBefore + kScattering * part);
@@ -188,7 +202,7 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   if (model != nullptr) {
     tabulate(*model, shells, tables, of_scattering);
   } else {
-    tables.sky_rays = outside_tables(sizes.outside());
+    tables.sky_rays = outside_tables(sizes.outside(), tables.phases);
     make_scattering_tables(shells, optics, tables, of_scattering);
   }
   make_optical_depth(shells, optics, tables);

@@ -10,11 +10,11 @@
 
 #include "model/atmosphere/atmosphere.h"
 #include "model/photometry/photometry.h"
+#include "model/solver/diffuse_source.h"
+#include "model/tables/phase_classes.h"
 #include "model/tables/sky_rays.h"
 
 namespace skyfit {
-
-using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blue to red
 
 // Texels of a table of view rays at one height: rays to the ground and to the sky, suns, azimuths.
 struct RayTexels {
@@ -47,6 +47,7 @@ inline constexpr double kDarkestScattering = 2e-10;
 
 struct AtmosphereTables {
   Atmosphere<double> atmosphere;
+  PhaseClasses phases;
   ColorRule color;
   TableSizes sizes;
   Table optical_depth;  // x: mu, y: r; from a point to the top of the atmosphere (pure number). Not
@@ -63,10 +64,11 @@ struct AtmosphereTables {
   Table rayleigh_like;  // single Rayleigh amplitude + multiple scattering / Rayleigh phase function
                         // (sr^0); light that comes straight from the ground to the eye is not in
                         // it: the renderer draws the ground
-  Table single_mie;     // single aerosol scattering / aerosol phase function (pure number)
-  Table phase;  // x: scattering angle, from 0 to pi; logarithm of a tabulated phase function of
-                // the aerosol (1/sr). One texel, which is not read, for the other kinds
-  SkyRayTables sky_rays;
+  Table single;         // single scattering / phase function (pure number) of the other classes of
+                        // `phases`, one after the other along z
+  Table phase;  // x: scattering angle, from 0 to pi; y: class; logarithm of a tabulated phase
+                // function (1/sr). One texel, which is not read, where there is none
+  SkyRayTables sky_rays;  // `aerosol`: classes one after the other along z as in `single`
 };
 
 // Of the reference's light. Progress in 0..1; may be empty.

@@ -2,7 +2,7 @@
 // The view rays of the scattering tables of model/tables/tables.h.
 #pragma once
 
-#include "model/geometry/ray.h"
+#include "model/atmosphere/shells.h"
 #include "model/tables/tables.h"
 
 namespace skyfit {

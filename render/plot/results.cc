@@ -10,6 +10,7 @@
 
 #include "data_refs/perez_sky.h"
 #include "data_refs/references.h"
+#include "model/atmosphere/derived.h"
 #include "render/plot/evaluate.h"
 
 namespace skyfit::plot {
@@ -74,8 +75,7 @@ std::vector<ComparedSample> hemisphere_samples(const FitOutcome& fit, const FitR
 
 std::string label_of(std::span<const FitOutcome> fits, std::size_t index) {
   const Preset& preset = fits[index].preset;
-  if (fits.size() == 1)
-    return fmt::format("fitted, {}", phase_kind(preset.atmosphere.mie.phase.type));
+  if (fits.size() == 1) return fmt::format("fitted, {}", aerosol_kind(preset.atmosphere));
   const auto same_name = [&](const FitOutcome& other) { return other.preset.name == preset.name; };
   if (std::ranges::count_if(fits, same_name) == 1) return preset.name;
   return fmt::format("{} ({})", preset.name, fits[index].folder);

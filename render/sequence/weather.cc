@@ -19,9 +19,9 @@ constexpr int kMostSteps = 12;  // between two given ones
 // Of the parameter that changes most: its end over its beginning.
 double largest_ratio(const Atmosphere<double>& a, const Atmosphere<double>& b) {
   double largest = 1;
-  for (const ParameterInfo& info : parameter_table()) {
-    if (!has_parameter(a, info.id) || !has_parameter(b, info.id)) continue;
-    const double from = get_parameter(a, info.id), to = get_parameter(b, info.id);
+  for (const Parameter& parameter : parameters_of(a)) {
+    if (!has_parameter(b, parameter)) continue;
+    const double from = get_parameter(a, parameter), to = get_parameter(b, parameter);
     if (!(from > 0 && to > 0)) continue;  // light is linear in what may be 0
     if (std::abs(std::log(to / from)) > std::abs(std::log(largest))) largest = to / from;
   }

@@ -22,7 +22,9 @@ void main() {
     vec4 depth_between = optical_depth_between(start, end, ray.hits_ground);
     Scattering path = scattering_before(whole, exp(-depth_between), scattering(end, nu, ray.hits_ground));
     imageStore(air_means, ivec3(texel, slice), log(max(path.rayleigh_like / d, least)));
-    imageStore(aerosol_means, ivec3(texel, slice), log(max(path.single_mie / d, least)));
+    for (int c = 0; c < kClasses; ++c) {
+      imageStore(aerosol_means, ivec3(texel, slice + c * int(kVolumeSize.z)), log(max(path.single[c] / d, least)));
+    }
     if (texel.x == 0)
       imageStore(extinction_means, ivec2(texel.y, slice), log(max(depth_between / d, least)));
   }

@@ -36,7 +36,13 @@ struct VolumeLight {
 VolumeLight volume_light(ViewRay ray, float d) {
   float slice = slice_coordinate(min(d / longest_path(ray), 1.0));
   vec3 place = vec3(place_in_view(ray, suns[0].xyz, kVolumeView), slice);
-  return VolumeLight(Scattering(d * exp(texture(air_volume, place)), d * exp(texture(aerosol_volume, place))),
+  Scattering light;
+  light.rayleigh_like = texture(air_volume, place);
+  for (int c = 0; c < kClasses; ++c) {
+    // A class keeps to its own slices.
+    light.single[c] = texture(aerosol_volume, vec3(place.xy, in_class(c, max(place.z, 0.5 / kVolumeSize.z))));
+  }
+  return VolumeLight(scaled(exponential(light), d),
                    exp(-d * exp(texture(extinction_volume, place.yz))));
 }
 #endif

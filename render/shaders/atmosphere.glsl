@@ -12,17 +12,21 @@
 layout(binding = 0) uniform sampler2D optical_depth_table;
 layout(binding = 1) uniform sampler2D irradiance_table;
 layout(binding = 2) uniform sampler3D rayleigh_like_table;
-layout(binding = 3) uniform sampler3D single_mie_table;
-layout(binding = 4) uniform sampler2D phase_table;  // logarithm of a tabulated phase function
+layout(binding = 3) uniform sampler3D single_table;  // the classes of phase functions one after the other along z
+layout(binding = 4) uniform sampler2D phase_table;   // logarithm of tabulated phase functions, a class in a row
 
-// The air's depolarisation; g, g1, g2 and weight of a phase function that is not tabulated; scattering in 1/km at h = 0.
-#define ATMOSPHERE_CONSTANTS(HOW) \
-  HOW float depolarisation;       \
-  HOW vec4 phase_parameters;      \
-  HOW vec4 ground_albedo;         \
-  HOW vec4 air_scattering;        \
-  HOW vec4 aerosol_scattering;
+const int kClasses = CLASSES;  // of phase functions but the Rayleigh-like one, model/tables/phase_classes.h
+
+// The Rayleigh-like class's depolarisation; g, g1, g2 and weight of phase functions that are not tabulated (of another
+// Rayleigh phase function its depolarisation).
+#define ATMOSPHERE_CONSTANTS(HOW)       \
+  HOW float depolarisation;             \
+  HOW vec4 phase_parameters[CLASSES];   \
+  HOW vec4 ground_albedo;
 CONSTANTS(0, Atmosphere, ATMOSPHERE_CONSTANTS)
+
+const int kPhaseTypes[CLASSES] = int[CLASSES](PHASE_TYPES);  // PhaseType of model/atmosphere/constituent.h
+const int kLobeTypes[CLASSES] = int[CLASSES](LOBE_TYPES);
 
 const float bottom_km = BOTTOM_KM;
 const float thickness_km = THICKNESS_KM;
@@ -60,15 +64,16 @@ vec4 look_up(sampler2D table, vec2 at) { return texture(table, at); }
 vec4 look_up(sampler3D table, vec3 at) { return texture(table, at); }
 #endif
 
-float aerosol_phase(float nu) {
-#if PHASE_TYPE == 2
-  return two_lobe_phase(LOBE_TYPE, phase_parameters.y, phase_parameters.z, phase_parameters.w, nu);
-#elif PHASE_TYPE == 3
-  float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) * kInversePi, float(textureSize(phase_table, 0).x));
-  return exp(texture(phase_table, vec2(u, 0.5)).x);
-#else
-  return lobe_phase(PHASE_TYPE, phase_parameters.x, nu);
-#endif
+// Of a class, counted from 0 behind the Rayleigh-like one.
+vec4 class_phase(int c, float nu) {
+  vec4 p = phase_parameters[c];
+  if (kPhaseTypes[c] == 2) return vec4(two_lobe_phase(kLobeTypes[c], p.y, p.z, p.w, nu));
+  if (kPhaseTypes[c] == 3 || kPhaseTypes[c] == 5) {
+    float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) * kInversePi, float(textureSize(phase_table, 0).x));
+    return exp(texture(phase_table, vec2(u, (float(c) + 0.5) / float(kClasses))));
+  }
+  if (kPhaseTypes[c] == 4) return vec4(rayleigh_phase(p.x, nu));
+  return vec4(lobe_phase(kPhaseTypes[c], p.x, nu));
 }
 
 float height_coordinate(float h, float size) {
@@ -121,9 +126,40 @@ Place place_along(Place from, float nu, float d) {
                clamp((r0 * from.mu_s + d * nu) / r, -1.0, 1.0));
 }
 
+// Without the phase functions of those that scattered last.
 struct Scattering {
-  vec4 rayleigh_like, single_mie;
+  vec4 rayleigh_like;
+  vec4 single[CLASSES];
 };
+
+Scattering scaled(Scattering s, float factor) {
+  s.rayleigh_like *= factor;
+  for (int c = 0; c < kClasses; ++c) s.single[c] *= factor;
+  return s;
+}
+
+// Of logarithms.
+Scattering exponential(Scattering s) {
+  s.rayleigh_like = exp(s.rayleigh_like);
+  for (int c = 0; c < kClasses; ++c) s.single[c] = exp(s.single[c]);
+  return s;
+}
+
+Scattering between(Scattering a, Scattering b, float share) {
+  a.rayleigh_like = mix(a.rayleigh_like, b.rayleigh_like, share);
+  for (int c = 0; c < kClasses; ++c) a.single[c] = mix(a.single[c], b.single[c], share);
+  return a;
+}
+
+// The place of a class in a texture that holds them one after the other along an axis.
+float in_class(int c, float at) { return (float(c) + at) / float(kClasses); }
+
+Scattering look_up_classes(sampler3D rayleigh_like, sampler3D single, vec3 at) {
+  Scattering s;
+  s.rayleigh_like = look_up(rayleigh_like, at);
+  for (int c = 0; c < kClasses; ++c) s.single[c] = look_up(single, vec3(at.xy, in_class(c, at.z)));
+  return s;
+}
 
 // A whole ray as the tables see it: coordinates of azimuth and sun, 0..1, and the factor of the mean that they hold.
 struct TableRay {
@@ -150,14 +186,16 @@ Scattering scattering(Place from, float nu, bool hits_ground) {
                                      thickness_km),
                    height_coordinate(from.h, scattering_heights));
   vec3 far = near + vec3(1.0 / scattering_size.y, 0.0, 0.0);
-  vec4 rayleigh_like = mix(look_up(rayleigh_like_table, near), look_up(rayleigh_like_table, far), turn - first);
-  vec4 single_mie = mix(look_up(single_mie_table, near), look_up(single_mie_table, far), turn - first);
+  Scattering means = between(look_up_classes(rayleigh_like_table, single_table, near),
+                             look_up_classes(rayleigh_like_table, single_table, far), turn - first);
   // The tables hold logarithms of the mean over the ray.
-  return Scattering(ray.light * exp(rayleigh_like), ray.light * exp(single_mie));
+  return scaled(exponential(means), ray.light);
 }
 
 vec4 radiance(Scattering s, float nu) {
-  return s.rayleigh_like * rayleigh_phase(depolarisation, nu) + s.single_mie * aerosol_phase(nu);
+  vec4 sum = s.rayleigh_like * rayleigh_phase(depolarisation, nu);
+  for (int c = 0; c < kClasses; ++c) sum += s.single[c] * class_phase(c, nu);
+  return sum;
 }
 
 // Both ends as upward rays, so that neither look-up meets the ground.
@@ -171,6 +209,7 @@ vec4 transmittance_between(Place a, Place b, bool downward) { return exp(-optica
 
 // Into a path: what its whole ray gathers less what arrives of the rest beyond its end.
 Scattering scattering_before(Scattering all, vec4 transmittance, Scattering rest) {
-  return Scattering(max(all.rayleigh_like - transmittance * rest.rayleigh_like, 0.0),
-                    max(all.single_mie - transmittance * rest.single_mie, 0.0));
+  all.rayleigh_like = max(all.rayleigh_like - transmittance * rest.rayleigh_like, 0.0);
+  for (int c = 0; c < kClasses; ++c) all.single[c] = max(all.single[c] - transmittance * rest.single[c], 0.0);
+  return all;
 }

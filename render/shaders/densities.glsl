@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Densities of the atmosphere's constituents over height.
+// How much the classes of phase functions scatter over height.
 #include "render/shaders/atmosphere.glsl"
 
-layout(binding = 13) uniform sampler2D densities;  // of the air, of the aerosol, relative to h = 0
+layout(binding = 13) uniform sampler2D scattering_coefficients;  // 1/km; rows: the Rayleigh-like class, then the others
 
-vec2 densities_at(float h) {
-  return texture(densities, vec2(height_coordinate(h, float(textureSize(densities, 0).x)), 0.5)).xy;
+Scattering scattering_at(float h) {
+  float x = height_coordinate(h, float(textureSize(scattering_coefficients, 0).x));
+  Scattering s;
+  s.rayleigh_like = texture(scattering_coefficients, vec2(x, 0.5 / float(kClasses + 1)));
+  for (int c = 0; c < kClasses; ++c)
+    s.single[c] = texture(scattering_coefficients, vec2(x, (float(c) + 1.5) / float(kClasses + 1)));
+  return s;
 }

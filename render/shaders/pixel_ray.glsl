@@ -27,8 +27,6 @@ void pass_constants() {
   atmosphere.depolarisation = depolarisation;
   atmosphere.phase_parameters = phase_parameters;
   atmosphere.ground_albedo = ground_albedo;
-  atmosphere.air_scattering = air_scattering;
-  atmosphere.aerosol_scattering = aerosol_scattering;
   material.grain_phase = grain_phase;
   material.grains_per_km = grains_per_km;
   material.crag_phase = crag_phase;

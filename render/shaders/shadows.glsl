@@ -49,8 +49,6 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
   float step_km = reach / float(kSteps);
   // Jimenez 2014: interleaved gradient noise.
   float begin = fract(52.9829189 * fract(dot(pixel_centre, vec2(0.06711056, 0.00583715))));
-  vec4 air = air_scattering * rayleigh_phase(depolarisation, nu);
-  vec4 aerosol = aerosol_scattering * aerosol_phase(nu);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < kSteps; ++i) {
     float t = (float(i) + begin) * step_km;
@@ -60,9 +58,8 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
     float depth_in_map = place.w - 2.0 * shadow_texel_km[map] * shadow_depth_per_km[map];
     float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, vec4(place.xy, float(map), depth_in_map));
     Place at = place_along(start, nu, t);
-    vec2 density = densities_at(at.h);
     vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);
-    sum += (1.0 - lit) * light * (air * density.x + aerosol * density.y);
+    sum += (1.0 - lit) * light * radiance(scattering_at(at.h), nu);
   }
   return sum * step_km;
 }

@@ -9,7 +9,7 @@ layout(binding = 11) uniform sampler3D sky_ray_aerosol;
 
 const vec3 sky_ray_size = vec3(SKY_RAY_SIZE);
 
-Scattering sky_ray_texels(vec3 at) { return Scattering(look_up(sky_ray_air, at), look_up(sky_ray_aerosol, at)); }
+Scattering sky_ray_texels(vec3 at) { return look_up_classes(sky_ray_air, sky_ray_aerosol, at); }
 
 vec3 texture_from_units(vec3 unit) {
   return 0.5 / sky_ray_size + clamp(unit, vec3(0.0), vec3(1.0)) * (1.0 - 1.0 / sky_ray_size);
@@ -20,8 +20,7 @@ Scattering sky_ray_scattering(Place from, float nu) {
   TableRay ray = table_ray(from, nu, false);
   vec3 at = texture_from_units(vec3(ray.sun, ray.azimuth, 0.0));
   at.z = texture_from_view(from.h, from.mu, false, 0.0, sky_ray_size.z, bottom_km, thickness_km);
-  Scattering means = sky_ray_texels(at);
-  return Scattering(ray.light * exp(means.rayleigh_like), ray.light * exp(means.single_mie));
+  return scaled(exponential(sky_ray_texels(at)), ray.light);
 }
 #elif SKY_RAYS == 1  // Bruneton
 Scattering sky_ray_scattering(Place from, float nu) {
@@ -33,9 +32,7 @@ Scattering sky_ray_scattering(Place from, float nu) {
   float sun = bruneton_unit_from_sun(max(from.mu_s, LOWEST_SUN), LOWEST_SUN, bottom_km, thickness_km);
   near.x = (first + texture_from_unit(clamp(sun, 0.0, 1.0), sky_ray_size.x / kNu)) / kNu;
   Scattering low = sky_ray_texels(near), high = sky_ray_texels(near + vec3(1.0 / kNu, 0.0, 0.0));
-  float dusk = deep_twilight(from.mu_s);
-  return Scattering(dusk * mix(low.rayleigh_like, high.rayleigh_like, turn - first),
-                    dusk * mix(low.single_mie, high.single_mie, turn - first));
+  return scaled(between(low, high, turn - first), deep_twilight(from.mu_s));
 }
 #elif SKY_RAYS == 2  // Bodare
 Scattering sky_ray_scattering(Place from, float nu) {
@@ -44,7 +41,8 @@ Scattering sky_ray_scattering(Place from, float nu) {
       vec3(bodare_unit_from_sun(from.mu_s), view, bodare_unit_from_height(from.h, thickness_km))));
   float dusk = exp(min((from.mu_s - bodare_sun_from_unit(0.0)) * 57.3, 0.0));
   float by_phase = elek_rayleigh_phase(nu) / rayleigh_phase(depolarisation, nu);
-  return Scattering((dusk * by_phase) * texels.rayleigh_like, dusk * texels.single_mie);
+  texels.rayleigh_like *= by_phase;
+  return scaled(texels, dusk);
 }
 #elif SKY_RAYS == 3  // Schafhitzel
 Scattering sky_ray_scattering(Place from, float nu) {
@@ -56,17 +54,19 @@ Scattering sky_ray_scattering(Place from, float nu) {
   const int kSamples = ONEIL_SAMPLES;
   float step_km = distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km) / float(kSamples);
   vec4 whole = optical_depth_past_ground(from.h, from.mu);
-  vec4 air = vec4(0.0), aerosol = vec4(0.0);
+  Scattering sum;
+  sum.rayleigh_like = vec4(0.0);
+  for (int c = 0; c < kClasses; ++c) sum.single[c] = vec4(0.0);
   for (int i = 0; i < kSamples; ++i) {
     Place at = place_along(from, nu, (float(i) + 0.5) * step_km);
     if (ray_hits_ground(at.h, at.mu_s, bottom_km)) continue;
     vec4 to_eye = at.mu < 0.0 ? optical_depth_between(from, at, true)
                               : max(whole - optical_depth_to_top(at.h, at.mu), 0.0);
     vec4 through = exp(-to_eye - optical_depth_past_ground(at.h, at.mu_s));
-    vec2 density = densities_at(at.h);
-    air += density.x * through;
-    aerosol += density.y * through;
+    Scattering here = scattering_at(at.h);
+    sum.rayleigh_like += here.rayleigh_like * through;
+    for (int c = 0; c < kClasses; ++c) sum.single[c] += here.single[c] * through;
   }
-  return Scattering(step_km * air_scattering * air, step_km * aerosol_scattering * aerosol);
+  return scaled(sum, step_km);
 }
 #endif

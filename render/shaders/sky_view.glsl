@@ -35,7 +35,7 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
 #include "render/shaders/sky_rays.glsl"
 #endif
 layout(binding = 7) uniform sampler2D view_air;      // logarithm of the amplitude
-layout(binding = 8) uniform sampler2D view_aerosol;  // the same of single scattering by the aerosol
+layout(binding = 8) uniform sampler2D view_aerosol;  // the same of single scattering by the other classes
 layout(binding = 9) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
 
 struct WholeRay {
@@ -51,9 +51,14 @@ WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
                   optical_depth_past_ground(ray.h, ray.mu));
 #else
   vec2 place = place_in_view(ray, sun, sky_view_size);
-  place.x = (float(i) + place.x) / float(kSuns);
-  return WholeRay(Scattering(exp(texture(view_air, place)), exp(texture(view_aerosol, place))),
-                  texture(view_depth, place));
+  // Pictures of the suns lie side by side, of the first class, then of the next.
+  Scattering light;
+  light.rayleigh_like = texture(view_air, vec2(in_class(0, (float(i) + place.x) / float(kSuns)), place.y));
+  for (int c = 0; c < kClasses; ++c) {
+    light.single[c] = texture(view_aerosol, vec2(in_class(c, (float(i) + place.x) / float(kSuns)), place.y));
+  }
+  return WholeRay(exponential(light),
+                  texture(view_depth, vec2(in_class(0, (float(i) + place.x) / float(kSuns)), place.y)));
 #endif
 }
 #endif

@@ -10,6 +10,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/preset.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 
 namespace skyfit::refs {

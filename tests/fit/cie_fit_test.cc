@@ -10,6 +10,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
+#include "model/registry.h"
 
 namespace skyfit::fit {
 namespace {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "fit/measured.h"
+#include "model/registry.h"
 #include "tests/fit/scans.h"
 #include "tests/fit/synthetic.h"
 

@@ -11,6 +11,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "data_refs/truth.h"
+#include "model/registry.h"
 #include "tests/fit/synthetic.h"
 
 namespace skyfit::fit {

@@ -10,6 +10,7 @@
 
 #include "data_refs/spectra.h"
 #include "model/literature/bodare_update.h"
+#include "model/registry.h"
 #include "model/shared/shared.h"
 #include "tests/model/truth.h"
 

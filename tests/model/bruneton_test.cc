@@ -11,6 +11,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/preset.h"
+#include "model/registry.h"
 #include "model/shared/shared.h"
 #include "model/solver/reference_model.h"
 #include "tests/model/truth.h"

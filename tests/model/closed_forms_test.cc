@@ -11,6 +11,7 @@
 #include "model/literature/nielsen.h"
 #include "model/literature/preetham.h"
 #include "model/photometry/photometry.h"
+#include "model/registry.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "data_refs/spectra.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 
 namespace skyfit {

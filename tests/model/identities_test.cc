@@ -10,6 +10,7 @@
 #include "model/atmosphere/profile.h"
 #include "model/atmosphere/slant_column.h"
 #include "model/numerics/gauss.h"
+#include "model/registry.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
 

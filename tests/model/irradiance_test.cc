@@ -9,6 +9,7 @@
 
 #include "data_refs/spectra.h"
 #include "model/numerics/gauss.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 
 namespace skyfit {

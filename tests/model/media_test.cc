@@ -12,6 +12,7 @@
 #include "model/atmosphere/phase_moments.h"
 #include "model/atmosphere/profile.h"
 #include "model/numerics/gauss.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 
 namespace skyfit {

@@ -9,6 +9,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/preset.h"
+#include "model/registry.h"
 #include "model/tables/table_lookup.h"
 #include "tests/model/truth.h"
 

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "data_refs/spectra.h"
+#include "model/registry.h"
 
 namespace skyfit::truth {
 namespace {

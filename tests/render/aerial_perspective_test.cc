@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "data_refs/spectra.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 #include "model/tables/table_lookup.h"
 #include "tests/render/frame_fixture.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "data_refs/spectra.h"
+#include "model/registry.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
 #include "model/tables/table_lookup.h"

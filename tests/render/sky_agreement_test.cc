@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "data_refs/spectra.h"
+#include "model/registry.h"
 #include "model/sky_model.h"
 #include "render/render.h"
 #include "tests/render/gl_fixture.h"

@@ -20,11 +20,12 @@ GlTexture new_texture(GLenum target) {
 
 }  // namespace
 
-AerialVolume::AerialVolume()
-    : textures_{new_texture(GL_TEXTURE_3D), new_texture(GL_TEXTURE_3D),
+AerialVolume::AerialVolume(int classes)
+    : classes_(classes),
+      textures_{new_texture(GL_TEXTURE_3D), new_texture(GL_TEXTURE_3D),
                 new_texture(GL_TEXTURE_2D)} {
-  for (const std::size_t scattering : {0, 1})
-    glTextureStorage3D(textures_[scattering].id(), 1, GL_RGBA32F, kWidth, kHeight, kDepth);
+  glTextureStorage3D(textures_[0].id(), 1, GL_RGBA32F, kWidth, kHeight, kDepth);
+  glTextureStorage3D(textures_[1].id(), 1, GL_RGBA32F, kWidth, kHeight, classes * kDepth);
   glTextureStorage2D(textures_[2].id(), 1, GL_RGBA32F, kHeight, kDepth);
 }
 

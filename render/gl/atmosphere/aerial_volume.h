@@ -10,7 +10,10 @@ namespace skyfit {
 
 class AerialVolume {
  public:
-  AerialVolume();
+  // `classes` of phase functions but the Rayleigh-like one.
+  explicit AerialVolume(int classes);
+
+  int classes() const { return classes_; }
 
   // Runs the program of aerial_volume.comp, whose blocks and tables are bound.
   void fill(GLuint program) const;
@@ -19,6 +22,7 @@ class AerialVolume {
   void bind(GLuint unit) const;
 
  private:
+  int classes_;
   std::array<GlTexture, 3> textures_;  // two of scattering, one of extinction
 };
 

@@ -10,6 +10,8 @@
 #include <glm/glm.hpp>
 #include <iterator>
 
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
 #include "model/literature/bruneton_tables.h"
 #include "model/literature/oneil.h"
 #include "model/shared/shared.h"
@@ -56,30 +58,41 @@ constexpr double kSkyClass = 0, kGrainlessClass = 0.5, kGrainyClass = 1;
 constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 
 // After those of kAtmosphereReads.
-constexpr GLuint kShadowUnit = 12, kDensityUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
+constexpr GLuint kShadowUnit = 12, kScatteringUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
                  kMaterialUnit = 18;
 
-// Densities of air and aerosol relative to h = 0, over the heights of the tables.
-GlTexture density_texture(const Atmosphere<double>& a) {
-  constexpr int kHeights = 256;
-  const double thickness = a.top_radius_m - a.bottom_radius_m;
-  const auto density = [](const TabulatedProfile& profile, double scale_height, double h) {
-    return profile ? profile->density(h) : std::exp(-h / scale_height);
-  };
-  std::vector<glm::vec2> values;
+// What the classes of phase functions scatter, 1/km, over the heights of the tables; a row each.
+GlTexture scattering_texture(const AtmosphereTables& tables) {
+  constexpr std::size_t kHeights = 256;
+  const Atmosphere<double>& a = tables.atmosphere;
+  const Shells shells = shells_of(a, Keep::kScatterers);
+  const Atmosphere<Dual<0>> plain = seeded<0>(a, {});
+  std::vector<glm::vec4> values(kHeights * tables.phases.count(), glm::vec4(0));
   Shared<double> shared;
-  for (int i = 0; i < kHeights; ++i) {
-    const double h = shared.height_from_unit(i / (kHeights - 1.0), thickness);
-    values.emplace_back(density(a.rayleigh.profile, a.rayleigh.scale_height_m, h),
-                        density(a.mie.profile, a.mie.scale_height_m, h));
+  for (int node = 0; node < 4; ++node) {
+    const Optics<0> optics =
+        true_optics_at(shells, plain, tables.color.nodes[static_cast<std::size_t>(node)]);
+    for (std::size_t i = 0; i < kHeights; ++i) {
+      const double h =
+          shared.height_from_unit(static_cast<double>(i) / (kHeights - 1.0), shells.top);
+      const Densities<0> density = optics.densities(h);
+      for (const Scatterer<0>& s : optics.scatterers) {
+        const auto row = static_cast<std::size_t>(tables.phases.of_constituent[s.constituent]);
+        values[row * kHeights + i][node] +=
+            static_cast<float>(1e3 * s.scattering.v * density[s.profile].v);
+      }
+    }
   }
+  const auto width = static_cast<GLsizei>(kHeights),
+             height = static_cast<GLsizei>(tables.phases.count());
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &id);
   GlTexture texture(id);
-  glTextureStorage2D(id, 1, GL_RG32F, kHeights, 1);
-  glTextureSubImage2D(id, 0, 0, 0, kHeights, 1, GL_RG, GL_FLOAT, values.data());
+  glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
+  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values.data());
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   return texture;
 }
 
@@ -116,17 +129,6 @@ glm::vec4 ground_albedo(const AtmosphereTables& tables) {
   return albedo;
 }
 
-glm::vec4 scattering_per_km(const AtmosphereTables& tables, const PowerLaw<double>& law,
-                            double share) {
-  glm::vec4 values;
-  for (int node = 0; node < 4; ++node) {
-    const double wavelength = tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm;
-    values[node] = static_cast<float>(1e3 * share * law.value *
-                                      std::pow(wavelength / law.wavelength_nm, -law.exponent));
-  }
-  return values;
-}
-
 double thickness_m(const AtmosphereTables& tables) {
   return tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
 }
@@ -161,23 +163,22 @@ void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
   add("optical_depth", tables.optical_depth, graph);
   add("irradiance", tables.irradiance, graph);
   add("rayleigh_like", tables.rayleigh_like, graph);
-  add("single_mie", tables.single_mie, graph);
+  add("single", tables.single, graph);
   add("phase", tables.phase, graph);
   add("sky_ray_air", tables.sky_rays.air, graph);
   add("sky_ray_aerosol", tables.sky_rays.aerosol, graph);
 }
 
 void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
-  const Atmosphere<double>& a = tables.atmosphere;
-  const AerosolPhase<double>& phase = a.mie.phase;
+  std::vector<glm::vec4> parameters;
+  for (const PhaseFunction<double>& phase : tables.phases.others) {
+    parameters.emplace_back(phase.type == PhaseType::kRayleigh ? phase.depolarisation : phase.g,
+                            phase.g1, phase.g2, phase.weight);
+  }
   UniformBlock block(program, "Atmosphere");
-  block.set("depolarisation", a.rayleigh.depolarisation);
-  block.set("phase_parameters", glm::vec4(phase.g, phase.g1, phase.g2, phase.weight));
+  block.set("depolarisation", tables.phases.depolarisation);
+  block.set("phase_parameters", std::span<const glm::vec4>(parameters));
   block.set("ground_albedo", ground_albedo(tables));
-  block.set("air_scattering",
-            scattering_per_km(tables, a.rayleigh.scattering_per_m,
-                              a.rayleigh.site_pressure_hpa / kStandardPressureHpa));
-  block.set("aerosol_scattering", scattering_per_km(tables, a.mie.scattering_per_m, 1));
   block.bind(buffers);
 }
 
@@ -207,17 +208,24 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   tables_.sizes = tables.sizes;
   tables_.sky_rays.mapping = tables.sky_rays.mapping;
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
-  densities_ = density_texture(tables.atmosphere);
+  tables_.phases = tables.phases;
+  scattering_coefficients_ = scattering_texture(tables);
 }
 
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
   const Atmosphere<double>& a = tables.atmosphere;
-  const AerosolPhase<double>& phase = a.mie.phase;
   const TableSizes& s = tables.sizes;
+  std::vector<int> phase_types, lobe_types;
+  for (const PhaseFunction<double>& phase : tables.phases.others) {
+    phase_types.push_back(static_cast<int>(phase.type));
+    lobe_types.push_back(static_cast<int>(phase.lobe));
+  }
   const glm::ivec3 sky_view = sky_view_size(s);
   const Table& sky_rays = tables.sky_rays.air;
-  return {fmt::format("PHASE_TYPE {}", static_cast<int>(phase.type)),
-          fmt::format("LOBE_TYPE {}", static_cast<int>(phase.lobe)),
+  const int classes = static_cast<int>(tables.phases.others.size());
+  return {fmt::format("CLASSES {}", classes),
+          fmt::format("PHASE_TYPES {}", fmt::join(phase_types, ", ")),
+          fmt::format("LOBE_TYPES {}", fmt::join(lobe_types, ", ")),
           fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
           fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
           fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
@@ -268,8 +276,10 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
 
 void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {
   const glm::ivec3 size = sky_view_size(tables_.sizes);
+  const int suns = options.second_sun ? 2 : 1,
+            classes = static_cast<int>(tables_.phases.others.size());
   for (const std::string& target : kSkyViewWrites)
-    graph.add_target(target, GL_RGBA32F, size.x * (options.second_sun ? 2 : 1), size.y + size.z);
+    graph.add_target(target, GL_RGBA32F, size.x * suns * classes, size.y + size.z);
 }
 
 void AtmospherePass::draw_triangle(GLuint program) const {
@@ -285,7 +295,8 @@ void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
 }
 
 void AtmospherePass::fill_volume(const AtmosphereView& view) {
-  if (!volume_) volume_.emplace();
+  const int classes = static_cast<int>(tables_.phases.others.size());
+  if (!volume_ || volume_->classes() != classes) volume_.emplace(classes);
   Defined defined = defined_by(view.options);
   // It subtracts neighbouring points of the tables.
   if (device_ == GraphicsDevice::kGpu) defined.push_back("EXACT_FILTER");
@@ -326,7 +337,7 @@ void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_m
   if (view.shadows != nullptr) {
     shadow_maps.bind(*view.shadows, grainy, kShadowUnit, blocks_);
   }
-  glBindTextureUnit(kDensityUnit, densities_.id());
+  glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
   if (view.options.clouds) {
     if (!clouds_) clouds_.emplace();
     clouds_->bind(*view.options.clouds, sky, kCloudUnit, blocks_);

@@ -30,9 +30,9 @@ namespace skyfit {
 // The texture units of render/shaders/atmosphere.glsl, pixel_light.glsl, sky_view.glsl and
 // sky_rays.glsl.
 inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance", "rayleigh_like",
-                                                     "single_mie", "phase"};
+                                                     "single", "phase"};
 inline const std::vector<std::string> kAtmosphereReads = {
-    "optical_depth", "irradiance", "rayleigh_like", "single_mie", "phase",       "gbuffer",
+    "optical_depth", "irradiance", "rayleigh_like", "single",     "phase",       "gbuffer",
     "depth",         "view_air",   "view_aerosol",  "view_depth", "sky_ray_air", "sky_ray_aerosol"};
 
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",
@@ -107,7 +107,7 @@ class AtmospherePass {
   AtmosphereTables tables_;  // without the tables' values
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
   GlVertexArray empty_;
-  GlTexture densities_;                 // over height
+  GlTexture scattering_coefficients_;   // over height
   std::optional<AerialVolume> volume_;  // made when first used
   std::optional<Clouds> clouds_;
   UniformBuffers blocks_;

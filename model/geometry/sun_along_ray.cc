@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/geometry/sky_geometry.h"
+#include "model/geometry/sun_along_ray.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/geometry/ray.h"
-#include "model/sky_model.h"
+#include "model/geometry/sky_point.h"
 
 namespace skyfit {
 

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// One constituent of an atmosphere: molecules, an aerosol, a gas that absorbs. Its optical
+// properties at wavelength lambda and height h are
+//   extinction(h) = extinction(lambda) rho(h), scattering(h) = scattering(lambda) rho(h),
+// with a relative density rho that the profile gives, 0 <= rho <= 1 for all kinds but tables.
+// Lengths in metres, coefficients in 1/m, wavelengths in nm, heights from the bottom radius.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "model/atmosphere/linear_profile.h"
+#include "model/atmosphere/spectrum_table.h"
+#include "model/atmosphere/tabulated_phase.h"
+#include "model/numerics/dual.h"
+
+namespace skyfit {
+
+// The first two numbers are those of lobe_phase() in model/shared/phase.glsl.
+enum class PhaseType {
+  kCornetteShanks = 0,
+  kHenyeyGreenstein = 1,
+  kTwoLobe = 2,
+  kTabulated = 3,
+  kRayleigh = 4,
+  kByWavelength = 5,
+};
+
+// All forms integrate to 1 over the sphere, g > 0 scatters forward. kTwoLobe: weight P(g1) +
+// (1 - weight) P(g2) with P of the type `lobe`.
+template <class T>
+struct PhaseFunction {
+  PhaseType type = PhaseType::kCornetteShanks;
+  T g{0.76};                                           // one lobe only
+  T g1{0.8}, g2{0.3}, weight{0.5};                     // two lobes only; weight is that of g1
+  PhaseType lobe = PhaseType::kCornetteShanks;         // or kHenyeyGreenstein
+  double depolarisation = 0;                           // kRayleigh: of natural light scattered at a
+                                                       // right angle; 0.0279 for dry air
+  std::shared_ptr<const TabulatedPhase> table;         // kTabulated only
+  std::shared_ptr<const SpectralPhase> by_wavelength;  // kByWavelength only
+  bool operator==(const PhaseFunction&) const = default;
+};
+
+// "one lobe", "two lobes", "a tabulated phase function" or "Rayleigh's phase function".
+std::string_view phase_kind(PhaseType type);
+
+enum class ProfileType {
+  kExponential,  // exp(-h / scale_height)
+  kTent,         // 0 at peak - half_width, 1 at the peak, 0 at peak + half_width
+  kLayer,        // 1 from base to top, with edges that are kLayerEdge of the thickness wide
+  kTabulated,    // linear between heights, 0 above the last
+  kSameAs        // that of another constituent
+};
+
+// A layer's density rises from 0 to 1 linearly over this share of its thickness, centred at the
+// base, and falls at the top in the same way: its column is top - base, and depends smoothly on
+// both.
+inline constexpr double kLayerEdge = 0.05;
+
+using TabulatedProfile = std::shared_ptr<const LinearProfile>;
+
+template <class T>
+struct VerticalProfile {
+  ProfileType type = ProfileType::kExponential;
+  T scale_height_m{8000.0};                   // kExponential
+  T base_m{0.0}, top_m{1000.0};               // kLayer
+  double peak_m = 25e3, half_width_m = 15e3;  // kTent
+  TabulatedProfile table;                     // kTabulated
+  std::string of;                             // kSameAs: a constituent with a profile of its own
+  bool operator==(const VerticalProfile&) const = default;
+};
+
+// What the number `amount` of a constituent is.
+enum class AmountType {
+  kScattering,    // scattering coefficient where the density is 1, 1/m, at `wavelength_nm`
+  kExtinction,    // extinction coefficient there, 1/m
+  kOpticalDepth,  // vertical optical depth (of extinction), a pure number
+  kColumn,        // vertical column of ozone in Dobson units; its absorption is that of the
+                  // tabulated cross section of model/photometry/photometry.h
+};
+
+inline constexpr double kStandardPressureHpa = 1013.25;
+
+template <class T>
+struct Constituent {
+  std::string name;
+  AmountType amount_type = AmountType::kScattering;
+  T amount{};
+  double wavelength_nm = 550;  // of the amount; not for a column
+  // How coefficients depend on wavelength: (lambda / wavelength_nm)^-angstrom_exponent, or a table
+  // over its value at wavelength_nm.
+  T angstrom_exponent{};
+  std::shared_ptr<const SpectrumTable> spectrum;
+  // The coefficient is that of the standard pressure and goes as the pressure of the site.
+  double site_pressure_hpa = kStandardPressureHpa;
+  T single_scattering_albedo{1.0};                       // scattering / extinction; 0: an absorber
+  std::shared_ptr<const SpectrumTable> albedo_spectrum;  // in its place
+  VerticalProfile<T> profile;
+  PhaseFunction<T> phase;  // of one that scatters
+  bool operator==(const Constituent&) const = default;
+};
+
+// "rayleigh": dry air, 1.216e-5 / m at 550 nm with the exponent 4.08 and a scale height of 8 km.
+template <class T>
+Constituent<T> standard_rayleigh() {
+  Constituent<T> c;
+  c.name = "rayleigh";
+  c.amount = T(1.216e-5);
+  c.angstrom_exponent = T(4.08);
+  c.phase.type = PhaseType::kRayleigh;
+  return c;
+}
+
+// "mie": one lobe of aerosol with a scale height of 1.2 km (Bruneton & Neyret 2008).
+template <class T>
+Constituent<T> standard_mie() {
+  Constituent<T> c;
+  c.name = "mie";
+  c.amount = T(2.2e-5);
+  c.angstrom_exponent = T(1.3);
+  c.single_scattering_albedo = T(0.9);
+  c.profile.scale_height_m = T(1200.0);
+  return c;
+}
+
+// "ozone": 300 DU in a tent of 10 to 40 km.
+template <class T>
+Constituent<T> standard_ozone() {
+  Constituent<T> c;
+  c.name = "ozone";
+  c.amount_type = AmountType::kColumn;
+  c.amount = T(300.0);
+  c.single_scattering_albedo = T(0.0);
+  c.profile.type = ProfileType::kTent;
+  return c;
+}
+
+// Whether any of its extinction is scattering.
+template <class T>
+bool scatters(const Constituent<T>& c) {
+  return c.amount_type != AmountType::kColumn &&
+         (c.albedo_spectrum || value_of(c.single_scattering_albedo) > 0);
+}
+
+}  // namespace skyfit

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/atmosphere/derived.h"
+
+#include <cmath>
+
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
+#include "model/atmosphere/phase_moments.h"
+#include "model/atmosphere/profile.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kGreen = 550;  // nm
+
+bool is_molecular(const Constituent<double>& c) { return c.phase.type == PhaseType::kRayleigh; }
+
+double depth_of_scatterers(const Atmosphere<double>& atmosphere, bool molecular) {
+  double sum = 0;
+  for (const Constituent<double>& c : atmosphere.constituents) {
+    if (scatters(c) && is_molecular(c) == molecular)
+      sum += vertical_optical_depth(atmosphere, c, kGreen, 0);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double vertical_optical_depth(const Atmosphere<double>& atmosphere,
+                              const Constituent<double>& constituent, double wavelength_nm,
+                              double ozone_cross_section_m2) {
+  const VerticalProfile<double>& profile = constituent.profile.type == ProfileType::kSameAs
+                                               ? atmosphere.at(constituent.profile.of).profile
+                                               : constituent.profile;
+  const double column = Profile(profile).vertical_column().value;
+  return coefficients_at<0>(with_scalar<Dual<0>>(constituent), Dual<0>(column),
+                            {wavelength_nm, ozone_cross_section_m2})
+             .extinction.v *
+         column;
+}
+
+double aerosol_optical_depth(const Atmosphere<double>& atmosphere) {
+  return depth_of_scatterers(atmosphere, false);
+}
+
+double rayleigh_optical_depth(const Atmosphere<double>& atmosphere) {
+  return depth_of_scatterers(atmosphere, true);
+}
+
+const Constituent<double>* main_aerosol(const Atmosphere<double>& atmosphere) {
+  const Constituent<double>* first = nullptr;
+  for (const Constituent<double>& c : atmosphere.constituents) {
+    if (!scatters(c) || is_molecular(c)) continue;
+    if (c.name == "mie") return &c;
+    if (first == nullptr) first = &c;
+  }
+  return first;
+}
+
+double mean_cosine(const PhaseFunction<double>& phase) {
+  return phase_moments(phase_at(phase, kGreen), 2)[1];
+}
+
+double aerosol_mean_cosine(const Atmosphere<double>& atmosphere) {
+  const Constituent<double>* const aerosol = main_aerosol(atmosphere);
+  return aerosol == nullptr ? 0 : mean_cosine(aerosol->phase);
+}
+
+std::string_view aerosol_kind(const Atmosphere<double>& atmosphere) {
+  const Constituent<double>* const aerosol = main_aerosol(atmosphere);
+  return aerosol == nullptr ? "no aerosol" : phase_kind(aerosol->phase.type);
+}
+
+double standard_pressure_hpa(double elevation_m) {
+  return kStandardPressureHpa * std::pow(1 - 2.25577e-5 * elevation_m, 5.25588);
+}
+
+void set_site_pressure(Atmosphere<double>& atmosphere, double pressure_hpa) {
+  for (Constituent<double>& c : atmosphere.constituents) {
+    if (is_molecular(c)) c.site_pressure_hpa = pressure_hpa;
+  }
+}
+
+}  // namespace skyfit

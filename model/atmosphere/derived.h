@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quantities of the literature that follow from an atmosphere's constituents. Aerosol: whatever
+// scatters with another phase function than Rayleigh's.
+#pragma once
+
+#include <string_view>
+
+#include "model/atmosphere/atmosphere.h"
+
+namespace skyfit {
+
+// Vertical optical depth of extinction from h = 0 to infinity; of ozone with this cross section.
+double vertical_optical_depth(const Atmosphere<double>& atmosphere,
+                              const Constituent<double>& constituent, double wavelength_nm,
+                              double ozone_cross_section_m2);
+
+// Of all of them together at 550 nm.
+double aerosol_optical_depth(const Atmosphere<double>& atmosphere);
+double rayleigh_optical_depth(const Atmosphere<double>& atmosphere);
+
+// The aerosol that reports speak of where they speak of one: "mie", or the first; null: none.
+const Constituent<double>* main_aerosol(const Atmosphere<double>& atmosphere);
+
+// Mean cosine of the scattering angle of a phase function at 550 nm. That of Cornette & Shanks
+// 1992, eq. 9, is not g: <cos> = g 3 (4 + g^2) / (5 (2 + g^2)).
+double mean_cosine(const PhaseFunction<double>& phase);
+
+// Of the main aerosol; 0 where there is none.
+double aerosol_mean_cosine(const Atmosphere<double>& atmosphere);
+
+// In words, the phase function of the main aerosol: "one lobe", "no aerosol".
+std::string_view aerosol_kind(const Atmosphere<double>& atmosphere);
+
+// Of the standard atmosphere (ISO 2533) at a height above the sea, metres, below 11 km.
+double standard_pressure_hpa(double elevation_m);
+
+// Of every constituent with Rayleigh's phase function.
+void set_site_pressure(Atmosphere<double>& atmosphere, double pressure_hpa);
+
+}  // namespace skyfit

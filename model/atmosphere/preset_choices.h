@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The names by which a preset calls the kinds of phase functions and profiles.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "model/atmosphere/constituent.h"
+#include "model/base/preset_reader.h"
+
+namespace skyfit {
+
+template <class Enum>
+struct Named {
+  std::string_view name;
+  Enum value;
+};
+
+inline constexpr std::array<Named<PhaseType>, 6> kPhaseTypes = {
+    {{"cornette-shanks", PhaseType::kCornetteShanks},
+     {"henyey-greenstein", PhaseType::kHenyeyGreenstein},
+     {"two-lobe", PhaseType::kTwoLobe},
+     {"tabulated", PhaseType::kTabulated},
+     {"rayleigh", PhaseType::kRayleigh},
+     {"tabulated-by-wavelength", PhaseType::kByWavelength}}};
+inline constexpr std::array<Named<PhaseType>, 2> kLobeTypes = {kPhaseTypes[0], kPhaseTypes[1]};
+inline constexpr std::array<Named<ProfileType>, 5> kProfileTypes = {
+    {{"exponential", ProfileType::kExponential},
+     {"tent", ProfileType::kTent},
+     {"layer", ProfileType::kLayer},
+     {"tabulated", ProfileType::kTabulated},
+     {"same-as", ProfileType::kSameAs}}};
+
+template <class Enum, std::size_t N>
+Enum read_choice(const PresetReader& object, std::string_view field,
+                 const std::array<Named<Enum>, N>& choices) {
+  const std::string text = object.text(field);
+  std::string names;
+  for (const auto& choice : choices) {
+    if (choice.name == text) return choice.value;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", choice.name);
+  }
+  object.fail_value(field, "one of " + names);
+}
+
+template <class Enum, std::size_t N>
+std::string_view name_of(Enum value, const std::array<Named<Enum>, N>& choices) {
+  for (const auto& choice : choices) {
+    if (choice.value == value) return choice.name;
+  }
+  throw std::invalid_argument("an enumerator without a name");
+}
+
+}  // namespace skyfit

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/atmosphere/preset_constituents.h"
+
+#include "model/atmosphere/preset_choices.h"
+
+namespace skyfit {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct AmountField {
+  AmountType type;
+  std::string_view name;
+};
+constexpr std::array<AmountField, 4> kAmounts = {{{AmountType::kScattering, "scattering_per_m"},
+                                                  {AmountType::kExtinction, "extinction_per_m"},
+                                                  {AmountType::kOpticalDepth, "optical_depth"},
+                                                  {AmountType::kColumn, "column_du"}}};
+constexpr std::string_view kAmountNames =
+    "one of scattering_per_m, extinction_per_m, optical_depth, column_du";
+
+std::string_view amount_name(AmountType type) {
+  for (const AmountField& field : kAmounts) {
+    if (field.type == type) return field.name;
+  }
+  throw std::invalid_argument("an enumerator without a name");
+}
+
+std::shared_ptr<const SpectrumTable> read_spectrum(const PresetReader& object,
+                                                   const PresetTables& tables,
+                                                   const TableFormat& format) {
+  if (object.text("type") != kTabulated) object.fail_value("type", kTabulated);
+  return tables.read_with(object, format, [&](const TwoColumns& columns) {
+    return std::make_shared<const SpectrumTable>(columns, format);
+  });
+}
+
+void read_amount(const PresetReader& object, const PresetTables& tables, Constituent<double>& c) {
+  const AmountField* found = nullptr;
+  for (const AmountField& field : kAmounts) {
+    if (!object.has(field.name)) continue;
+    if (found != nullptr) object.fail_value(field.name, "no other amount beside it");
+    found = &field;
+  }
+  if (found == nullptr) object.fail_missing(kAmountNames);
+  c.amount_type = found->type;
+  if (c.amount_type == AmountType::kColumn) {
+    if (object.has("absorber") && object.text("absorber") != "ozone")
+      object.fail_value("absorber", "ozone, the only gas whose cross section is known");
+    c.amount = object.number(found->name);
+    c.single_scattering_albedo = 0;
+    return;
+  }
+  const PresetReader law = object.object(found->name);
+  law.expect_only({"wavelength_nm", "value", "exponent", "spectrum"});
+  c.wavelength_nm = law.number("wavelength_nm");
+  c.amount = law.number("value");
+  if (!law.has("spectrum")) {
+    c.angstrom_exponent = law.number("exponent");
+  } else if (law.has("exponent")) {
+    law.fail_value("exponent", "no exponent beside a spectrum");
+  } else {
+    c.spectrum = read_spectrum(law.object("spectrum"), tables, kShapeFormat);
+  }
+}
+
+void read_albedo(const PresetReader& object, const PresetTables& tables, Constituent<double>& c) {
+  constexpr std::string_view kField = "single_scattering_albedo";
+  if (!object.has(kField)) return;
+  if (object.has_object(kField)) {
+    c.albedo_spectrum = read_spectrum(object.object(kField), tables, kAlbedoFormat);
+  } else {
+    c.single_scattering_albedo = object.number(kField);
+  }
+}
+
+VerticalProfile<double> read_profile(const PresetReader& object, const PresetTables& tables) {
+  VerticalProfile<double> profile;
+  profile.type = read_choice(object, "type", kProfileTypes);
+  switch (profile.type) {
+    case ProfileType::kExponential:
+      object.expect_only({"type", "scale_height_m"});
+      profile.scale_height_m = object.number("scale_height_m");
+      break;
+    case ProfileType::kTent:
+      object.expect_only({"type", "peak_m", "half_width_m"});
+      profile.peak_m = object.number("peak_m");
+      profile.half_width_m = object.number("half_width_m");
+      break;
+    case ProfileType::kLayer:
+      object.expect_only({"type", "base_m", "top_m"});
+      profile.base_m = object.number("base_m");
+      profile.top_m = object.number("top_m");
+      break;
+    case ProfileType::kTabulated:
+      profile.table = tables.read<LinearProfile>(object, kProfileFormat);
+      break;
+    case ProfileType::kSameAs:
+      object.expect_only({"type", "of"});
+      profile.of = object.text("of");
+      break;
+  }
+  return profile;
+}
+
+std::shared_ptr<const SpectralPhase> read_spectral_phase(const PresetReader& object) {
+  object.expect_only({"type", "wavelength_nm", "scattering_angle_deg", "phase_per_sr"});
+  const std::vector<double> angles = object.numbers("scattering_angle_deg");
+  std::vector<std::shared_ptr<const TabulatedPhase>> phases;
+  for (const std::vector<double>& values : object.rows("phase_per_sr")) {
+    phases.push_back(object.complaining([&] {
+      return std::make_shared<const TabulatedPhase>(TwoColumns{angles, values});
+    }));
+  }
+  return object.complaining([&] {
+    return std::make_shared<const SpectralPhase>(object.numbers("wavelength_nm"),
+                                                 std::move(phases));
+  });
+}
+
+ordered_json spectrum_to_json(const SpectrumTable& spectrum, const TableFormat& format) {
+  return table_to_json(spectrum.table(), format);
+}
+
+ordered_json amount_to_json(const Constituent<double>& c) {
+  if (c.amount_type == AmountType::kColumn) return c.amount;
+  ordered_json law = {{"wavelength_nm", c.wavelength_nm}, {"value", c.amount}};
+  if (c.spectrum) {
+    law["spectrum"] = spectrum_to_json(*c.spectrum, kShapeFormat);
+  } else {
+    law["exponent"] = c.angstrom_exponent;
+  }
+  return law;
+}
+
+ordered_json to_json(const VerticalProfile<double>& profile) {
+  const std::string_view type = name_of(profile.type, kProfileTypes);
+  switch (profile.type) {
+    case ProfileType::kExponential:
+      return {{"type", type}, {"scale_height_m", profile.scale_height_m}};
+    case ProfileType::kTent:
+      return {{"type", type}, {"peak_m", profile.peak_m}, {"half_width_m", profile.half_width_m}};
+    case ProfileType::kLayer:
+      return {{"type", type}, {"base_m", profile.base_m}, {"top_m", profile.top_m}};
+    case ProfileType::kTabulated:
+      return table_to_json(profile.table->table(), kProfileFormat);
+    case ProfileType::kSameAs:
+      return {{"type", type}, {"of", profile.of}};
+  }
+  throw std::invalid_argument("an enumerator without a name");
+}
+
+ordered_json to_json(const PhaseFunction<double>& phase) {
+  const std::string_view type = name_of(phase.type, kPhaseTypes);
+  switch (phase.type) {
+    case PhaseType::kRayleigh:
+      return {{"type", type}, {"depolarisation", phase.depolarisation}};
+    case PhaseType::kTabulated:
+      return table_to_json(phase.table->table(), kPhaseFormat);
+    case PhaseType::kTwoLobe:
+      return {{"type", type},
+              {"lobe", name_of(phase.lobe, kLobeTypes)},
+              {"g1", phase.g1},
+              {"g2", phase.g2},
+              {"weight", phase.weight}};
+    case PhaseType::kByWavelength: {
+      ordered_json rows = ordered_json::array();
+      const auto& phases = phase.by_wavelength->phases();
+      for (const auto& table : phases) rows.push_back(table->table().y);
+      return {{"type", type},
+              {"wavelength_nm", phase.by_wavelength->wavelengths_nm()},
+              {"scattering_angle_deg", phases.front()->table().x},
+              {"phase_per_sr", std::move(rows)}};
+    }
+    default:
+      return {{"type", type}, {"g", phase.g}};
+  }
+}
+
+}  // namespace
+
+PhaseFunction<double> read_phase(const PresetReader& object, const PresetTables& tables) {
+  PhaseFunction<double> phase;
+  phase.type = read_choice(object, "type", kPhaseTypes);
+  switch (phase.type) {
+    case PhaseType::kTabulated:
+      phase.table = tables.read<TabulatedPhase>(object, kPhaseFormat);
+      break;
+    case PhaseType::kByWavelength:
+      phase.by_wavelength = read_spectral_phase(object);
+      break;
+    case PhaseType::kRayleigh:
+      object.expect_only({"type", "depolarisation"});
+      if (object.has("depolarisation")) phase.depolarisation = object.number("depolarisation");
+      break;
+    case PhaseType::kTwoLobe:
+      object.expect_only({"type", "lobe", "g1", "g2", "weight"});
+      if (object.has("lobe")) phase.lobe = read_choice(object, "lobe", kLobeTypes);
+      phase.g1 = object.number("g1");
+      phase.g2 = object.number("g2");
+      phase.weight = object.number("weight");
+      break;
+    default:
+      object.expect_only({"type", "g"});
+      phase.g = object.number("g");
+  }
+  return phase;
+}
+
+Constituent<double> read_constituent(const PresetReader& object, const PresetTables& tables) {
+  object.expect_only({"name", "note", "scattering_per_m", "extinction_per_m", "optical_depth",
+                      "column_du", "absorber", "site_pressure_hpa", "single_scattering_albedo",
+                      "profile", "phase"});
+  Constituent<double> c;
+  c.name = object.text("name");
+  read_amount(object, tables, c);
+  read_albedo(object, tables, c);
+  if (object.has("site_pressure_hpa")) c.site_pressure_hpa = object.number("site_pressure_hpa");
+  c.profile = read_profile(object.object("profile"), tables);
+  if (scatters(c)) {
+    c.phase = read_phase(object.object("phase"), tables);
+  } else if (object.has("phase")) {
+    object.fail_value("phase", "no phase function of what does not scatter");
+  }
+  return c;
+}
+
+ordered_json constituent_to_json(const Constituent<double>& c) {
+  ordered_json object = {{"name", c.name},
+                         {std::string(amount_name(c.amount_type)), amount_to_json(c)}};
+  if (c.amount_type == AmountType::kColumn) {
+    object["absorber"] = "ozone";
+  } else if (c.albedo_spectrum) {
+    object["single_scattering_albedo"] = spectrum_to_json(*c.albedo_spectrum, kAlbedoFormat);
+  } else {
+    object["single_scattering_albedo"] = c.single_scattering_albedo;
+  }
+  if (c.site_pressure_hpa != kStandardPressureHpa)
+    object["site_pressure_hpa"] = c.site_pressure_hpa;
+  object["profile"] = to_json(c.profile);
+  if (scatters(c)) object["phase"] = to_json(c.phase);
+  return object;
+}
+
+}  // namespace skyfit

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/atmosphere/shells.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace skyfit {
+
+PathColumns Shells::columns_to_top(double height, double mu) const {
+  PathColumns c;
+  for (const Profile& profile : profiles)
+    c.push_back(profile.column_to_top(bottom_radius, height, mu, top));
+  return c;
+}
+
+Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Parameter> derivatives) {
+  Shells shells{a.bottom_radius_m, a.top_radius_m - a.bottom_radius_m, {}, {}, {}};
+  const auto matters = [&](const Constituent<double>& c) {
+    if (keep != Keep::kWhatMatters) return keep == Keep::kAll || scatters(c);
+    return c.amount > 0 || std::ranges::any_of(derivatives, [&](const Parameter& p) {
+             return p.constituent() == c.name;
+           });
+  };
+  shells.profile_of.assign(a.constituents.size(), Shells::kNone);
+  const auto add = [&](std::size_t i) {
+    if (shells.profile_of[i] != Shells::kNone) return;
+    shells.profile_of[i] = static_cast<int>(shells.profiles.size());
+    shells.profiles.emplace_back(a.constituents[i].profile);
+    shells.breaks.push_back(a.constituents[i].profile.type == ProfileType::kLayer);
+  };
+  // Smooth absorbers need none: the columns along a ray are exact.
+  const auto note_breaks = [&](std::size_t i) {
+    const auto profile = static_cast<std::size_t>(shells.profile_of[i]);
+    if (scatters(a.constituents[i]) && !shells.profiles[profile].is_exponential())
+      shells.breaks[profile] = true;
+  };
+  for (std::size_t i = 0; i < a.constituents.size(); ++i) {
+    const Constituent<double>& c = a.constituents[i];
+    if (!matters(c)) continue;
+    if (c.profile.type != ProfileType::kSameAs) {
+      add(i);
+      note_breaks(i);
+      continue;
+    }
+    const auto other = static_cast<std::size_t>(a.find(c.profile.of) - a.constituents.data());
+    add(other);
+    shells.profile_of[i] = shells.profile_of[other];
+    note_breaks(i);
+  }
+  return shells;
+}
+
+PathColumns columns_along(const Shells& shells, const ViewRay& ray, const RayPoint& point) {
+  return columns_along([&](double height, double mu) { return shells.columns_to_top(height, mu); },
+                       shells.bottom_radius, ray, point);
+}
+
+std::vector<double> with_profile_breaks(const Shells& shells, const ViewRay& ray,
+                                        std::vector<double> breaks) {
+  for (std::size_t i = 0; i < shells.profiles.size(); ++i) {
+    if (!shells.breaks[i]) continue;
+    std::ranges::copy(
+        shell_crossings(ray, shells.bottom_radius, shells.profiles[i].quadrature_heights()),
+        std::back_inserter(breaks));
+  }
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
+}  // namespace skyfit

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/solver/level_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/solver/sun_grid.h"
+
+namespace skyfit {
+
+LevelGrid::LevelGrid(const Shells& shells, int count) {
+  for (int i = 0; i < count; ++i) {
+    const double x = static_cast<double>(i) / (count - 1);
+    heights_.push_back(shells.top * x * x * x);
+  }
+  for (const Profile& profile : shells.profiles) {
+    const std::vector<double> wanted = profile.level_heights();
+    if (wanted.empty()) continue;
+    // A level of another origin close to one of these would make a layer of no use.
+    const double apart = 0.4 * (wanted[1] - wanted[0]);
+    std::erase_if(heights_, [&](double h) {
+      return h > 0 && h < shells.top &&
+             std::ranges::any_of(wanted, [&](double w) { return std::abs(h - w) < apart; });
+    });
+    for (const double h : wanted) {
+      if (h > apart && h < shells.top - apart) heights_.push_back(h);
+    }
+    std::ranges::sort(heights_);
+  }
+  for (const double h : heights_) roots_.push_back(std::cbrt(h / shells.top));
+}
+
+double LevelGrid::coordinate(double height) const {
+  const double root = std::cbrt(std::clamp(height / heights_.back(), 0.0, 1.0));
+  const auto above = std::upper_bound(roots_.begin() + 1, roots_.end() - 1, root);
+  const auto i = static_cast<std::size_t>(above - roots_.begin()) - 1;
+  const double x = static_cast<double>(i) + (root - roots_[i]) / (roots_[i + 1] - roots_[i]);
+  constexpr double kOnLevel = 1e-6;  // of the distance of two levels
+  return std::abs(x - std::round(x)) < kOnLevel ? std::round(x) : x;
+}
+
+LevelStencil LevelGrid::stencil(double coordinate) const {
+  const int below = static_cast<int>(coordinate);
+  if (coordinate == below) return {below, {1.0}};
+  LevelStencil stencil{std::clamp(below - 1, 0, size() - 4), std::vector<double>(4)};
+  const auto at = static_cast<std::size_t>(below);
+  const double root = std::lerp(roots_[at], roots_[at + 1], coordinate - below);
+  lagrange_weights(&roots_[static_cast<std::size_t>(stencil.first)], 4, root, stencil.share.data());
+  return stencil;
+}
+
+}  // namespace skyfit
