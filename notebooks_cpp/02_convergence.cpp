@@ -133,8 +133,9 @@ void run_notebook(notebook::Page& page) {
   const std::array<double, 3> depths = {0.005, 0.2, 1.0};
   std::array<Atmosphere<double>, 3> airs;
   for (std::size_t i = 0; i < airs.size(); ++i) {
-    airs[i].mie.single_scattering_albedo = 0.95;
-    airs[i].mie.scattering_per_m = {550, 0.95 * depths[i] / airs[i].mie.scale_height_m, 1};
+    airs[i].at("mie").single_scattering_albedo = 0.95;
+    airs[i].at("mie").amount = 0.95 * depths[i] / airs[i].at("mie").profile.scale_height_m;
+    airs[i].at("mie").angstrom_exponent = 1;
     airs[i].ground_albedo = 0.2;
     std::cout << fmt::format("{:<11} aerosol optical depth {:.3f} at 550 nm\n", names[i],
                              depths[i]);

@@ -112,12 +112,12 @@ void run_notebook(notebook::Page& page) {
   for (const std::string name : {"bruneton", "bodare"}) {
     const fit::FitResult result =
         fit::fit_atmosphere(cie, refs::standard_spectral_data(), *model_named(name), options);
-    const Mie<double>& mie = result.preset.atmosphere.mie;
+    const Constituent<double>& mie = result.preset.atmosphere.at("mie");
     std::cout << fmt::format(
         "{:<10}{:6.2f} % (from {:.2f} %): optical depth {:.3f} at 550 nm, g {:.3f}, single "
         "scattering albedo {:.3f}\n",
         name, result.rms_log_percent, result.start_rms.all,
-        mie.scattering_per_m.value / mie.single_scattering_albedo * mie.scale_height_m, mie.phase.g,
+        mie.amount / mie.single_scattering_albedo * mie.profile.scale_height_m, mie.phase.g,
         mie.single_scattering_albedo);
     check(result.rms_log_percent < 15, "the fitted " + name + " is near the CIE's sky");
     fitted.emplace_back(name, result.preset.atmosphere);

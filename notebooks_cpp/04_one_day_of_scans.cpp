@@ -82,7 +82,7 @@ const std::array<Ring, 5> kRings = {{{78, 32}, {56, 24}, {37, 16}, {18, 8}, {0, 
 Atmosphere<double> true_atmosphere(const ScanOfDay& scan) {
   Atmosphere<double> air =
       parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear").atmosphere;
-  air.mie.scattering_per_m.value = scan.mie_scattering;
+  air.at("mie").amount = scan.mie_scattering;
   air.ground_spectrum = refs::ground_spectrum("grass");
   air.ground_albedo = 0.09;
   return air;

@@ -32,13 +32,13 @@ enum class PhaseType {
 template <class T>
 struct PhaseFunction {
   PhaseType type = PhaseType::kCornetteShanks;
-  T g{0.76};                                           // one lobe only
-  T g1{0.8}, g2{0.3}, weight{0.5};                     // two lobes only; weight is that of g1
-  PhaseType lobe = PhaseType::kCornetteShanks;         // or kHenyeyGreenstein
-  double depolarisation = 0;                           // kRayleigh: of natural light scattered at a
-                                                       // right angle; 0.0279 for dry air
-  std::shared_ptr<const TabulatedPhase> table;         // kTabulated only
-  std::shared_ptr<const SpectralPhase> by_wavelength;  // kByWavelength only
+  T g{0.76};                                    // one lobe only
+  T g1{0.8}, g2{0.3}, weight{0.5};              // two lobes only; weight is that of g1
+  PhaseType lobe = PhaseType::kCornetteShanks;  // or kHenyeyGreenstein
+  double depolarisation = 0;                    // kRayleigh: of natural light scattered at a
+                                                // right angle; 0.0279 for dry air
+  std::shared_ptr<const TabulatedPhase> table = nullptr;         // kTabulated only
+  std::shared_ptr<const SpectralPhase> by_wavelength = nullptr;  // kByWavelength only
   bool operator==(const PhaseFunction&) const = default;
 };
 
@@ -66,8 +66,8 @@ struct VerticalProfile {
   T scale_height_m{8000.0};                   // kExponential
   T base_m{0.0}, top_m{1000.0};               // kLayer
   double peak_m = 25e3, half_width_m = 15e3;  // kTent
-  TabulatedProfile table;                     // kTabulated
-  std::string of;                             // kSameAs: a constituent with a profile of its own
+  TabulatedProfile table = nullptr;           // kTabulated
+  std::string of{};                           // kSameAs: a constituent with a profile of its own
   bool operator==(const VerticalProfile&) const = default;
 };
 

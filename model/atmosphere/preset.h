@@ -15,9 +15,9 @@ namespace skyfit {
 
 struct Preset {
   std::string name;
-  std::string note;  // for the reader, such as where the values come from; may be empty
   Atmosphere<double> atmosphere;
   nlohmann::json fit;  // null, or what it was fitted to, version, RMS, sigmas, covariance
+  std::string note{};  // for the reader, such as where the values come from; may be empty
 };
 
 // Parse and write. `reader` reads the CSVs that a preset names (refs::load_table_csv), relative to

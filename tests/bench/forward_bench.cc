@@ -28,8 +28,8 @@ std::vector<SkyPoint> sky_points(int directions) {
 
 Atmosphere<double> two_lobe_earth() {
   Atmosphere<double> a;
-  a.mie.scattering_per_m.value = 1.5e-4;
-  a.mie.phase = {PhaseType::kTwoLobe, 0, 0.75, 0.3, 0.4};
+  a.at("mie").amount = 1.5e-4;
+  a.at("mie").phase = {PhaseType::kTwoLobe, 0, 0.75, 0.3, 0.4};
   return a;
 }
 

@@ -31,7 +31,7 @@ std::vector<SkyPoint> sky_points() {
 
 Atmosphere<double> haze() {
   Atmosphere<double> a;
-  a.mie.scattering_per_m.value = 1.5e-4;
+  a.at("mie").amount = 1.5e-4;
   return a;
 }
 

@@ -23,7 +23,7 @@ void ComputeTables(benchmark::State& state, const char* preset) {
   for (auto _ : state) {
     const AtmosphereTables tables = tables_of(preset);
     floats = 0;
-    for (const Table* table : {&tables.rayleigh_like, &tables.single_mie, &tables.optical_depth,
+    for (const Table* table : {&tables.rayleigh_like, &tables.single, &tables.optical_depth,
                                &tables.irradiance, &tables.sky_rays.air, &tables.sky_rays.aerosol})
       floats += table->rgba.size();
     benchmark::DoNotOptimize(floats);

@@ -20,7 +20,7 @@ TEST(Truth, EveryTableIsAReferenceWithItsAtmosphere) {
       EXPECT_EQ(sample.wavelength_nm, 550);
       EXPECT_GT(sample.value, 0);
     }
-    EXPECT_EQ(truth_preset(entry.name).atmosphere.ozone.column_du, 0);
+    EXPECT_EQ(truth_preset(entry.name).atmosphere.at("ozone").amount, 0);
   }
   EXPECT_THROW(truth_reference("truth:nonsense"), std::invalid_argument);
 }

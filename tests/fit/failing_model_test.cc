@@ -32,7 +32,7 @@ class LimitedSky : public ToySky {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override {
-    if (atmosphere.mie.scattering_per_m.value > limit_) {
+    if (atmosphere.at("mie").amount > limit_) {
       ++refusals;
       throw std::domain_error("too thick");
     }
@@ -85,14 +85,14 @@ TEST(FailingModelTest, FailureOnTheWayIsSteppedAround) {
   FitOptions options = one_lobe();
   options.starts = 1;
   options.start = Preset{"thin", true_atmosphere(1), {}};
-  options.start->atmosphere.mie.scattering_per_m.value = 5e-6;
+  options.start->atmosphere.at("mie").amount = 5e-6;
   const LimitedSky model(limit);
   const FitResult result = fit_atmosphere(synthetic_reference(true_atmosphere(1), 0.02),
                                           refs::standard_spectral_data(), model, options);
   EXPECT_GT(model.refusals, 0);
   EXPECT_TRUE(result.converged);
   EXPECT_LT(result.rms_log_percent, 2.3);
-  EXPECT_LE(result.preset.atmosphere.mie.scattering_per_m.value, limit);
+  EXPECT_LE(result.preset.atmosphere.at("mie").amount, limit);
 }
 
 }  // namespace

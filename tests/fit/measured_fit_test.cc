@@ -103,7 +103,7 @@ TEST(MeasuredFitTest, TiltIsFound) {
 TEST(MeasuredFitTest, ParametersPerScan) {
   const Atmosphere<double> morning = true_atmosphere(1);
   Atmosphere<double> noon = morning;
-  noon.mie.scattering_per_m.value = 2e-4;
+  noon.at("mie").amount = 2e-4;
   refs::Reference reference = synthetic_scans(ToySky(), morning, {});
   const refs::Reference later = synthetic_scans(ToySky(), noon, {});
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {
@@ -115,7 +115,7 @@ TEST(MeasuredFitTest, ParametersPerScan) {
   EXPECT_NEAR(row_of(result, "mie.scattering[1]").fitted / 1.2e-4, 1, kSolved);
   EXPECT_NEAR(row_of(result, "mie.scattering[2]").fitted / 2e-4, 1, kSolved);
   EXPECT_NEAR(row_of(result, "ground.albedo").fitted, 0.2, kSolved);
-  EXPECT_EQ(result.scans[1].atmosphere.mie.scattering_per_m.value,
+  EXPECT_EQ(result.scans[1].atmosphere.at("mie").amount,
             row_of(result, "mie.scattering[2]").fitted);
 }
 

@@ -87,7 +87,7 @@ TEST(OptionsTest, ValuesAreChecked) {
               HasSubstr("fit.prior: mie.phase.g = 0.5:0: must be a finite mean and a sigma > 0"));
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
                 o.start = Preset{"thick", true_atmosphere(1), {}};
-                o.start->atmosphere.mie.scattering_per_m.value = 0.1;
+                o.start->atmosphere.at("mie").amount = 0.1;
               }),
               AllOf(HasSubstr("fit.start: mie.scattering = 0.1 1/m"), HasSubstr("1e-07 .. 0.002")));
 }
@@ -116,12 +116,13 @@ TEST(OptionsTest, StartAtAnotherWavelengthIsTheSameAtmosphere) {
   options.start = Preset{"at 550", true_atmosphere(1), {}};
   const FitResult at_550 =
       fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
-  PowerLaw<double>& law = options.start->atmosphere.rayleigh.scattering_per_m;
-  law = {440, law.value * std::pow(440.0 / 550, -law.exponent), law.exponent};
+  Constituent<double>& air = options.start->atmosphere.at("rayleigh");
+  air.amount *= std::pow(440.0 / 550, -air.angstrom_exponent);
+  air.wavelength_nm = 440;
   const FitResult at_440 =
       fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
-  EXPECT_NEAR(at_440.preset.atmosphere.rayleigh.scattering_per_m.value /
-                  at_550.preset.atmosphere.rayleigh.scattering_per_m.value,
+  EXPECT_NEAR(at_440.preset.atmosphere.at("rayleigh").amount /
+                  at_550.preset.atmosphere.at("rayleigh").amount,
               1, 1e-9);
 }
 

@@ -61,7 +61,7 @@ TEST(ProfiledScaleTest, ScaleIsReferenceOverModel) {
   options.use_priors = false;
   options.free = std::vector<Parameter>{Parameter::kMiePhaseG};
   options.start = Preset{"truth", true_atmosphere(1), {}};
-  options.start->atmosphere.mie.phase.g = 0.5;
+  options.start->atmosphere.at("mie").phase.g = 0.5;
   const FitResult result =
       fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {

@@ -34,7 +34,8 @@ TEST_P(StartsTest, AreDifferentAndWithinTheBounds) {
   for (const Start& start : starts) {
     names.insert(start.name);
     validate(start.atmosphere);
-    EXPECT_GT(start.atmosphere.mie.phase.g1, start.atmosphere.mie.phase.g2) << start.name;
+    EXPECT_GT(start.atmosphere.at("mie").phase.g1, start.atmosphere.at("mie").phase.g2)
+        << start.name;
     for (const FreeParameter& parameter : parameters) {
       EXPECT_GE(get_parameter(start.atmosphere, parameter.id), parameter.lower);
       EXPECT_LE(get_parameter(start.atmosphere, parameter.id), parameter.upper);
@@ -48,17 +49,15 @@ INSTANTIATE_TEST_SUITE_P(Lobes, StartsTest, testing::Values(1, 2));
 TEST(StartsTest, OwnAtmosphereComesFirst) {
   const std::vector<Start> starts = choose_starts(true_atmosphere(2), all_free(2), 3, true);
   ASSERT_EQ(starts.size(), 3u);
-  EXPECT_EQ(starts[0].atmosphere.mie.phase.g1, true_atmosphere(2).mie.phase.g1);
-  EXPECT_EQ(starts[0].atmosphere.mie.scattering_per_m.value,
-            true_atmosphere(2).mie.scattering_per_m.value);
+  EXPECT_EQ(starts[0].atmosphere.at("mie").phase.g1, true_atmosphere(2).at("mie").phase.g1);
+  EXPECT_EQ(starts[0].atmosphere.at("mie").amount, true_atmosphere(2).at("mie").amount);
 }
 
 TEST(StartsTest, FixedParametersKeepTheirValues) {
   for (const Start& start :
        choose_starts(true_atmosphere(2), {free_parameter(kMiePhaseG2)}, 4, false)) {
-    EXPECT_EQ(start.atmosphere.mie.phase.g1, true_atmosphere(2).mie.phase.g1);
-    EXPECT_EQ(start.atmosphere.mie.scattering_per_m.value,
-              true_atmosphere(2).mie.scattering_per_m.value);
+    EXPECT_EQ(start.atmosphere.at("mie").phase.g1, true_atmosphere(2).at("mie").phase.g1);
+    EXPECT_EQ(start.atmosphere.at("mie").amount, true_atmosphere(2).at("mie").amount);
   }
 }
 

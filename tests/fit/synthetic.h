@@ -17,15 +17,15 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 inline Atmosphere<double> true_atmosphere(int lobes) {
   Atmosphere<double> atmosphere;
-  atmosphere.rayleigh.scattering_per_m.value = 1.25e-5;
-  atmosphere.rayleigh.scale_height_m = 8000;
-  atmosphere.mie.scattering_per_m = {550, 1.2e-4, 1.3};
-  atmosphere.mie.single_scattering_albedo = 0.93;
-  atmosphere.mie.phase.type = lobes == 2 ? PhaseType::kTwoLobe : PhaseType::kCornetteShanks;
-  atmosphere.mie.phase.g = 0.6;
-  atmosphere.mie.phase.g1 = 0.75;
-  atmosphere.mie.phase.g2 = 0.3;
-  atmosphere.mie.phase.weight = 0.4;
+  atmosphere.at("rayleigh").amount = 1.25e-5;
+  atmosphere.at("rayleigh").profile.scale_height_m = 8000;
+  set_scattering(atmosphere.at("mie"), 550, 1.2e-4, 1.3);
+  atmosphere.at("mie").single_scattering_albedo = 0.93;
+  atmosphere.at("mie").phase.type = lobes == 2 ? PhaseType::kTwoLobe : PhaseType::kCornetteShanks;
+  atmosphere.at("mie").phase.g = 0.6;
+  atmosphere.at("mie").phase.g1 = 0.75;
+  atmosphere.at("mie").phase.g2 = 0.3;
+  atmosphere.at("mie").phase.weight = 0.4;
   atmosphere.ground_albedo = 0.2;
   return atmosphere;
 }

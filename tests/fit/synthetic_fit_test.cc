@@ -43,7 +43,7 @@ TEST_P(SyntheticFitTest, NoiseFreeSkyReturnsItsParameters) {
   for (const FittedParameter& row : result.parameters) {
     if (!row.free) continue;
     const double expected = get_parameter(truth, row.id);
-    EXPECT_NEAR(row.fitted / expected, 1, 1e-2) << parameter_info(row.id).name;
+    EXPECT_NEAR(row.fitted / expected, 1, 1e-2) << row.id.name();
   }
 }
 
@@ -58,9 +58,8 @@ TEST_P(SyntheticFitTest, NoisySkyReturnsItsParametersWithinThreeSigma) {
   EXPECT_NEAR(result.sigma_log_percent, 2, 0.6);
   for (const FittedParameter& row : result.parameters) {
     if (!row.free || row.at_bound) continue;
-    EXPECT_GT(row.sigma, 0) << parameter_info(row.id).name;
-    EXPECT_NEAR(row.fitted, get_parameter(truth, row.id), 3 * row.sigma)
-        << parameter_info(row.id).name;
+    EXPECT_GT(row.sigma, 0) << row.id.name();
+    EXPECT_NEAR(row.fitted, get_parameter(truth, row.id), 3 * row.sigma) << row.id.name();
   }
 }
 
@@ -76,8 +75,7 @@ TEST_P(SyntheticFitTest, DefaultPriorsHoldWhatTheSkyCannotSay) {
   EXPECT_TRUE(row_of(result, GetParam() == 2 ? kMiePhaseG1 : kMiePhaseG).identifiable);
   for (const FittedParameter& row : result.parameters) {
     if (!row.free || row.at_bound) continue;
-    EXPECT_NEAR(row.fitted, get_parameter(truth, row.id), 3 * row.sigma)
-        << parameter_info(row.id).name;
+    EXPECT_NEAR(row.fitted, get_parameter(truth, row.id), 3 * row.sigma) << row.id.name();
   }
 }
 
@@ -89,7 +87,7 @@ TEST(LabelTest, ForwardLobeIsTheFirst) {
   FitOptions options = determined(2);
   options.starts = 1;
   options.start = Preset{"exchanged", truth, {}};
-  AerosolPhase<double>& phase = options.start->atmosphere.mie.phase;
+  PhaseFunction<double>& phase = options.start->atmosphere.at("mie").phase;
   std::swap(phase.g1, phase.g2);
   phase.weight = 1 - phase.weight;
   const FitResult result = fit_toy(synthetic_reference(truth, 0), options);

@@ -29,7 +29,7 @@ T toy_cornette_shanks(const T& g, double nu) {
 
 class ToySky : public SkyModel {
  public:
-  using Jet = ceres::Jet<double, kParameterCount>;
+  using Jet = ceres::Jet<double, kDerivativesAtOnce>;
   mutable std::atomic<int> value_calls = 0, derivative_calls = 0;
 
   std::string_view name() const override { return "toy"; }
@@ -71,7 +71,7 @@ class ToySky : public SkyModel {
     const Jet mie =
         p(kMieScattering) * exp(-p(kMieAngstromExponent) * std::log(ratio)) * p(kMieScaleHeight);
     Jet phase;
-    if (atmosphere.mie.phase.type == PhaseType::kTwoLobe) {
+    if (atmosphere.at("mie").phase.type == PhaseType::kTwoLobe) {
       phase = p(kMiePhaseWeight) * toy_cornette_shanks(p(kMiePhaseG1), nu) +
               (1.0 - p(kMiePhaseWeight)) * toy_cornette_shanks(p(kMiePhaseG2), nu);
     } else {

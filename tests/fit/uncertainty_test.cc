@@ -85,8 +85,8 @@ TEST(UncertaintyTest, FitOfEverythingWithoutPriorsReportsTheSingularCovariance) 
   FitOptions options;
   options.use_priors = false;
   options.free.emplace();
-  for (const ParameterInfo& info : parameter_table()) {
-    if (has_parameter(true_atmosphere(2), info.id)) options.free->push_back(info.id);
+  for (const Parameter& id : standard_parameters()) {
+    if (has_parameter(true_atmosphere(2), id)) options.free->push_back(id);
   }
   const FitResult result = fit_atmosphere(synthetic_reference(true_atmosphere(2), 0.02),
                                           refs::standard_spectral_data(), ToySky(), options);

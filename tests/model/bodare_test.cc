@@ -59,8 +59,8 @@ TEST(Bodare, MappingsInvert) {
 // one plane is the truth, but for the interpolation.
 TEST(Bodare, SingleScatteringIsTheIntegral) {
   Atmosphere<double> thin = haze(0);
-  thin.rayleigh.scattering_per_m.value = 1e-12;
-  thin.mie.scattering_per_m.value = 1e-8;
+  thin.at("rayleigh").amount = 1e-12;
+  thin.at("mie").amount = 1e-8;
   std::vector<SkyPoint> points;
   for (const double sun : {20.0, 60.0, 80.0}) {
     for (const double view : {10.0, 45.0, 75.0})
@@ -79,7 +79,8 @@ TEST(Bodare, SingleScatteringIsTheIntegral) {
 TEST(Bodare, SkyRaysAreTheRaysToTheSky) {
   const Atmosphere<double> a = haze();
   const literature::BodareGeometry geometry(a);
-  const literature::BodareTables<0> tables(geometry, uncut_optics_at(seeded<0>(a, {}), kGreen), {});
+  const literature::BodareTables<0> tables(
+      geometry, literature::clear_air(geometry.shells(), seeded<0>(a, {}), kGreen), {});
   const literature::SkyRayTexels sky = tables.sky_rays();
   ASSERT_EQ(sky.air.size(), std::size_t{32} * 64 * 32);
   Shared<double> shared;
@@ -99,7 +100,8 @@ TEST(Bodare, SkyRaysAreTheRaysToTheSky) {
 TEST(Bodare, GroundIrradianceIsTheIntegralOfTheSky) {
   const Atmosphere<double> a = haze();
   const literature::BodareGeometry geometry(a);
-  const literature::BodareTables<0> tables(geometry, uncut_optics_at(seeded<0>(a, {}), kGreen), {});
+  const literature::BodareTables<0> tables(
+      geometry, literature::clear_air(geometry.shells(), seeded<0>(a, {}), kGreen), {});
   const auto model = make_sky_model("bodare", refs::standard_spectral_data(), 2);
   constexpr double kQuadrature = 0.02;
   for (const double sun : {10.0, 50.0, 75.0}) {
@@ -123,7 +125,7 @@ TEST(BodareUpdate, TakesThePublishedNumberOfFrames) {
 TEST(BodareUpdate, NeverShowsAHalfBuiltTable) {
   const Atmosphere<double> before = haze();
   Atmosphere<double> after = haze();
-  after.mie.scattering_per_m.value *= 0.3;
+  after.at("mie").amount *= 0.3;
   const SkyPoint point{0, 50 * kDegree, 60 * kDegree, 1};
   const SpectralData& spectra = refs::standard_spectral_data();
   const auto direct = [&](const Atmosphere<double>& a) {

@@ -44,7 +44,8 @@ class BrunetonTable : public ::testing::Test {
  protected:
   Atmosphere<double> atmosphere_ = earth_clear();
   literature::BrunetonGeometry geometry_{atmosphere_};
-  Optics<0> air_ = uncut_optics_at(seeded<0>(atmosphere_, {}), {550, 0});
+  literature::ClearAir<0> air_ =
+      literature::clear_air(geometry_.shells(), seeded<0>(atmosphere_, {}), {550, 0});
   literature::BrunetonTables<0> tables_{geometry_, air_, {}};
 };
 
@@ -63,9 +64,9 @@ TEST_F(BrunetonTable, OpticalDepthFollowsTheColumns) {
 // at the texels of the ground's slice there is no interpolation but in nu and mu_s.
 TEST_F(BrunetonTable, SingleScatteringIsTheIntegral) {
   Atmosphere<double> thin = atmosphere_;
-  thin.rayleigh.scattering_per_m.value *= 1e-4;
-  thin.mie.scattering_per_m.value *= 1e-4;
-  thin.ozone.column_du = 0;
+  thin.at("rayleigh").amount *= 1e-4;
+  thin.at("mie").amount *= 1e-4;
+  thin.at("ozone").amount = 0;
   thin.ground_albedo = 0;
   std::vector<SkyPoint> points;
   for (const int texel : {64, 70, 90, 127}) {

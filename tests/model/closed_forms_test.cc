@@ -38,7 +38,7 @@ TEST(HoffmanPreetham, SkyByHand) {
 // A path of length d to a black ground scatters (beta P) / beta E (1 - exp(-beta d)).
 TEST(HoffmanPreetham, GroundByHand) {
   Atmosphere<double> a;
-  a.mie.scattering_per_m.value = 0;
+  a.at("mie").amount = 0;
   a.ground_albedo = 0;
   const SkyPoint down{500, 0, std::numbers::pi, 0};
   const double beta = 1.216e-5,
@@ -83,7 +83,7 @@ TEST(Nielsen, RefusesTwilightAndSpace) {
 // Turbidity 3, sun at 40 deg, a direction at 60 deg across: xyY of the published formulas.
 TEST(Preetham, ColourByHand) {
   Atmosphere<double> a;
-  a.mie.scattering_per_m.value = 2 * 1.216e-5 * 8000 / 1200 * a.mie.single_scattering_albedo;
+  a.at("mie").amount = 2 * 1.216e-5 * 8000 / 1200 * a.at("mie").single_scattering_albedo;
   ASSERT_NEAR(preetham_turbidity(a), 3, 1e-12);
   const XyzRule sum = xyz_sum_5nm(refs::standard_spectral_data());
   const SkyValues sky = model_named("preetham")->radiance(a, sum.nodes, {&kSide, 1}, {});
@@ -101,7 +101,7 @@ TEST(Preetham, ColourByHand) {
 // The rules of few wavelengths give the model's luminance and colour back.
 TEST(Preetham, FewWavelengthsHoldItsLuminance) {
   Atmosphere<double> a;
-  a.mie.scattering_per_m.value = 1.5e-4;
+  a.at("mie").amount = 1.5e-4;
   const SpectralData& spectra = refs::standard_spectral_data();
   const auto luminance = [&](const LuminanceRule& rule) {
     const SkyValues sky = model_named("preetham")->radiance(a, rule.nodes, {&kSide, 1}, {});
@@ -115,7 +115,7 @@ TEST(Preetham, FewWavelengthsHoldItsLuminance) {
 
 TEST(Preetham, RefusesWhatItHasNoFormulaFor) {
   Atmosphere<double> clear;
-  clear.mie.scattering_per_m.value = 1e-6;
+  clear.at("mie").amount = 1e-6;
   EXPECT_THROW(radiance("preetham", clear, kSide), std::domain_error);
   EXPECT_THROW(radiance("preetham", {}, {1e6, 0, 3, 0}), std::invalid_argument);    // space
   EXPECT_THROW(radiance("preetham", {}, {0, 0.5, 2, 0}), std::invalid_argument);    // ground
@@ -127,9 +127,9 @@ Atmosphere<double> oneil_earth() {
   Atmosphere<double> a;
   a.top_radius_m = 1.025 * a.bottom_radius_m;
   const double scale_height = 0.25 * 0.025 * a.bottom_radius_m;
-  a.rayleigh.scale_height_m = a.mie.scale_height_m = scale_height;
-  a.rayleigh.scattering_per_m.value = 2e-6;
-  a.mie.scattering_per_m.value = 1e-6;
+  a.at("rayleigh").profile.scale_height_m = a.at("mie").profile.scale_height_m = scale_height;
+  a.at("rayleigh").amount = 2e-6;
+  a.at("mie").amount = 1e-6;
   a.ground_albedo = 0;
   return a;
 }
@@ -138,7 +138,7 @@ Atmosphere<double> oneil_earth() {
 TEST(ONeil, PolynomialFollowsTheColumns) {
   const Atmosphere<double> a = oneil_earth();
   const double bottom = a.bottom_radius_m, top = a.top_radius_m - bottom,
-               scale_height = a.rayleigh.scale_height_m;
+               scale_height = a.at("rayleigh").profile.scale_height_m;
   constexpr double kFit = 0.10;  // at worst, near the horizon
   for (double mu = 1; mu > 0.05; mu -= 0.1) {
     const double column =
@@ -151,7 +151,8 @@ TEST(ONeil, PolynomialFollowsTheColumns) {
 // L = (beta_R P_R + beta_M P_M) ds sum rho exp(-(beta_R + beta_M) H slant).
 TEST(ONeil, ZenithByHand) {
   const Atmosphere<double> a = oneil_earth();
-  const double top = a.top_radius_m - a.bottom_radius_m, h0 = a.rayleigh.scale_height_m;
+  const double top = a.top_radius_m - a.bottom_radius_m,
+               h0 = a.at("rayleigh").profile.scale_height_m;
   const double beta_r = 2e-6, beta_m = 1e-6, slant = std::exp(-0.00287);
   double sum = 0;
   for (int i = 0; i < 5; ++i) {
@@ -181,7 +182,7 @@ TEST(ONeil, SpaceSeesWhatTheTopSees) {
 TEST(ONeil, LimbsFollowTheClosedForm) {
   const Atmosphere<double> polynomial = oneil_earth();
   Atmosphere<double> closed = polynomial;
-  closed.rayleigh.scale_height_m *= 1.002;  // beyond what counts as his geometry
+  closed.at("rayleigh").profile.scale_height_m *= 1.002;  // beyond what counts as his geometry
   constexpr double kFit = 0.15;
   for (const double view : {95.0, 97.0, 100.0}) {
     const SkyPoint limb{60e3, 40 * kDegree, view * kDegree, 1};
@@ -193,7 +194,7 @@ TEST(ONeil, LimbsFollowTheClosedForm) {
 // No air and no aerosol scatter nothing.
 TEST(ClosedForms, OfNoAirAreDark) {
   Atmosphere<double> none;
-  none.rayleigh.scattering_per_m.value = none.mie.scattering_per_m.value = 0;
+  none.at("rayleigh").amount = none.at("mie").amount = 0;
   EXPECT_EQ(radiance("hoffman-preetham", none, kSide), 0);
   EXPECT_EQ(radiance("nielsen", none, kSide), 0);
 }

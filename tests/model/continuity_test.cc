@@ -10,6 +10,7 @@
 #include "data_refs/spectra.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
+#include "tests/atmospheres.h"
 
 namespace skyfit {
 namespace {
@@ -19,9 +20,9 @@ const WavelengthNode kGreen{550, 0};
 
 Atmosphere<double> haze() {
   Atmosphere<double> a;
-  a.ozone.column_du = 0;
-  a.mie.scattering_per_m = {550, 1.5e-4, 1.0};
-  a.mie.phase.g = 0.65;
+  a.at("ozone").amount = 0;
+  set_scattering(a.at("mie"), 550, 1.5e-4, 1.0);
+  a.at("mie").phase.g = 0.65;
   return a;
 }
 

@@ -10,6 +10,7 @@
 #include "data_refs/spectra.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
+#include "tests/atmospheres.h"
 
 namespace skyfit {
 namespace {
@@ -37,8 +38,8 @@ std::vector<SkyPoint> points() {
 
 Atmosphere<double> atmosphere(PhaseType type) {
   Atmosphere<double> a;
-  a.mie.scattering_per_m = {550, 1.5e-4, 1.1};
-  a.mie.phase = {type, 0.7, 0.75, 0.2, 0.4};
+  set_scattering(a.at("mie"), 550, 1.5e-4, 1.1);
+  a.at("mie").phase = {type, 0.7, 0.75, 0.2, 0.4};
   return a;
 }
 
@@ -49,7 +50,7 @@ void expect_exact(const Atmosphere<double>& a, Parameter parameter, int side = 0
       spectral_nodes(refs::standard_spectral_data(), {460, 600});
   const std::vector<SkyPoint> list = points();
   const SkyValues exact = model->radiance(a, nodes, list, {&parameter, 1});
-  const ParameterInfo& info = parameter_info(parameter);
+  const ParameterInfo info = parameter_info(parameter);
   const double step =
       2e-5 * std::max(std::abs(get_parameter(a, parameter)), 1e-3 * (info.upper - info.lower));
   auto at = [&](double value) {
@@ -75,8 +76,8 @@ void expect_exact(const Atmosphere<double>& a, Parameter parameter, int side = 0
 
 TEST(Derivatives, OfEveryParameterWithTwoLobes) {
   const Atmosphere<double> a = atmosphere(PhaseType::kTwoLobe);
-  for (const ParameterInfo& info : parameter_table()) {
-    if (has_parameter(a, info.id)) expect_exact(a, info.id);
+  for (const Parameter& id : standard_parameters()) {
+    if (has_parameter(a, id)) expect_exact(a, id);
   }
 }
 
@@ -87,23 +88,24 @@ TEST(Derivatives, OfTheAsymmetryOfOneLobe) {
 
 // Near the bounds, so that both differences stay physical.
 TEST(Derivatives, NearTheBounds) {
-  for (const ParameterInfo& info : parameter_table()) {
+  for (const Parameter& id : standard_parameters()) {
     for (const double share : {0.002, 0.998}) {
       Atmosphere<double> a = atmosphere(PhaseType::kTwoLobe);
-      if (!has_parameter(a, info.id)) continue;
-      set_parameter(a, info.id, info.lower + share * (info.upper - info.lower));
-      expect_exact(a, info.id);
+      if (!has_parameter(a, id)) continue;
+      const ParameterInfo info = parameter_info(id);
+      set_parameter(a, id, info.lower + share * (info.upper - info.lower));
+      expect_exact(a, id);
     }
   }
 }
 
 TEST(Derivatives, AtTheBounds) {
-  for (const ParameterInfo& info : parameter_table()) {
+  for (const Parameter& id : standard_parameters()) {
     for (const int side : {1, -1}) {
       Atmosphere<double> a = atmosphere(PhaseType::kTwoLobe);
-      if (!has_parameter(a, info.id)) continue;
-      set_parameter(a, info.id, side > 0 ? info.lower : info.upper);
-      expect_exact(a, info.id, side);
+      if (!has_parameter(a, id)) continue;
+      set_parameter(a, id, side > 0 ? parameter_info(id).lower : parameter_info(id).upper);
+      expect_exact(a, id, side);
     }
   }
 }

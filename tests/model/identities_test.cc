@@ -29,7 +29,7 @@ double radiance(const Atmosphere<double>& a, const SkyPoint& point) {
 
 Atmosphere<double> without_ozone() {
   Atmosphere<double> a;
-  a.ozone.column_du = 0;
+  a.at("ozone").amount = 0;
   return a;
 }
 
@@ -75,8 +75,9 @@ TEST(SlantColumn, TentEqualsTheSumAlongTheRay) {
       const double expected = column_by_sum(6360e3, height, mu, 100e3, [&](double h) {
         return std::max(std::min((h - 10e3) / 15e3, (40e3 - h) / 15e3), 0.0);
       });
-      EXPECT_NEAR(linear_column(*ozone_tent(), 6360e3, height, mu, 100e3), expected,
-                  kCorners * expected)
+      EXPECT_NEAR(linear_column(Profile(standard_ozone<double>().profile).table(), 6360e3, height,
+                                mu, 100e3),
+                  expected, kCorners * expected)
           << height << " " << mu;
     }
   }
@@ -87,13 +88,13 @@ TEST(PhaseFunctions, IntegrateToOneAndHaveTheirMoments) {
   for (const PhaseType type :
        {PhaseType::kCornetteShanks, PhaseType::kHenyeyGreenstein, PhaseType::kTwoLobe}) {
     for (const PhaseType lobe : {PhaseType::kCornetteShanks, PhaseType::kHenyeyGreenstein}) {
-      const AerosolPhase<double> phase{type, 0.7, 0.8, -0.2, 0.3, lobe, nullptr};
-      const std::vector<double> chi = aerosol_phase_moments(phase, 6);
+      const PhaseFunction<double> phase{type, 0.7, 0.8, -0.2, 0.3, lobe};
+      const std::vector<double> chi = phase_moments(phase, 6);
       for (int l = 0; l < 6; ++l) {
         double sum = 0;
         for (std::size_t i = 0; i < rule.node.size(); ++i) {
           const double nu = 2 * rule.node[i] - 1;
-          sum += 4 * kPi * rule.weight[i] * aerosol_phase(phase, nu) *
+          sum += 4 * kPi * rule.weight[i] * phase_value(phase, nu) *
                  std::legendre(static_cast<unsigned>(l), nu);
         }
         EXPECT_NEAR(sum, chi[l], 1e-10) << l;
@@ -115,8 +116,8 @@ TEST(Reference, SingleScatteringLimitOfAThinAtmosphere) {
   a.bottom_radius_m = 1e9;
   a.top_radius_m = 1e9 + 100e3;
   a.ground_albedo = 0;
-  a.rayleigh.scattering_per_m.value = 1e-10;
-  a.mie.scattering_per_m.value = 0;
+  a.at("rayleigh").amount = 1e-10;
+  a.at("mie").amount = 0;
   Shared<double> shared;
   const double mu = std::cos(0.8),
                nu = std::cos(0.8) * std::cos(0.5) + std::sin(0.8) * std::sin(0.5) * std::cos(2.0);
@@ -133,7 +134,7 @@ TEST(Reference, ReciprocityOfReflectedLight) {
   Atmosphere<double> a = without_ozone();
   a.bottom_radius_m = 1e9;
   a.top_radius_m = 1e9 + 100e3;
-  a.mie.scattering_per_m.value = 1e-4;
+  a.at("mie").amount = 1e-4;
   const double first = 25 * kDegree, second = 65 * kDegree;
   const double there = radiance(a, {100e3, first, kPi - second, 0.7}) / std::cos(first);
   const double back = radiance(a, {100e3, second, kPi - first, 0.7}) / std::cos(second);
@@ -146,8 +147,8 @@ TEST(Reference, ConservativeAtmosphereOverWhiteGroundLosesNothing) {
   Atmosphere<double> a = without_ozone();
   a.bottom_radius_m = 1e9;
   a.top_radius_m = 1e9 + 100e3;
-  a.mie.single_scattering_albedo = 1;
-  a.mie.scattering_per_m.value = 1e-4;
+  a.at("mie").single_scattering_albedo = 1;
+  a.at("mie").amount = 1e-4;
   a.ground_albedo = 1;
   const double sun = 50 * kDegree;
   const GaussRule zenith = gauss_legendre(20), azimuth = gauss_legendre(20);
@@ -190,8 +191,8 @@ TEST(Reference, APointDoesNotDependOnItsCompany) {
 
 TEST(Reference, NoAtmosphereIsBlackSkyAndLambertGround) {
   Atmosphere<double> a = without_ozone();
-  a.rayleigh.scattering_per_m.value = 0;
-  a.mie.scattering_per_m.value = 0;
+  a.at("rayleigh").amount = 0;
+  a.at("mie").amount = 0;
   a.ground_albedo = 0.3;
   EXPECT_EQ(radiance(a, {0, 0.5, 0.5, 1}), 0);
   EXPECT_NEAR(radiance(a, {1000, 0.5, kPi, 0}), 0.3 / kPi * std::cos(0.5), 1e-6);

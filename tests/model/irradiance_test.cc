@@ -19,8 +19,8 @@ constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 
 Atmosphere<double> atmosphere(double scattering, double g1) {
   Atmosphere<double> a;
-  a.mie.scattering_per_m.value = scattering;
-  a.mie.phase = {PhaseType::kTwoLobe, 0, g1, 0.2, 0.6};
+  a.at("mie").amount = scattering;
+  a.at("mie").phase = {PhaseType::kTwoLobe, 0, g1, 0.2, 0.6};
   return a;
 }
 
@@ -90,8 +90,7 @@ void expect_integral(const Atmosphere<double>& a, double altitude, double sun_de
   const SkyValues light = model->irradiance(a, {&node, 1}, altitude, sun, {});
   const double diffuse = light.at(kDiffuseHorizontal, 0);
   EXPECT_NEAR(diffuse / integral_of_radiance(*model, a, node, altitude, sun), 1, kAgreement)
-      << "aerosol " << a.mie.scattering_per_m.value << ", altitude " << altitude << ", sun "
-      << sun_deg;
+      << "aerosol " << a.at("mie").amount << ", altitude " << altitude << ", sun " << sun_deg;
 }
 
 TEST(Irradiance, IsTheIntegralOfRadiance) {
@@ -105,7 +104,7 @@ TEST(Irradiance, IsTheIntegralOfRadiance) {
 
 TEST(Irradiance, IsTheSunsAndTheSkys) {
   Atmosphere<double> a;
-  a.ozone.column_du = 0;
+  a.at("ozone").amount = 0;
   const WavelengthNode green{550, 0};
   const double sun = 40 * kDegree;
   const SkyValues e = make_sky_model("reference", refs::standard_spectral_data(), 1)
@@ -137,8 +136,8 @@ TEST(Irradiance, DerivativesEqualDifferences) {
   const WavelengthNode node = spectral_nodes(refs::standard_spectral_data(), {560}).front();
   const double sun = 70 * kDegree;
   std::vector<Parameter> parameters;
-  for (const ParameterInfo& info : parameter_table()) {
-    if (has_parameter(a, info.id)) parameters.push_back(info.id);
+  for (const Parameter& id : standard_parameters()) {
+    if (has_parameter(a, id)) parameters.push_back(id);
   }
   const SkyValues exact = model->irradiance(a, {&node, 1}, 0, sun, parameters);
   for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -153,7 +152,7 @@ TEST(Irradiance, DerivativesEqualDifferences) {
       EXPECT_NEAR(exact.derivative_at(static_cast<int>(p), i, 0),
                   (high.at(i, 0) - low.at(i, 0)) / (2 * step),
                   kDifference * exact.at(i, 0) / middle)
-          << parameter_info(parameters[p]).name << " " << i;
+          << parameters[p].name() << " " << i;
     }
   }
 }

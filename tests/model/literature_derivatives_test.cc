@@ -10,6 +10,7 @@
 #include "data_refs/spectra.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
+#include "tests/atmospheres.h"
 
 namespace skyfit {
 namespace {
@@ -43,17 +44,16 @@ class LiteratureDerivatives : public ::testing::TestWithParam<Case> {
 TEST_P(LiteratureDerivatives, EqualDifferences) {
   const auto model = make_sky_model(GetParam().model, refs::standard_spectral_data(), 2);
   Atmosphere<double> a;
-  a.mie.scattering_per_m = {550, 1.5e-4, 1.1};
-  a.mie.phase = {model->lobes() == 2 ? PhaseType::kTwoLobe : PhaseType::kCornetteShanks,
-                 0.7,
-                 0.75,
-                 0.2,
-                 0.4,
-                 PhaseType::kCornetteShanks,
-                 nullptr};
+  set_scattering(a.at("mie"), 550, 1.5e-4, 1.1);
+  a.at("mie").phase = {model->lobes() == 2 ? PhaseType::kTwoLobe : PhaseType::kCornetteShanks,
+                       0.7,
+                       0.75,
+                       0.2,
+                       0.4,
+                       PhaseType::kCornetteShanks};
   std::vector<Parameter> parameters;
-  for (const ParameterInfo& info : parameter_table())
-    if (has_parameter(a, info.id)) parameters.push_back(info.id);
+  for (const Parameter& id : standard_parameters())
+    if (has_parameter(a, id)) parameters.push_back(id);
   const std::vector<WavelengthNode> nodes = spectral_nodes(refs::standard_spectral_data(), {480});
   const std::vector<SkyPoint> list = points();
   const SkyValues exact = model->radiance(a, nodes, list, parameters);

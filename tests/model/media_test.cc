@@ -14,6 +14,7 @@
 #include "model/numerics/gauss.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
+#include "tests/atmospheres.h"
 
 namespace skyfit {
 namespace {
@@ -39,18 +40,18 @@ double legendre_integral(int l, F f) {
   return sum;
 }
 
-TwoColumns phase_columns(double step_deg, double factor, const AerosolPhase<double>& phase) {
+TwoColumns phase_columns(double step_deg, double factor, const PhaseFunction<double>& phase) {
   TwoColumns table;
   const int steps = static_cast<int>(std::lround(180 / step_deg));
   for (int i = 0; i <= steps; ++i) {
     table.x.push_back(180.0 * i / steps);
-    table.y.push_back(factor * aerosol_phase(phase, std::cos(kPi * i / steps)));
+    table.y.push_back(factor * phase_value(phase, std::cos(kPi * i / steps)));
   }
   return table;
 }
 
-AerosolPhase<double> tabulated(TwoColumns table) {
-  AerosolPhase<double> phase{PhaseType::kTabulated};
+PhaseFunction<double> tabulated(TwoColumns table) {
+  PhaseFunction<double> phase{PhaseType::kTabulated};
   phase.table = std::make_shared<const TabulatedPhase>(std::move(table));
   return phase;
 }
@@ -84,9 +85,9 @@ TEST(RayleighPhase, IntegratesToOneAndHasItsMomentForEveryDepolarisation) {
 
 TEST(TabulatedPhase, MomentsAreThoseOfHenyeyAndGreenstein) {
   constexpr double kFineSteps = 1e-6;  // of 0.02 deg
-  const AerosolPhase<double> exact{PhaseType::kHenyeyGreenstein, 0.8};
-  const AerosolPhase<double> table = tabulated(phase_columns(0.02, 1, exact));
-  const auto chi = aerosol_phase_moments(table, 65), expected = aerosol_phase_moments(exact, 65);
+  const PhaseFunction<double> exact{PhaseType::kHenyeyGreenstein, 0.8};
+  const PhaseFunction<double> table = tabulated(phase_columns(0.02, 1, exact));
+  const auto chi = phase_moments(table, 65), expected = phase_moments(exact, 65);
   for (std::size_t l = 0; l < chi.size(); ++l) EXPECT_NEAR(chi[l], expected[l], kFineSteps) << l;
 }
 
@@ -107,11 +108,11 @@ TEST(TabulatedPhase, MomentsOfTwoRowsAreExact) {
 }
 
 TEST(TabulatedPhase, IsNormalisedWithinFivePercentOnly) {
-  const AerosolPhase<double> exact{PhaseType::kCornetteShanks, 0.6};
+  const PhaseFunction<double> exact{PhaseType::kCornetteShanks, 0.6};
   const TabulatedPhase phase(phase_columns(0.1, 1.04, exact));
   constexpr double kSteps = 1e-6;  // of 0.1 deg
   EXPECT_NEAR(phase.moments(1)[0], 1, kRounding);
-  EXPECT_NEAR(phase.phase(1.0) / aerosol_phase(exact, std::cos(1.0)), 1, kSteps);
+  EXPECT_NEAR(phase.phase(1.0) / phase_value(exact, std::cos(1.0)), 1, kSteps);
   EXPECT_THROW(TabulatedPhase(phase_columns(0.1, 1.06, exact)), std::invalid_argument);
 }
 
@@ -166,28 +167,29 @@ TEST(LinearProfile, ColumnsOfATabulatedExponentialAreChapmans) {
 }
 
 TEST(Profile, HeightsOfTheQuadratureLieAtTheSameSharesOfTheColumn) {
-  const std::vector<double> exact = Profile(1200.0).quadrature_heights();
+  const std::vector<double> exact =
+      Profile(VerticalProfile<double>{.scale_height_m = 1200}).quadrature_heights();
   const std::vector<double> table =
-      Profile(exponential_table(1200, 30e3, 300)).quadrature_heights();
+      Profile(tabulated_profile(exponential_table(1200, 30e3, 300))).quadrature_heights();
   ASSERT_EQ(table.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) EXPECT_NEAR(table[i], exact[i], 2);
 }
 
 TEST(Profile, DensityIsZeroAboveTheTableAndLinearWithin) {
-  const Profile profile(
-      std::make_shared<const LinearProfile>(TwoColumns{{0, 1e3, 3e3}, {1, 2, 0}}));
+  const Profile profile(tabulated_profile(
+      std::make_shared<const LinearProfile>(TwoColumns{{0, 1e3, 3e3}, {1, 2, 0}})));
   EXPECT_DOUBLE_EQ(profile.density(0).value, 1);
   EXPECT_DOUBLE_EQ(profile.density(500).value, 1.5);
   EXPECT_DOUBLE_EQ(profile.density(2e3).value, 1);
   EXPECT_EQ(profile.density(3001).value, 0);
-  EXPECT_EQ(profile.density(500).by_scale_height, 0);
+  EXPECT_EQ(profile.shapes(), 0u);
   EXPECT_DOUBLE_EQ(profile.vertical_column().value, 3500);
 }
 
 Atmosphere<double> hazy() {
   Atmosphere<double> a;
-  a.mie.scattering_per_m.value = 1e-4;
-  a.mie.phase = {PhaseType::kHenyeyGreenstein, 0.7};
+  a.at("mie").amount = 1e-4;
+  a.at("mie").phase = {PhaseType::kHenyeyGreenstein, 0.7};
   return a;
 }
 
@@ -198,13 +200,12 @@ TEST(TabulatedSky, IsThatOfTheFormulasTheTableWasMadeOf) {
   constexpr double kPhaseSteps = 5e-5;      // of 0.25 deg
   constexpr double kProfileSteps = 1.5e-3;  // of 300 pieces, 6e-4 of the column
   Atmosphere<double> phase = hazy();
-  phase.mie.phase = tabulated(phase_columns(0.25, 1, phase.mie.phase));
+  phase.at("mie").phase = tabulated(phase_columns(0.25, 1, phase.at("mie").phase));
   Atmosphere<double> profiles = hazy();
-  profiles.rayleigh.profile = exponential_table(8000, 100e3, 300);
-  profiles.mie.profile = exponential_table(1200, 30e3, 300);
-  profiles.ozone.profile = OzoneProfile::kTabulated;
-  profiles.ozone.table =
-      std::make_shared<const LinearProfile>(TwoColumns{{0, 10e3, 25e3, 40e3}, {0, 0, 7, 0}});
+  profiles.at("rayleigh").profile = tabulated_profile(exponential_table(8000, 100e3, 300));
+  profiles.at("mie").profile = tabulated_profile(exponential_table(1200, 30e3, 300));
+  profiles.at("ozone").profile = tabulated_profile(
+      std::make_shared<const LinearProfile>(TwoColumns{{0, 10e3, 25e3, 40e3}, {0, 0, 7, 0}}));
   for (const SkyPoint& point : kPoints) {
     const double expected = radiance(hazy(), point);
     EXPECT_NEAR(radiance(phase, point) / expected, 1, kPhaseSteps);
@@ -214,16 +215,16 @@ TEST(TabulatedSky, IsThatOfTheFormulasTheTableWasMadeOf) {
 
 TEST(SitePressure, MultipliesTheCoefficient) {
   Atmosphere<double> low = hazy(), thin = hazy();
-  low.rayleigh.site_pressure_hpa = kStandardPressureHpa / 2;
-  thin.rayleigh.scattering_per_m.value /= 2;
+  low.at("rayleigh").site_pressure_hpa = kStandardPressureHpa / 2;
+  thin.at("rayleigh").amount /= 2;
   EXPECT_DOUBLE_EQ(radiance(low, kPoints[0]), radiance(thin, kPoints[0]));
 }
 
 TEST(Depolarisation, MakesTheSkyAtARightAngleToTheSunBrighter) {
   Atmosphere<double> real = hazy();
-  real.mie.scattering_per_m.value = 0;
+  real.at("mie").amount = 0;
   Atmosphere<double> spheres = real;
-  real.rayleigh.depolarisation = 0.0279;
+  real.at("rayleigh").phase.depolarisation = 0.0279;
   const SkyPoint right_angle{0, kPi / 4, kPi / 4, kPi};
   const double ratio = radiance(real, right_angle) / radiance(spheres, right_angle);
   // (1 + rho) 2 / (2 + rho) of single scattering, less of what was scattered before
@@ -233,14 +234,14 @@ TEST(Depolarisation, MakesTheSkyAtARightAngleToTheSunBrighter) {
 
 TEST(Tables, HaveNoParametersOfTheFormulasTheyReplace) {
   Atmosphere<double> a = hazy();
-  a.mie.phase = tabulated(phase_columns(1, 1, a.mie.phase));
-  a.rayleigh.profile = exponential_table(8000, 100e3, 100);
+  a.at("mie").phase = tabulated(phase_columns(1, 1, a.at("mie").phase));
+  a.at("rayleigh").profile = tabulated_profile(exponential_table(8000, 100e3, 100));
   for (const Parameter p : {Parameter::kMiePhaseG, Parameter::kMiePhaseG1, Parameter::kMiePhaseG2,
                             Parameter::kMiePhaseWeight, Parameter::kRayleighScaleHeight}) {
-    EXPECT_FALSE(has_parameter(a, p)) << parameter_info(p).name;
+    EXPECT_FALSE(has_parameter(a, p)) << p.name();
   }
   EXPECT_TRUE(has_parameter(a, Parameter::kMieScaleHeight));
-  a.mie.profile = a.rayleigh.profile;
+  a.at("mie").profile = a.at("rayleigh").profile;
   EXPECT_FALSE(has_parameter(a, Parameter::kMieScaleHeight));
 }
 

@@ -44,7 +44,7 @@ double sample_with_square(const Sample& sample, Random& random) {
   }
 }
 
-double sample_aerosol(const AerosolPhase<Dual<0>>& phase, Random& random) {
+double sample_aerosol(const PhaseFunction<Dual<0>>& phase, Random& random) {
   const auto cornette_shanks = [&](double g) {
     return sample_with_square([&] { return sample_henyey_greenstein(g, random); }, random);
   };
@@ -68,25 +68,27 @@ Vector turned(const Vector& direction, double c, Random& random) {
 }  // namespace
 
 MonteCarlo::MonteCarlo(const Atmosphere<double>& atmosphere, const WavelengthNode& node)
-    : shells_(shells_of(atmosphere)),
-      optics_(optics_at(seeded<0>(atmosphere, {}), node, kMoments)),
+    : shells_(shells_of(atmosphere, Keep::kWhatMatters)),
+      optics_(literature::clear_air(shells_, seeded<0>(atmosphere, {}), node)),
       ground_albedo_(atmosphere.ground_albedo) {
-  optics_.aerosol_extinction = optics_.aerosol_extinction_true;  // no peak is cut here
   for (int i = 0; i <= kLayers; ++i) {
     const double x = static_cast<double>(i) / kLayers;
     heights_.push_back(shells_.top * x * x);
   }
   for (int i = 0; i < kLayers; ++i) {
     PathColumns c = shells_.columns_to_top(heights_[i], 1);
-    c += -shells_.columns_to_top(heights_[i + 1], 1);
+    c -= shells_.columns_to_top(heights_[i + 1], 1);
     const double thickness = heights_[i + 1] - heights_[i];
-    const auto mean = [&](double coefficient, const Column& column) {
-      return coefficient * std::max(column.value, 0.0) / thickness;
+    const auto mean = [&](double coefficient, int profile) {
+      if (profile < 0) return 0.0;
+      return coefficient * std::max(c[static_cast<std::size_t>(profile)].value, 0.0) / thickness;
     };
-    air_.push_back(mean(optics_.air.v, c.air));
-    scattering_.push_back(air_.back() + mean(optics_.aerosol_scattering.v, c.aerosol));
-    extinction_.push_back(air_.back() + mean(optics_.aerosol_extinction.v, c.aerosol) +
-                          mean(optics_.ozone.v, c.ozone));
+    air_.push_back(mean(optics_.air.v, optics_.air_profile));
+    scattering_.push_back(air_.back() +
+                          mean(optics_.aerosol_scattering.v, optics_.aerosol_profile));
+    extinction_.push_back(0);
+    for (std::size_t k = 0; k < shells_.profiles.size(); ++k)
+      extinction_.back() += mean(optics_.extinction[k].v, static_cast<int>(k));
   }
 }
 
@@ -187,7 +189,7 @@ MonteCarloResult MonteCarlo::radiance(const SkyPoint& point, long histories,
         const double air_share = air_[layer] / scattering_[layer], nu = direction.dot(sun);
         light = weight * beam *
                 (air_share * shared.rayleigh_phase(optics_.depolarisation, nu) +
-                 (1 - air_share) * aerosol_phase(optics_.phase, nu).v);
+                 (1 - air_share) * phase_value(optics_.phase, nu).v);
         by_air = random() < air_share;
       }
       (event == 1 ? single : multiple) += light;

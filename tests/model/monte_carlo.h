@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/geometry/ray.h"
+#include "model/literature/evaluate.h"
 #include "model/sky_model.h"
 
 namespace skyfit::truth {
@@ -35,7 +35,7 @@ class MonteCarlo {
   double to_sun(double height, double mu_s) const;
 
   Shells shells_;
-  Optics<0> optics_;
+  literature::ClearAir<0> optics_;
   double ground_albedo_;
   std::vector<double> heights_;  // of layers of constant density that keep each layer's column
   std::vector<double> air_, extinction_, scattering_;  // per layer, 1/m

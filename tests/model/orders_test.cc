@@ -26,9 +26,9 @@ std::vector<double> radiances(const Atmosphere<double>& atmosphere,
 
 Atmosphere<double> haze(double optical_depth, double ground_albedo) {
   Atmosphere<double> a;
-  a.ozone.column_du = 0;
-  a.mie.single_scattering_albedo = 1;
-  a.mie.scattering_per_m.value = optical_depth / a.mie.scale_height_m;
+  a.at("ozone").amount = 0;
+  a.at("mie").single_scattering_albedo = 1;
+  a.at("mie").amount = optical_depth / a.at("mie").profile.scale_height_m;
   a.ground_albedo = ground_albedo;
   return a;
 }

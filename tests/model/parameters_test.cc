@@ -18,22 +18,23 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-TEST(ParameterTable, RowsStandInTheOrderOfTheEnumeration) {
-  int row = 0;
-  std::set<std::string_view> names;
-  for (const ParameterInfo& info : parameter_table()) {
-    EXPECT_EQ(static_cast<int>(info.id), row++);
-    EXPECT_EQ(parameter_info(info.id).name, info.name);
-    EXPECT_EQ(parameter_from_name(info.name), info.id);
-    names.insert(info.name);
+TEST(Parameter, NamesAreReadBack) {
+  std::set<std::string> names;
+  for (const Parameter& id : standard_parameters()) {
+    EXPECT_EQ(parameter_info(id).name, id.name());
+    EXPECT_EQ(parameter_from_name(id.name()), id);
+    names.insert(id.name());
   }
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(kParameterCount));
+  EXPECT_EQ(names.size(), standard_parameters().size());
+  EXPECT_EQ(parameter_from_name("dust.base_m"), Parameter("dust", Quantity::kBase));
 }
 
-TEST(ParameterTable, DefaultsAndPriorsLieWithinTheBounds) {
-  for (const ParameterInfo& info : parameter_table()) {
-    EXPECT_LT(info.lower, info.default_value) << info.name;
-    EXPECT_GT(info.upper, info.default_value) << info.name;
+TEST(Parameter, DefaultsAndPriorsLieWithinTheBounds) {
+  const Atmosphere<double> atmosphere;
+  for (const Parameter& id : standard_parameters()) {
+    const ParameterInfo info = parameter_info(id);
+    EXPECT_LT(info.lower, get_parameter(atmosphere, id)) << info.name;
+    EXPECT_GT(info.upper, get_parameter(atmosphere, id)) << info.name;
     if (!info.prior) continue;
     EXPECT_GT(info.prior->sigma, 0) << info.name;
     EXPECT_GT(info.prior->mean - info.prior->sigma, info.lower) << info.name;
@@ -41,51 +42,78 @@ TEST(ParameterTable, DefaultsAndPriorsLieWithinTheBounds) {
   }
 }
 
-TEST(ParameterTable, EveryBoundIsPhysical) {
+// Of the standard constituents, of a layer and of one that states its optical depth.
+Atmosphere<double> with_dust() {
+  Atmosphere<double> atmosphere;
+  Constituent<double> dust = standard_mie<double>();
+  dust.name = "dust";
+  dust.amount_type = AmountType::kOpticalDepth;
+  dust.amount = 0.2;
+  dust.profile.type = ProfileType::kLayer;
+  dust.profile.base_m = 3000;
+  dust.profile.top_m = 4000;
+  atmosphere.constituents.push_back(dust);
+  return atmosphere;
+}
+
+TEST(Parameter, EveryBoundIsPhysical) {
   for (const PhaseType type : {PhaseType::kCornetteShanks, PhaseType::kTwoLobe}) {
-    for (const ParameterInfo& info : parameter_table()) {
-      Atmosphere<double> atmosphere;
-      atmosphere.mie.phase.type = type;
-      if (!has_parameter(atmosphere, info.id)) continue;
+    Atmosphere<double> atmosphere = with_dust();
+    atmosphere.at("mie").phase.type = type;
+    for (const Parameter& id : parameters_of(atmosphere)) {
+      const bool edge = id.quantity() == Quantity::kBase || id.quantity() == Quantity::kTop;
+      if (edge) continue;  // they bound each other
+      const ParameterInfo info = parameter_info(id);
       for (const double bound : {info.lower, info.upper}) {
-        set_parameter(atmosphere, info.id, bound);
-        EXPECT_NO_THROW(validate(atmosphere)) << info.name << " = " << bound;
+        Atmosphere<double> changed = atmosphere;
+        set_parameter(changed, id, bound);
+        EXPECT_NO_THROW(validate(changed)) << info.name << " = " << bound;
       }
     }
   }
 }
 
-TEST(ParameterTable, DefaultsAreThoseOfTheAtmosphere) {
-  const Atmosphere<double> atmosphere;
-  for (const ParameterInfo& info : parameter_table()) {
-    EXPECT_EQ(get_parameter(atmosphere, info.id), info.default_value) << info.name;
+TEST(Parameter, OnlyExponentAndOzoneOfTheStandardOnesAreFixed) {
+  for (const Parameter& id : standard_parameters()) {
+    const bool fixed = id == Parameter::kMieAngstromExponent || id == Parameter::kOzoneColumn;
+    EXPECT_EQ(parameter_info(id).free_by_default, !fixed) << id.name();
   }
+  EXPECT_FALSE(parameter_info({"dust", Quantity::kOpticalDepth}).free_by_default);
 }
 
-TEST(ParameterTable, OnlyExponentAndOzoneAreFixed) {
-  for (const ParameterInfo& info : parameter_table()) {
-    const bool fixed = info.name == "mie.angstrom_exponent" || info.name == "ozone.column";
-    EXPECT_EQ(info.free_by_default, !fixed) << info.name;
+TEST(Parameter, AnAtmosphereListsWhatItHas) {
+  std::vector<std::string> names;
+  for (const Parameter& id : parameters_of(with_dust())) {
+    EXPECT_TRUE(has_parameter(with_dust(), id)) << id.name();
+    if (id.constituent() == "dust") names.push_back(id.name());
   }
+  EXPECT_THAT(names, testing::ElementsAre("dust.optical_depth", "dust.angstrom_exponent",
+                                          "dust.single_scattering_albedo", "dust.base_m",
+                                          "dust.top_m", "dust.phase.g"));
+  EXPECT_THAT(
+      [] {
+        require_parameter(with_dust(), {"dust", Quantity::kScaleHeight});
+      },
+      ThrowsMessage<std::invalid_argument>(
+          HasSubstr("dust.scale_height: the atmosphere has no such parameter")));
 }
 
 TEST(Parameter, WrittenIsReadAndNothingElseChanges) {
   Atmosphere<double> atmosphere;
-  for (const ParameterInfo& info : parameter_table()) {
-    set_parameter(atmosphere, info.id, 100.0 + static_cast<int>(info.id));
-  }
-  for (const ParameterInfo& info : parameter_table()) {
-    EXPECT_EQ(get_parameter(atmosphere, info.id), 100.0 + static_cast<int>(info.id)) << info.name;
-  }
-  EXPECT_EQ(atmosphere.mie.phase.g2, 100.0 + static_cast<int>(Parameter::kMiePhaseG2));
-  EXPECT_EQ(atmosphere.ozone.column_du, 100.0 + static_cast<int>(Parameter::kOzoneColumn));
+  double value = 100;
+  for (const Parameter& id : standard_parameters()) set_parameter(atmosphere, id, value++);
+  value = 100;
+  for (const Parameter& id : standard_parameters())
+    EXPECT_EQ(get_parameter(atmosphere, id), value++) << id.name();
+  EXPECT_EQ(atmosphere.at("mie").phase.g2, 108);
+  EXPECT_EQ(atmosphere.at("ozone").amount, 110);
 }
 
 TEST(Parameter, LobesDecideWhichPhaseParametersThereAre) {
   Atmosphere<double> atmosphere;
   for (const PhaseType type :
        {PhaseType::kCornetteShanks, PhaseType::kHenyeyGreenstein, PhaseType::kTwoLobe}) {
-    atmosphere.mie.phase.type = type;
+    atmosphere.at("mie").phase.type = type;
     const bool two = type == PhaseType::kTwoLobe;
     EXPECT_EQ(has_parameter(atmosphere, Parameter::kMiePhaseG), !two);
     EXPECT_EQ(has_parameter(atmosphere, Parameter::kMiePhaseG1), two);
@@ -112,44 +140,50 @@ TEST(Validate, NamesThePathTheValueAndTheExpectation) {
     }
     return "accepted";
   };
-  EXPECT_EQ(message_of([](auto& a) { a.mie.scattering_per_m.value = -1e-5; }),
-            "mie.scattering_per_m.value = -1e-05: expected a coefficient >= 0 1/m");
-  EXPECT_EQ(message_of([](auto& a) { a.rayleigh.scale_height_m = 0; }),
-            "rayleigh.scale_height_m = 0: expected a height > 0 m");
-  EXPECT_EQ(message_of([](auto& a) { a.mie.phase.g = 1; }),
-            "mie.phase.g = 1: expected an asymmetry between -1 and 1, both excluded");
+  EXPECT_EQ(message_of([](auto& a) { a.at("mie").amount = -1e-5; }),
+            "mie.scattering_per_m.value = -1e-05: expected a coefficient from 0 to 10 1/m");
+  EXPECT_EQ(message_of([](auto& a) { a.at("rayleigh").profile.scale_height_m = 0; }),
+            "rayleigh.profile.scale_height_m = 0: expected a height from 1 to 10000000 m");
+  EXPECT_EQ(message_of([](auto& a) { a.at("mie").phase.g = 1; }),
+            "mie.phase.g = 1: expected an asymmetry from -0.999 to 0.999");
   EXPECT_EQ(message_of([](auto& a) { a.ground_albedo = kNan; }),
             "ground.albedo = nan: expected an albedo from 0 to 1");
-  EXPECT_EQ(message_of([](auto& a) { a.top_radius_m = a.bottom_radius_m; }),
-            "planet.top_radius_m = 6360000: expected a radius > bottom_radius_m = 6360000");
-  EXPECT_EQ(message_of([](auto& a) { a.mie.scattering_per_m.exponent = kInfinity; }),
-            "mie.scattering_per_m.exponent = inf: expected a finite number");
-  EXPECT_EQ(message_of([](auto& a) { a.mie.single_scattering_albedo = 0; }),
-            "mie.single_scattering_albedo = 0: expected a ratio > 0 and <= 1");
-  EXPECT_EQ(message_of([](auto& a) { a.rayleigh.depolarisation = -0.1; }),
-            "rayleigh.depolarisation = -0.1: expected a ratio from 0 to 1");
-  EXPECT_EQ(message_of([](auto& a) { a.rayleigh.site_pressure_hpa = 0; }),
-            "rayleigh.site_pressure_hpa = 0: expected a pressure > 0 hPa");
-  EXPECT_EQ(message_of([](auto& a) { a.mie.phase.type = PhaseType::kTabulated; }),
-            "mie.phase.type = tabulated: expected a table");
   EXPECT_EQ(
-      message_of([](auto& a) {
-        a.ozone.profile = OzoneProfile::kExponential;
-        a.rayleigh.profile = std::make_shared<const LinearProfile>(TwoColumns{{0, 3e4}, {1, 0}});
-      }),
-      "ozone.profile = exponential: expected tent or a table, the air has no scale height");
-  EXPECT_EQ(message_of([](auto& a) { a.ozone.column_du = -1; }),
-            "ozone.column_du = -1: expected a column >= 0 DU");
+      message_of([](auto& a) { a.top_radius_m = a.bottom_radius_m; }),
+      "planet.top_radius_m = 6360000: expected a radius from bottom_radius_m + 100 = 6360100 m "
+      "to twice the bottom radius");
+  EXPECT_EQ(message_of([](auto& a) { a.at("mie").angstrom_exponent = kInfinity; }),
+            "mie.scattering_per_m.exponent = inf: expected an exponent from -20 to 20");
+  EXPECT_EQ(message_of([](auto& a) { a.at("mie").single_scattering_albedo = 0; }),
+            "mie.single_scattering_albedo = 0: expected a ratio > 0 and <= 1");
+  EXPECT_EQ(message_of([](auto& a) { a.at("rayleigh").phase.depolarisation = -0.1; }),
+            "rayleigh.phase.depolarisation = -0.1: expected a ratio from 0 to 1");
+  EXPECT_EQ(message_of([](auto& a) { a.at("rayleigh").site_pressure_hpa = 0; }),
+            "rayleigh.site_pressure_hpa = 0: expected a pressure > 0 and <= 1000000 hPa");
+  EXPECT_EQ(message_of([](auto& a) { a.at("mie").phase.type = PhaseType::kTabulated; }),
+            "mie.phase.type = tabulated: expected a table");
+  EXPECT_EQ(message_of([](auto& a) {
+              a.at("ozone").profile.type = ProfileType::kSameAs;
+              a.at("ozone").profile.of = "smoke";
+            }),
+            "ozone.profile.of = smoke: expected the name of a constituent with a profile of its "
+            "own");
+  EXPECT_EQ(message_of([](auto& a) { a.at("ozone").name = "mie"; }),
+            "constituents.name = \"mie\": expected a name that no other constituent has");
+  EXPECT_EQ(message_of([](auto& a) { a.constituents.resize(9); }),
+            "constituents = 9 of them: expected at most 8");
+  EXPECT_EQ(message_of([](auto& a) { a.at("ozone").amount = -1; }),
+            "ozone.column_du = -1: expected a column from 0 to 100000 DU");
 }
 
 TEST(Validate, OnlyTheLobesInUseMatter) {
   Atmosphere<double> atmosphere;
-  atmosphere.mie.phase.g1 = 5;
+  atmosphere.at("mie").phase.g1 = 5;
   EXPECT_NO_THROW(validate(atmosphere));
-  atmosphere.mie.phase.type = PhaseType::kTwoLobe;
+  atmosphere.at("mie").phase.type = PhaseType::kTwoLobe;
   EXPECT_THROW(validate(atmosphere), std::invalid_argument);
-  atmosphere.mie.phase.g1 = 0.9;
-  atmosphere.mie.phase.g = 5;
+  atmosphere.at("mie").phase.g1 = 0.9;
+  atmosphere.at("mie").phase.g = 5;
   EXPECT_NO_THROW(validate(atmosphere));
 }
 
@@ -157,10 +191,10 @@ TEST(Validate, AcceptsAnythingPhysicalOutsideTheFitBounds) {
   Atmosphere<double> atmosphere;
   atmosphere.bottom_radius_m = 1e9;
   atmosphere.top_radius_m = 1.0001e9;
-  atmosphere.mie.scattering_per_m.value = 0;
-  atmosphere.mie.single_scattering_albedo = 1;
-  atmosphere.rayleigh.scattering_per_m.value = 0;
-  atmosphere.ozone.column_du = 0;
+  atmosphere.at("mie").amount = 0;
+  atmosphere.at("mie").single_scattering_albedo = 1;
+  atmosphere.at("rayleigh").amount = 0;
+  atmosphere.at("ozone").amount = 0;
   EXPECT_NO_THROW(validate(atmosphere));
 }
 

@@ -59,10 +59,10 @@ TEST(Preset, ReadsEveryField) {
   const Preset preset = parse_preset(kText, "my.json");
   EXPECT_EQ(preset.name, "test");
   EXPECT_EQ(preset.atmosphere.top_radius_m, 6460000);
-  EXPECT_EQ(preset.atmosphere.rayleigh.scattering_per_m.exponent, 4.08);
-  EXPECT_EQ(preset.atmosphere.mie.scattering_per_m.value, 4e-6);
-  EXPECT_EQ(preset.atmosphere.mie.phase.g, 0.76);
-  EXPECT_EQ(preset.atmosphere.ozone.profile, OzoneProfile::kTent);
+  EXPECT_EQ(preset.atmosphere.at("rayleigh").angstrom_exponent, 4.08);
+  EXPECT_EQ(preset.atmosphere.at("mie").amount, 4e-6);
+  EXPECT_EQ(preset.atmosphere.at("mie").phase.g, 0.76);
+  EXPECT_EQ(preset.atmosphere.at("ozone").profile.type, ProfileType::kTent);
   EXPECT_EQ(preset.atmosphere.ground_albedo, 0.1);
   EXPECT_TRUE(preset.fit.is_null());
 }
@@ -70,26 +70,27 @@ TEST(Preset, ReadsEveryField) {
 TEST(Preset, RoundTripIsExactForEveryPhaseAndProfile) {
   for (const PhaseType type :
        {PhaseType::kCornetteShanks, PhaseType::kHenyeyGreenstein, PhaseType::kTwoLobe}) {
-    for (const OzoneProfile profile : {OzoneProfile::kTent, OzoneProfile::kExponential}) {
+    for (const ProfileType profile : {ProfileType::kTent, ProfileType::kSameAs}) {
       Preset preset;
       preset.name = "a \"quoted\" name, caf\xc3\xa9";
-      preset.atmosphere.mie.phase.type = type;
-      preset.atmosphere.ozone.profile = profile;
-      for (const ParameterInfo& info : parameter_table()) {
+      preset.atmosphere.at("mie").phase.type = type;
+      preset.atmosphere.at("ozone").profile.type = profile;
+      preset.atmosphere.at("ozone").profile.of = "rayleigh";
+      for (const Parameter& id : standard_parameters()) {
         // Neighbours of thirds need all 17 digits.
-        set_parameter(preset.atmosphere, info.id, std::nextafter(info.default_value / 3, 1e9));
+        set_parameter(preset.atmosphere, id,
+                      std::nextafter(get_parameter(preset.atmosphere, id) / 3, 1e9));
       }
       preset.fit = {{"rms", 1.0 / 3}, {"covariance", {{1e-300, 2}, {0.1, -4.9e-324}}}};
       const Preset again = parse_preset(preset_to_json(preset), "again.json");
       EXPECT_EQ(again.name, preset.name);
       EXPECT_EQ(again.fit, preset.fit);
-      EXPECT_EQ(again.atmosphere.mie.phase.type, type);
-      EXPECT_EQ(again.atmosphere.ozone.profile, profile);
-      for (const ParameterInfo& info : parameter_table()) {
-        if (!has_parameter(preset.atmosphere, info.id)) continue;
-        EXPECT_EQ(get_parameter(again.atmosphere, info.id),
-                  get_parameter(preset.atmosphere, info.id))
-            << info.name;
+      EXPECT_EQ(again.atmosphere.at("mie").phase.type, type);
+      EXPECT_EQ(again.atmosphere.at("ozone").profile.type, profile);
+      for (const Parameter& id : standard_parameters()) {
+        if (!has_parameter(preset.atmosphere, id)) continue;
+        EXPECT_EQ(get_parameter(again.atmosphere, id), get_parameter(preset.atmosphere, id))
+            << id.name();
       }
       EXPECT_EQ(preset_to_json(again), preset_to_json(preset));
     }
@@ -99,12 +100,12 @@ TEST(Preset, RoundTripIsExactForEveryPhaseAndProfile) {
 TEST(Preset, TwoLobesAreOfCornetteAndShanksUnlessNamed) {
   constexpr std::string_view kOneLobe = R"("type": "cornette-shanks", "g": 0.76)",
                              kTwo = R"("type": "two-lobe", "g1": 0.8, "g2": 0.1, "weight": 0.5)";
-  EXPECT_EQ(parse_preset(with(kOneLobe, kTwo), "my.json").atmosphere.mie.phase.lobe,
+  EXPECT_EQ(parse_preset(with(kOneLobe, kTwo), "my.json").atmosphere.at("mie").phase.lobe,
             PhaseType::kCornetteShanks);
   const Preset preset = parse_preset(
       with(kOneLobe, std::string(kTwo) + R"(, "lobe": "henyey-greenstein")"), "my.json");
-  EXPECT_EQ(preset.atmosphere.mie.phase.lobe, PhaseType::kHenyeyGreenstein);
-  EXPECT_EQ(parse_preset(preset_to_json(preset), "again.json").atmosphere.mie.phase.lobe,
+  EXPECT_EQ(preset.atmosphere.at("mie").phase.lobe, PhaseType::kHenyeyGreenstein);
+  EXPECT_EQ(parse_preset(preset_to_json(preset), "again.json").atmosphere.at("mie").phase.lobe,
             PhaseType::kHenyeyGreenstein);
   EXPECT_EQ(complaint(with(kOneLobe, std::string(kTwo) + R"(, "lobe": "two-lobe")")),
             "my.json:13: mie.phase.lobe = \"two-lobe\": expected one of cornette-shanks, "
@@ -117,8 +118,8 @@ TEST(Preset, AirMayDepolariseAndHaveAPressure) {
            "\"scale_height_m\": 8000, \"depolarisation\": 0.0279, \"site_pressure_hpa\": 880"),
       "my.json");
   const Preset again = parse_preset(preset_to_json(preset), "again.json");
-  EXPECT_EQ(again.atmosphere.rayleigh.depolarisation, 0.0279);
-  EXPECT_EQ(again.atmosphere.rayleigh.site_pressure_hpa, 880);
+  EXPECT_EQ(again.atmosphere.at("rayleigh").phase.depolarisation, 0.0279);
+  EXPECT_EQ(again.atmosphere.at("rayleigh").site_pressure_hpa, 880);
 }
 
 constexpr std::string_view kTablesPhase =
@@ -131,10 +132,13 @@ TEST(Preset, RoundTripOfTablesIsExact) {
   const std::string_view lobe = R"("type": "cornette-shanks", "g": 0.76)";
   text.replace(text.find(lobe), lobe.size(), kTablesPhase);
   const Preset preset = parse_preset(text, "my.json");
-  EXPECT_EQ(preset.atmosphere.mie.profile->table(), (TwoColumns{{0, 800.5, 2000}, {1, 0.7, 0}}));
+  EXPECT_EQ(preset.atmosphere.at("mie").profile.table->table(),
+            (TwoColumns{{0, 800.5, 2000}, {1, 0.7, 0}}));
   const Preset again = parse_preset(preset_to_json(preset), "again.json");
-  EXPECT_EQ(again.atmosphere.mie.profile->table(), preset.atmosphere.mie.profile->table());
-  EXPECT_EQ(again.atmosphere.mie.phase.table->table(), preset.atmosphere.mie.phase.table->table());
+  EXPECT_EQ(again.atmosphere.at("mie").profile.table->table(),
+            preset.atmosphere.at("mie").profile.table->table());
+  EXPECT_EQ(again.atmosphere.at("mie").phase.table->table(),
+            preset.atmosphere.at("mie").phase.table->table());
   EXPECT_EQ(preset_to_json(again), preset_to_json(preset));
 }
 
@@ -148,9 +152,9 @@ TEST(Preset, CsvIsReadBesideThePresetAndWrittenAsArrays) {
     return table;
   };
   const Preset preset = parse_preset(text, "folder/my.json", reader);
-  EXPECT_EQ(preset.atmosphere.ozone.profile, OzoneProfile::kTabulated);
+  EXPECT_EQ(preset.atmosphere.at("ozone").profile.type, ProfileType::kTabulated);
   const Preset again = parse_preset(preset_to_json(preset), "again.json");
-  EXPECT_EQ(again.atmosphere.ozone.table->table(), table);
+  EXPECT_EQ(again.atmosphere.at("ozone").profile.table->table(), table);
   EXPECT_EQ(complaint(text),
             "my.json:15: ozone.profile.csv = \"ozone.csv\": expected height_m and "
             "relative_density instead of a file");
@@ -203,7 +207,7 @@ TEST(Preset, PhaseHasExactlyTheFieldsOfItsType) {
             "my.json:13: mie.phase.g: unknown name, expected one of type, lobe, g1, g2, weight");
   EXPECT_EQ(complaint(with("cornette-shanks", "mie")),
             "my.json:13: mie.phase.type = \"mie\": expected one of cornette-shanks, "
-            "henyey-greenstein, two-lobe, tabulated");
+            "henyey-greenstein, two-lobe, tabulated, rayleigh, tabulated-by-wavelength");
 }
 
 TEST(Preset, MissingNameIsNamed) {
@@ -232,15 +236,16 @@ TEST(Preset, WrongTypesAreNamed) {
 }
 
 TEST(Preset, UnphysicalValuesAreNamed) {
-  EXPECT_EQ(complaint(with("4e-6", "-4e-6")),
-            "my.json:10: mie.scattering_per_m.value = -4e-06: expected a coefficient >= 0 1/m");
+  EXPECT_EQ(
+      complaint(with("4e-6", "-4e-6")),
+      "my.json:10: mie.scattering_per_m.value = -4e-06: expected a coefficient from 0 to 10 1/m");
   EXPECT_EQ(complaint(with("0.76", "1.0")),
-            "my.json:13: mie.phase.g = 1: expected an asymmetry between -1 and 1, both excluded");
+            "my.json:13: mie.phase.g = 1: expected an asymmetry from -0.999 to 0.999");
 }
 
 TEST(Preset, OtherVersionIsRefused) {
-  EXPECT_EQ(complaint(with("\"skyfit_preset\": 1", "\"skyfit_preset\": 2")),
-            "my.json:2: skyfit_preset = 2: expected 1, the version this program reads");
+  EXPECT_EQ(complaint(with("\"skyfit_preset\": 1", "\"skyfit_preset\": 3")),
+            "my.json:2: skyfit_preset = 3: expected 1 or 2, the versions this program reads");
 }
 
 TEST(Preset, BrokenJsonNamesTheLine) {

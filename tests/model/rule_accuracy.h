@@ -68,7 +68,7 @@ struct WorstError {
     std::snprintf(text.data(), text.size(),
                   "sun %g view %g azimuth %g altitude %g, aerosol %g exponent %g, ozone %g DU",
                   deg(p.sun_zenith), deg(p.view_zenith), deg(p.relative_azimuth), p.altitude_m,
-                  a.mie.scattering_per_m.value, a.mie.scattering_per_m.exponent, a.ozone.column_du);
+                  a.at("mie").amount, a.at("mie").angstrom_exponent, a.at("ozone").amount);
     where = text.data();
   }
 };

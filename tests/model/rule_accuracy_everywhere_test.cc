@@ -4,6 +4,8 @@
 // atmospheres are not those that the nodes were found with.
 #include "tests/model/rule_accuracy.h"
 
+#include "tests/atmospheres.h"
+
 namespace skyfit {
 namespace {
 
@@ -21,11 +23,11 @@ TEST(RuleAccuracy, Everywhere) {
                          Air{6e-4, 1.2, 1200, 0.9, 420, 0.2, PhaseType::kTwoLobe},
                          Air{2e-4, 1.0, 1200, 0.9, 0, 0.2, PhaseType::kCornetteShanks}}) {
     Atmosphere<double> a;
-    a.mie.scattering_per_m = {550, air.scattering, air.exponent};
-    a.mie.scale_height_m = air.scale_height;
-    a.mie.single_scattering_albedo = air.albedo;
-    a.mie.phase.type = air.phase;
-    a.ozone.column_du = air.ozone;
+    set_scattering(a.at("mie"), 550, air.scattering, air.exponent);
+    a.at("mie").profile.scale_height_m = air.scale_height;
+    a.at("mie").single_scattering_albedo = air.albedo;
+    a.at("mie").phase.type = air.phase;
+    a.at("ozone").amount = air.ozone;
     a.ground_albedo = air.ground;
     cases.push_back({a,
                      {0, 10e3},

@@ -4,18 +4,20 @@
 // rule_accuracy_everywhere_test.cc asks it of the whole domain.
 #include "tests/model/rule_accuracy.h"
 
+#include "tests/atmospheres.h"
+
 namespace skyfit {
 namespace {
 
 TEST(RuleAccuracy, ThroughMuchOzoneInTwilight) {
   Atmosphere<double> a;
-  a.ozone.column_du = 500;
+  a.at("ozone").amount = 500;
   expect_rules_hold({{a, {10e3}, {88, 92}, {0, 80, 88, 90}}});
 }
 
 TEST(RuleAccuracy, ByDayInHaze) {
   Atmosphere<double> a;
-  a.mie.scattering_per_m = {550, 3e-4, 1.6};
+  set_scattering(a.at("mie"), 550, 3e-4, 1.6);
   expect_rules_hold({{a, {0}, {0, 60, 85}, {0, 70, 90}}});
 }
 

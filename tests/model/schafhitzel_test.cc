@@ -29,8 +29,8 @@ Atmosphere<double> preset(std::string_view name) {
 TEST(Schafhitzel, IsTheIntegralInTheSunsPlane) {
   for (const std::string_view name : {"earth-clear", "mars"}) {
     Atmosphere<double> a = preset(name);
-    a.mie.single_scattering_albedo = 1;
-    a.ozone.column_du = 0;
+    a.at("mie").single_scattering_albedo = 1;
+    a.at("ozone").amount = 0;
     a.ground_albedo = 0;
     std::vector<SkyPoint> points;
     for (const double sun : {10.0, 40.0, 70.0}) {

@@ -12,6 +12,7 @@
 #include "data_refs/spectra.h"
 #include "model/atmosphere/preset.h"
 #include "model/tables/table_lookup.h"
+#include "tests/atmospheres.h"
 
 namespace skyfit {
 namespace {
@@ -39,7 +40,7 @@ const Weather& weather() {
   static const Weather made = [] {
     const Atmosphere<double> clear = shipped("earth-clear");
     Atmosphere<double> hazy = clear;
-    hazy.mie.scattering_per_m.value *= 1.25;
+    hazy.at("mie").amount *= 1.25;
     hazy.ground_albedo += 0.05;
     return Weather{tables_of(clear), tables_of(hazy)};
   }();
@@ -54,7 +55,7 @@ TEST(TableBlend, TheEndsAreTheTables) {
   EXPECT_EQ(start.sky_rays.air.rgba, weather().clear.sky_rays.air.rgba);
   EXPECT_EQ(start.optical_depth.rgba, weather().clear.optical_depth.rgba);
   EXPECT_EQ(end.atmosphere, weather().hazy.atmosphere);
-  EXPECT_EQ(end.single_mie.rgba, weather().hazy.single_mie.rgba);
+  EXPECT_EQ(end.single.rgba, weather().hazy.single.rgba);
   EXPECT_EQ(end.sky_rays.aerosol.rgba, weather().hazy.sky_rays.aerosol.rgba);
   EXPECT_EQ(end.irradiance.rgba, weather().hazy.irradiance.rgba);
 }
@@ -83,15 +84,14 @@ TEST(TableBlend, ParametersAreLinearWhateverTheirWavelength) {
   const Atmosphere<double> a = shipped("earth-clear");
   Atmosphere<double> b = a;
   // The same aerosol, stated at 680 nm, and twice as much of it.
-  b.mie.scattering_per_m = {
-      680,
-      2 * a.mie.scattering_per_m.value *
-          std::pow(680 / a.mie.scattering_per_m.wavelength_nm, -a.mie.scattering_per_m.exponent),
-      a.mie.scattering_per_m.exponent};
-  b.ozone.column_du = a.ozone.column_du + 40;
+  set_scattering(b.at("mie"), 680,
+                 2 * a.at("mie").amount *
+                     std::pow(680 / a.at("mie").wavelength_nm, -a.at("mie").angstrom_exponent),
+                 a.at("mie").angstrom_exponent);
+  b.at("ozone").amount = a.at("ozone").amount + 40;
   const Atmosphere<double> between = interpolated_atmosphere(a, b, 0.25);
-  EXPECT_NEAR(between.mie.scattering_per_m.value / a.mie.scattering_per_m.value, 1.25, 1e-12);
-  EXPECT_NEAR(between.ozone.column_du, a.ozone.column_du + 10, 1e-9);
+  EXPECT_NEAR(between.at("mie").amount / a.at("mie").amount, 1.25, 1e-12);
+  EXPECT_NEAR(between.at("ozone").amount, a.at("ozone").amount + 10, 1e-9);
 }
 
 TEST(TableBlend, RefusesWhatHasNothingBetween) {
@@ -101,8 +101,9 @@ TEST(TableBlend, RefusesWhatHasNothingBetween) {
   EXPECT_THAT([&] { interpolated_atmosphere(a, b, 0.5); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("planet.top_radius_m: differs")));
   b = a;
-  b.mie.phase.type =
-      a.mie.phase.type == PhaseType::kTwoLobe ? PhaseType::kHenyeyGreenstein : PhaseType::kTwoLobe;
+  b.at("mie").phase.type = a.at("mie").phase.type == PhaseType::kTwoLobe
+                               ? PhaseType::kHenyeyGreenstein
+                               : PhaseType::kTwoLobe;
   EXPECT_THAT([&] { interpolated_atmosphere(a, b, 0.5); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("mie.phase.type: differs")));
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/sky_model.h"
+#include "tests/atmospheres.h"
 
 namespace skyfit::truth {
 
@@ -42,11 +43,11 @@ inline std::vector<Row> read_rows(const std::string& name) {
 // The atmosphere of the Monte Carlo tables.
 inline Atmosphere<double> monte_carlo_earth(bool haze) {
   Atmosphere<double> a;
-  a.rayleigh.scattering_per_m = {550, 0.01216e-3, 4.08};
-  a.mie.scattering_per_m = {550, haze ? 0.1583e-3 : 0.0040e-3, 1.0};
-  a.mie.single_scattering_albedo = haze ? 0.95 : 0.9;
-  a.mie.phase.g = haze ? 0.65 : 0.76;
-  a.ozone.column_du = 0;
+  set_scattering(a.at("rayleigh"), 550, 0.01216e-3, 4.08);
+  set_scattering(a.at("mie"), 550, haze ? 0.1583e-3 : 0.0040e-3, 1.0);
+  a.at("mie").single_scattering_albedo = haze ? 0.95 : 0.9;
+  a.at("mie").phase.g = haze ? 0.65 : 0.76;
+  a.at("ozone").amount = 0;
   a.ground_albedo = haze ? 0.2 : 0.1;
   return a;
 }
@@ -57,11 +58,11 @@ inline Atmosphere<double> plane_parallel(const std::string& name) {
   a.bottom_radius_m = 1e9;
   a.top_radius_m = 1e9 + 100e3;
   const double depth = name == "R3" ? 0.25 : 0.0973;
-  a.rayleigh.scattering_per_m = {550, depth / 8000, 4};
-  a.mie.scattering_per_m = {550, name == "A3" ? 0.9 * 0.10 / 1200 : 0.0, 0};
-  a.mie.single_scattering_albedo = 0.9;
-  a.mie.phase.g = 0.76;
-  a.ozone.column_du = 0;
+  set_scattering(a.at("rayleigh"), 550, depth / 8000, 4);
+  set_scattering(a.at("mie"), 550, name == "A3" ? 0.9 * 0.10 / 1200 : 0.0, 0);
+  a.at("mie").single_scattering_albedo = 0.9;
+  a.at("mie").phase.g = 0.76;
+  a.at("ozone").amount = 0;
   a.ground_albedo = name == "R1" ? 0 : name == "R3" ? 0.3 : 0.1;
   return a;
 }
@@ -74,50 +75,50 @@ struct MonteCarloCase {
 inline MonteCarloCase monte_carlo_case(const std::string& name) {
   MonteCarloCase c;
   Atmosphere<double>& a = c.atmosphere;
-  a.rayleigh.scattering_per_m = {550, 1.216e-5, 4.08};
-  a.ozone.column_du = 0;
-  a.mie.scattering_per_m = {550, 1.583e-4, 1.0};  // aerosol optical depth 0.2
-  a.mie.single_scattering_albedo = 0.95;
-  a.mie.phase.g = 0.65;
+  set_scattering(a.at("rayleigh"), 550, 1.216e-5, 4.08);
+  a.at("ozone").amount = 0;
+  set_scattering(a.at("mie"), 550, 1.583e-4, 1.0);  // aerosol optical depth 0.2
+  a.at("mie").single_scattering_albedo = 0.95;
+  a.at("mie").phase.g = 0.65;
   a.ground_albedo = 0.2;
   if (name == "clear-400nm") {
     c.wavelength_nm = 400;
-    a.mie.scattering_per_m = {550, 3e-5, 1.3};
-    a.ozone.column_du = 300;
+    set_scattering(a.at("mie"), 550, 3e-5, 1.3);
+    a.at("ozone").amount = 300;
   } else if (name == "haze-650nm") {
     c.wavelength_nm = 650;
-    a.mie.scattering_per_m = {550, 2.1e-4, 1.3};
-    a.mie.phase.g = 0.76;
-    a.ozone.column_du = 300;
+    set_scattering(a.at("mie"), 550, 2.1e-4, 1.3);
+    a.at("mie").phase.g = 0.76;
+    a.at("ozone").amount = 300;
     a.ground_albedo = 0.5;
   } else if (name == "peaked-haze") {
-    a.mie.scattering_per_m = {550, 2.0e-4, 1.3};
-    a.mie.phase.type = PhaseType::kTwoLobe;
-    a.mie.phase.g1 = 0.9;
-    a.mie.phase.g2 = 0.3;
-    a.mie.phase.weight = 0.6;
+    set_scattering(a.at("mie"), 550, 2.0e-4, 1.3);
+    a.at("mie").phase.type = PhaseType::kTwoLobe;
+    a.at("mie").phase.g1 = 0.9;
+    a.at("mie").phase.g2 = 0.3;
+    a.at("mie").phase.weight = 0.6;
   } else if (name == "twilight-clear") {
-    a.mie.scattering_per_m.value = 4e-6;
-    a.mie.phase.g = 0.76;
+    a.at("mie").amount = 4e-6;
+    a.at("mie").phase.g = 0.76;
   } else if (name == "deep-twilight") {
-    a.mie.scattering_per_m.value = 4e-5;
+    a.at("mie").amount = 4e-5;
   } else if (name == "thick-haze-450nm") {  // aerosol optical depth 1.36
     c.wavelength_nm = 450;
-    a.mie.scattering_per_m = {550, 8e-4, 1.2};
-    a.mie.single_scattering_albedo = 0.9;
-    a.mie.phase.g = 0.75;
-    a.ozone.column_du = 350;
+    set_scattering(a.at("mie"), 550, 8e-4, 1.2);
+    a.at("mie").single_scattering_albedo = 0.9;
+    a.at("mie").phase.g = 0.75;
+    a.at("ozone").amount = 350;
   } else if (name == "altitude-clear") {
-    a.mie.scattering_per_m.value = 4e-6;
+    a.at("mie").amount = 4e-6;
   } else if (name == "mars") {
     a.bottom_radius_m = 3389.5e3;
     a.top_radius_m = a.bottom_radius_m + 100e3;
-    a.rayleigh.scattering_per_m.value = 1e-6;
-    a.rayleigh.scale_height_m = 11e3;
-    a.mie.scattering_per_m = {550, 4e-5, 0};
-    a.mie.scale_height_m = 11e3;
-    a.mie.single_scattering_albedo = 0.94;
-    a.mie.phase.g = 0.7;
+    a.at("rayleigh").amount = 1e-6;
+    a.at("rayleigh").profile.scale_height_m = 11e3;
+    set_scattering(a.at("mie"), 550, 4e-5, 0);
+    a.at("mie").profile.scale_height_m = 11e3;
+    a.at("mie").single_scattering_albedo = 0.94;
+    a.at("mie").phase.g = 0.7;
   } else if (name != "low-sun-haze" && name != "twilight-haze" && name != "altitude-haze" &&
              name != "space") {
     throw std::runtime_error(name + ": no such case");

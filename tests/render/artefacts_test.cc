@@ -135,20 +135,19 @@ TEST(Aerosols, KeepTheirColorAfterSunset) {
     }
     // From the ground, 60 degrees above the horizon or so, toward the sun's azimuth.
     const int row = sizes.scattering_ground + sizes.scattering_sky / 2;
-    const std::size_t texel = 4 * (static_cast<std::size_t>(row) * tables().single_mie.width + sun);
-    const auto law = [&](const PowerLaw<double>& beta, std::size_t node) {
-      return std::pow(tables().color.nodes[node].wavelength_nm, -beta.exponent);
+    const std::size_t texel = 4 * (static_cast<std::size_t>(row) * tables().single.width + sun);
+    const auto law = [&](const Constituent<double>& c, std::size_t node) {
+      return std::pow(tables().color.nodes[node].wavelength_nm, -c.angstrom_exponent);
     };
     const auto& a = tables().atmosphere;
     const auto value = [&](const Table& table, std::size_t node) {
       return std::exp(double{table.rgba[texel + node]});
     };
-    const double recovered =
-        value(tables().rayleigh_like, 0) * value(tables().single_mie, 3) /
-        value(tables().rayleigh_like, 3) *
-        (law(a.rayleigh.scattering_per_m, 3) / law(a.mie.scattering_per_m, 3)) *
-        (law(a.mie.scattering_per_m, 0) / law(a.rayleigh.scattering_per_m, 0));
-    return recovered / value(tables().single_mie, 0);
+    const double recovered = value(tables().rayleigh_like, 0) * value(tables().single, 3) /
+                             value(tables().rayleigh_like, 3) *
+                             (law(a.at("rayleigh"), 3) / law(a.at("mie"), 3)) *
+                             (law(a.at("mie"), 0) / law(a.at("rayleigh"), 0));
+    return recovered / value(tables().single, 0);
   };
   const double day = recovered_over_kept(std::cos(30 * kDegree)),
                dusk = recovered_over_kept(std::cos(93 * kDegree));

@@ -9,6 +9,7 @@
 #include "model/shared/shared.h"
 #include "model/tables/table_lookup.h"
 #include "render/gl/atmosphere/atmosphere_pass.h"
+#include "tests/atmospheres.h"
 #include "tests/render/gl_fixture.h"
 
 namespace skyfit {
@@ -159,7 +160,7 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
   add_tables(tables, graph);
   const auto inputs = rays();
   const std::map<GLuint, const char*> names = {
-      {0, "optical_depth"}, {1, "irradiance"},   {2, "rayleigh_like"},   {3, "single_mie"},
+      {0, "optical_depth"}, {1, "irradiance"},   {2, "rayleigh_like"},   {3, "single"},
       {4, "phase"},         {10, "sky_ray_air"}, {11, "sky_ray_aerosol"}};
   // One shader, so that the compiler drops no uniform; x.w says which function is asked for.
   const auto look_up = [&](float which) {
@@ -209,19 +210,19 @@ TEST_F(SharedFormulas, TableLookups) {
 
 TEST_F(SharedFormulas, TableLookupsOfTwoHenyeyGreensteinLobes) {
   Preset preset = shipped("earth-clear");
-  preset.atmosphere.mie.phase.lobe = PhaseType::kHenyeyGreenstein;
-  preset.atmosphere.rayleigh.depolarisation = 0.03;
+  preset.atmosphere.at("mie").phase.lobe = PhaseType::kHenyeyGreenstein;
+  preset.atmosphere.at("rayleigh").phase.depolarisation = 0.03;
   expect_equal_lookups(tables_of(preset, kSmallTables));
 }
 
 TEST_F(SharedFormulas, TableLookupsOfTabulatedPhaseAndProfile) {
   Preset preset = shipped("earth-clear");
-  AerosolPhase<double>& phase = preset.atmosphere.mie.phase;
+  PhaseFunction<double>& phase = preset.atmosphere.at("mie").phase;
   phase.type = PhaseType::kTabulated;
   phase.table = std::make_shared<const TabulatedPhase>(TwoColumns{
       {0, 5, 20, 60, 120, 150, 180}, {7.6, 2.28, 0.319, 0.0683, 0.0106, 0.00759, 0.0228}});
-  preset.atmosphere.mie.profile = std::make_shared<const LinearProfile>(
-      TwoColumns{{0, 1e3, 2e3, 3e3, 5e3}, {1, 0.8, 0, 0.3, 0}});
+  preset.atmosphere.at("mie").profile = tabulated_profile(std::make_shared<const LinearProfile>(
+      TwoColumns{{0, 1e3, 2e3, 3e3, 5e3}, {1, 0.8, 0, 0.3, 0}}));
   expect_equal_lookups(tables_of(preset, kSmallTables));
 }
 

@@ -31,19 +31,20 @@ TEST(Tables, OpticalDepthIsThatOfTheColumns) {
   for (const double height : {0.5, 170.0, 1234.0, 5e3, 21e3}) {
     for (const double zenith : {3.0, 40.0, 71.0, 84.0, 89.2}) {
       const double mu = std::cos(zenith * kDegree), top = a.top_radius_m - a.bottom_radius_m;
-      const double air =
-          exponential_column(a.bottom_radius_m, height, mu, top, a.rayleigh.scale_height_m).value;
+      const double air = exponential_column(a.bottom_radius_m, height, mu, top,
+                                            a.at("rayleigh").profile.scale_height_m)
+                             .value;
       const double aerosol =
-          exponential_column(a.bottom_radius_m, height, mu, top, a.mie.scale_height_m).value;
+          exponential_column(a.bottom_radius_m, height, mu, top, a.at("mie").profile.scale_height_m)
+              .value;
       const NodeValues tau = lookup_optical_depth(tables, height, mu);
       for (std::size_t k = 0; k < 4; ++k) {
         const double ratio = tables.color.nodes[k].wavelength_nm / 550;
-        const auto at = [ratio](const PowerLaw<double>& law) {
-          return law.value * std::pow(ratio, -law.exponent);
+        const auto at = [ratio](const Constituent<double>& c) {
+          return c.amount * std::pow(ratio, -c.angstrom_exponent);
         };
-        const double expected =
-            at(a.rayleigh.scattering_per_m) * air +
-            at(a.mie.scattering_per_m) / a.mie.single_scattering_albedo * aerosol;
+        const double expected = at(a.at("rayleigh")) * air +
+                                at(a.at("mie")) / a.at("mie").single_scattering_albedo * aerosol;
         EXPECT_NEAR(tau[k] / expected, 1, kInterpolation)
             << "height " << height << ", zenith " << zenith;
       }
@@ -113,9 +114,8 @@ TEST(Tables, AreFiniteForEveryShippedPreset) {
   for (const std::string& name : refs::shipped_preset_names()) {
     const AtmosphereTables tables =
         tables_of(name.c_str(), {32, 16, 16, 8, 8, 8, 8, 16, 4, 8, 16, 4});
-    for (const Table* table :
-         {&tables.optical_depth, &tables.irradiance, &tables.rayleigh_like, &tables.single_mie,
-          &tables.sky_rays.air, &tables.sky_rays.aerosol}) {
+    for (const Table* table : {&tables.optical_depth, &tables.irradiance, &tables.rayleigh_like,
+                               &tables.single, &tables.sky_rays.air, &tables.sky_rays.aerosol}) {
       for (const float value : table->rgba) ASSERT_TRUE(std::isfinite(value)) << name;
     }
   }

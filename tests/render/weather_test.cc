@@ -21,7 +21,7 @@ constexpr TableSizes kTiny = {16, 16, 8, 4, 4, 4, 8, 8, 4, 8, 8, 4};
 Preset preset(double aerosol) {
   Preset preset = parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear");
   preset.name = "weather";
-  preset.atmosphere.mie.scattering_per_m.value = aerosol;
+  preset.atmosphere.at("mie").amount = aerosol;
   return preset;
 }
 
@@ -32,13 +32,13 @@ TEST(Weather, StepsAreAtMostAQuarter) {
             9u);  // ln 4 / ln 1.25 = 6.2, so 7 steps, and the one that changes nothing
   for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
     EXPECT_GT(steps[i].time_s, steps[i - 1].time_s);
-    const double ratio = steps[i].preset.atmosphere.mie.scattering_per_m.value /
-                         steps[i - 1].preset.atmosphere.mie.scattering_per_m.value;
+    const double ratio = steps[i].preset.atmosphere.at("mie").amount /
+                         steps[i - 1].preset.atmosphere.at("mie").amount;
     EXPECT_NEAR(ratio, std::pow(4, 1.0 / 7), 1e-9);
   }
   // The coefficient goes linearly with time, however the steps lie.
-  EXPECT_NEAR(steps[3].preset.atmosphere.mie.scattering_per_m.value,
-              1e-5 + 3e-5 * steps[3].time_s / 8, 1e-12);
+  EXPECT_NEAR(steps[3].preset.atmosphere.at("mie").amount, 1e-5 + 3e-5 * steps[3].time_s / 8,
+              1e-12);
 }
 
 TEST(Weather, MomentsLieBetweenSteps) {
@@ -65,7 +65,7 @@ TEST(Weather, TablesAreMadeOncePerStep) {
   const Weather::Now start = weather.at(0), again = weather.at(0), half = weather.at(0.5);
   EXPECT_EQ(start.tables, again.tables);
   EXPECT_NE(start.tables, half.tables);
-  EXPECT_NEAR(half.preset.atmosphere.mie.scattering_per_m.value, 1.1e-5, 1e-15);
+  EXPECT_NEAR(half.preset.atmosphere.at("mie").amount, 1.1e-5, 1e-15);
   const std::size_t texel = half.tables->optical_depth.rgba.size() / 2;
   EXPECT_GT(half.tables->optical_depth.rgba[texel], start.tables->optical_depth.rgba[texel]);
   EXPECT_EQ(weather.at(1.2).tables, weather.at(1.9).tables);  // nothing changes
