@@ -317,7 +317,6 @@ void AtmospherePass::classify(const AtmosphereView& view) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   draw_triangle(classes);
-  glDisable(GL_DEPTH_TEST);
 }
 
 void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky,
@@ -351,8 +350,6 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
   draw_suns(view);
   // What takes longest comes last: before another program samples what has been drawn, Mesa's
   // renderer waits for all that is on its way.
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
   if (view.sees_grains()) {
     glDepthRange(kGrainlessClass, 1);
     draw_triangle(grainless);
@@ -362,9 +359,6 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
     glDepthFunc(GL_LESS);  // than any depth: the pixels have no classes
     draw_triangle(grainless);
   }
-  glDepthRange(0, 1);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_DEPTH_TEST);
 }
 
 void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shadow_maps) {
@@ -393,8 +387,6 @@ void AtmospherePass::draw_suns(const AtmosphereView& view) {
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_EQUAL);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_DEPTH_TEST);
 }
 
 }  // namespace skyfit

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/gl/context/context.h"
 #include "render/gl/context/uniform_block.h"
 
 namespace skyfit {
@@ -67,10 +66,6 @@ void ShadowPass::draw(const std::function<void(int)>& draw) const {
     glClearNamedFramebufferfv(id, GL_DEPTH, 0, &farthest);
     draw(i);
   }
-  glDisable(GL_DEPTH_CLAMP);
-  glDisable(GL_DEPTH_TEST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  check_gl("shadow maps");
 }
 
 void ShadowPass::bind(const std::array<ShadowView, kShadowMaps>& views, GLuint program, GLuint unit,
