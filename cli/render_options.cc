@@ -117,7 +117,8 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
   group
       .option("--adaptation-s", options.adaptation, "SECONDS",
-              "How fast the automatic exposure of a sequence follows the light")
+              "How fast the automatic exposure of a sequence follows the light; time of the scene, "
+              "of which much may pass between two frames of a day")
       ->capture_default_str();
 }
 
