@@ -153,8 +153,8 @@ std::vector<LevelNode> level_path(const Shells& shells, const NodeOptics& optics
   const Interpolation of_beam(nodes, [](const LevelNode&) { return true; });
   const Interpolation of_source(nodes, [](const LevelNode& n) { return n.has_source(); });
   std::array<double, 4> tau{};
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const double begin = nodes[i].s, length = nodes[i + 1].s - begin;
+  const auto add_piece = [&](double begin, double end) {
+    const double length = end - begin;
     std::array<PathDensities, kOrder> density;
     for (int j = 0; j < kOrder; ++j) {
       const double h = std::max(shared.height_after(shells.bottom_radius, ray.entry_height,
@@ -187,7 +187,9 @@ std::vector<LevelNode> level_path(const Shells& shells, const NodeOptics& optics
     for (int k = 0; k < 4; ++k) {
       for (int j = 0; j < kOrder; ++j) tau[k] += kWeight[j] * extinction[j][k];
     }
-  }
+  };
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+    for_pieces(nodes[i].s, nodes[i + 1].s, add_piece);
   return nodes;
 }
 

@@ -2,8 +2,10 @@
 // Light scattered into paths from the eye and their transmittance in a volume of 32 x 32 x 16 (Bodare & Sandberg 2014,
 // 6.4.2); of the transmittance one slice across, for it is the same in all azimuths. Deviations: the directions are those of
 // sky_view.glsl, by the azimuth from the sun and apart above and below the horizon, which a volume over the frustum would
-// mix (half of the light of a pixel beside it); the volume holds the logarithms of means per kilometre, smooth where a path
-// begins, and the two kinds of scattering apart, so that the phase functions stay those of the pixel.
+// mix (half of the light of a pixel beside it); the volume holds logarithms, of the extinction per kilometre and of the
+// light over the share of its passing light that a path takes, which is about the source of light along it: smooth where a
+// path begins and where haze lets no more light through; and the two kinds of scattering apart, so that the phase functions
+// stay those of the pixel.
 #include "render/shaders/sky_view.glsl"
 
 const vec3 kVolumeSize = vec3(32.0, 32.0, 16.0);
@@ -23,6 +25,11 @@ float slice_share(float slice) {
 }
 float slice_coordinate(float share) { return sqrt(share) * ((kVolumeSize.z - 0.5) / kVolumeSize.z); }
 
+// 1 - exp(-depth); by its series where the difference would lose digits, to 4e-7.
+vec4 share_taken(vec4 depth) {
+  return mix(1.0 - exp(-depth), depth * (1.0 - 0.5 * depth * (1.0 - depth * (1.0 / 3.0))), lessThan(depth, vec4(0.02)));
+}
+
 #ifndef VOLUME_WRITE
 layout(binding = 15) uniform sampler3D air_volume;
 layout(binding = 16) uniform sampler3D aerosol_volume;
@@ -36,7 +43,9 @@ struct VolumeLight {
 VolumeLight volume_light(ViewRay ray, float d) {
   float slice = slice_coordinate(min(d / longest_path(ray), 1.0));
   vec3 place = vec3(place_in_view(ray, suns[0].xyz, kVolumeView), slice);
-  return VolumeLight(Scattering(d * exp(texture(air_volume, place)), d * exp(texture(aerosol_volume, place))),
-                   exp(-d * exp(texture(extinction_volume, place.yz))));
+  vec4 depth = d * exp(texture(extinction_volume, place.yz));
+  vec4 taken = share_taken(depth);
+  return VolumeLight(Scattering(taken * exp(texture(air_volume, place)), taken * exp(texture(aerosol_volume, place))),
+                     exp(-depth));
 }
 #endif
