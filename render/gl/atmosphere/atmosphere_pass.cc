@@ -132,12 +132,12 @@ double thickness_m(const AtmosphereTables& tables) {
 }
 
 // Columns: a node each.
-std::array<double, 16> light_from_nodes(const ColorRule& color) {
+std::array<double, 16> light_from_nodes(const ColorRule& color, const ColorSpace& space) {
   std::array<double, 16> columns{};
   for (std::size_t node = 0; node < 4; ++node) {
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t k = 0; k < 3; ++k)
-        columns[4 * node + row] += kLinearSrgbFromXyz[row][k] * color.xyz_from_nodes[k][node];
+        columns[4 * node + row] += space.from_xyz[row][k] * color.xyz_from_nodes[k][node];
     }
     columns[4 * node + 3] = color.xyz_from_nodes[1][node];
   }
@@ -229,8 +229,7 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
           fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
           fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
           fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
-          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples),
-          fmt::format("LIGHT_FROM_NODES {:.9g}", fmt::join(light_from_nodes(tables.color), ", "))};
+          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)};
 }
 
 GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
@@ -297,6 +296,9 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
 GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
                                const AtmosphereView& view) {
   Defined defined = defined_by(view.options);
+  defined.push_back(fmt::format(
+      "LIGHT_FROM_NODES {:.9g}",
+      fmt::join(light_from_nodes(tables_.color, color_space(view.options.primaries)), ", ")));
   if (path == kCompute) std::ranges::copy(class_defines(), std::back_inserter(defined));
   defined.insert(defined.end(), what.begin(), what.end());
   const bool surface = std::ranges::find(what, kSurface) != what.end();

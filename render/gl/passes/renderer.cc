@@ -107,6 +107,7 @@ class GlRenderer final : public FrameDrawer {
     before_.reset();
     frame.statistics = start_frame(sampled, true, report).wait();
     report(0.9);
+    frame.primaries = options.primaries;
     frame.width = options.width;
     frame.height = options.height;
     resolve_light(graph_, samples, frame);
