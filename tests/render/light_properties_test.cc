@@ -323,7 +323,7 @@ TEST(Layers, AddUpToThePicture) {
     for (std::size_t i = 0; i < frame.luminance.size(); ++i) {
       const std::vector<float>&air = frame.layers->in_scatter, &ground = frame.layers->reflected;
       const double whole = luminance_of(air, i) + luminance_of(ground, i);
-      luminance.add(frame, i, whole / std::max<double>(frame.luminance[i], 1e-6) - 1);
+      luminance.add(frame, i, (whole - frame.luminance[i]) / std::max(whole, 1e-6));
       // Brought into the gamut, each by itself, three parts add up by their luminance only.
       if (at_edge_of_gamut(air, i) || at_edge_of_gamut(ground, i)) continue;
       const glm::dvec3 sum = color_of(air, i) + color_of(ground, i);

@@ -307,7 +307,7 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
   if (view.volume(tables_)) defined.push_back("VOLUME");
   if (view.options.layers) defined.push_back("LAYERS");
   if (view.options.clouds) defined.push_back("CLOUDS");
-  if (view.shadows != nullptr) defined.push_back("SHADOWS");
+  if (!view.shadows.empty()) defined.push_back("SHADOWS");
   return program(path, defined);
 }
 
@@ -324,8 +324,8 @@ void AtmospherePass::classify(const AtmosphereView& view) {
 void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky,
                           GLuint grainy) {
   bind_blocks(sky, view);
-  if (view.shadows != nullptr) {
-    shadow_maps.bind(*view.shadows, grainy, kShadowUnit, blocks_);
+  if (!view.shadows.empty()) {
+    shadow_maps.bind(view.shadows, grainy, kShadowUnit, blocks_);
   }
   glBindTextureUnit(kDensityUnit, densities_.id());
   if (view.options.clouds) {

@@ -10,9 +10,9 @@
 // kSkyViewWrites.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,7 +54,7 @@ struct AtmosphereView {
   const FrameOptions& options;
   const Projection& projection;
   const SiteAxes& axes;
-  const std::array<ShadowView, kShadowMaps>* shadows;  // null: none
+  std::span<const ShadowView> shadows;
   double farthest_km;  // of the ground that is seen: the length of the volume
   bool only_ground;    // is seen: no meshes, no moon
   double nearest_m;    // of the ground that is seen, or less
