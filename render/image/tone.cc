@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/gl/gamut.h"
+#include "render/image/gamut.h"
 
 namespace skyfit {
 namespace {

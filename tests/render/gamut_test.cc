@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // No light of a frame is negative in any primaries; what a colour space cannot hold keeps its
 // luminance and the direction of its hue, and the rest of the picture is the same light.
-#include "render/gl/gamut.h"
+#include "render/image/gamut.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "render/gl/gamut.h"
 #include "render/gl/passes/view_basis.h"
+#include "render/image/gamut.h"
 
 namespace skyfit {
 namespace {

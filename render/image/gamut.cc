@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/gl/gamut.h"
+#include "render/image/gamut.h"
 
 #include <algorithm>
 #include <glm/glm.hpp>
