@@ -73,6 +73,7 @@ ordered_json json_of(const FrameOptions& frame) {
                        {"samples_per_quad", frame.samples_per_quad},
                        {"aerial", static_cast<int>(frame.aerial)},
                        {"shadows", frame.shadows},
+                       {"primaries", static_cast<int>(frame.primaries)},
                        {"layers", frame.layers}};
   if (const auto& sun = frame.second_sun)
     json["second_sun"] = {sun->zenith, sun->azimuth, sun->irradiance};

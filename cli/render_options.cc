@@ -116,8 +116,14 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
               "Tone curve of the PNG: of film, or 1 - exp(-K L)")
       ->capture_default_str();
   group
+      .option("--primaries", options.primaries, "rec709|rec2020|xyz",
+              "Of the EXR's colours, all with the white D65; light outside their gamut is less "
+              "saturated, of the same luminance and hue")
+      ->capture_default_str();
+  group
       .option("--adaptation-s", options.adaptation, "SECONDS",
-              "How fast the automatic exposure of a sequence follows the light")
+              "How fast the automatic exposure of a sequence follows the light; time of the scene, "
+              "of which much may pass between two frames of a day")
       ->capture_default_str();
 }
 

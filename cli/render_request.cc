@@ -104,9 +104,13 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
     if (options.out.empty()) throw UsageError("--out", "", "expected name.png or name.exr");
     require_output_files(options.out, {".png", ".exr"});
   }
-  if (options.layers &&
-      std::ranges::none_of(request.is_sequence ? request.extensions : request.out, is_exr))
-    throw UsageError("--layers", "true", "expected an output that ends in .exr");
+  const bool has_exr =
+      std::ranges::any_of(request.is_sequence ? request.extensions : request.out, is_exr);
+  const auto require_exr = [&](bool wanted, const char* option, const std::string& value) {
+    if (wanted && !has_exr) throw UsageError(option, value, "expected an output that ends in .exr");
+  };
+  require_exr(options.layers, "--layers", "true");
+  require_exr(request.frame.primaries != Primaries::kRec709, "--primaries", options.primaries);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class Shooting {
         weather_(weather_of(request.sequence)),
         fingerprints_(request, weather_),
         store_(request.out_dir, request.extensions),
-        adaptation_(request.adaptation_s, request.sequence.frames_per_second) {}
+        adaptation_(request.adaptation_s) {}
 
   int drawn() const { return drawn_; }
   const StatisticsTable& statistics() const { return statistics_; }
@@ -41,7 +41,7 @@ class Shooting {
     const Shot shot = shot_at(request_.sequence, time_s, sun_over);
     const std::string fingerprint = fingerprints_.of(shot, time_s);
     if (const auto kept = store_.find(number, fingerprint)) {
-      const double exposure = exposure_after(kept->metered);
+      const double exposure = exposure_after(number, kept->metered);
       const bool exposed = std::ranges::count(request_.extensions, ".png") > 0;
       if (!exposed || std::abs(kept->exposure / exposure - 1) < kSameExposure) return;
       draw(number, shot, time_s, fingerprint, exposure, progress);
@@ -51,8 +51,10 @@ class Shooting {
   }
 
  private:
-  double exposure_after(double metered) {
-    return request_.tone.exposure ? *request_.tone.exposure : adaptation_.next(metered);
+  double exposure_after(int number, double metered) {
+    if (request_.tone.exposure) return *request_.tone.exposure;
+    return adaptation_.next(metered,
+                            scene_seconds(request_.sequence, std::max(number - 1, 0), number));
   }
 
   // Without an exposure: that which follows from the frame.
@@ -66,7 +68,7 @@ class Shooting {
     if (!studio_) studio_.emplace(request_, weather_, [](double, std::string_view) {});
     const Frame picture = studio_->draw(shot, time_s, show);
     const double metered = metered_exposure(picture);
-    if (!exposure) exposure = exposure_after(metered);
+    if (!exposure) exposure = exposure_after(number, metered);
     store_.write(number, {fingerprint, metered, *exposure}, picture, request_.tone);
     ++drawn_;
     if (request_.stats) print(statistics_.row(number, picture.statistics));

@@ -23,6 +23,7 @@
 
 #include "model/atmosphere/preset.h"
 #include "model/tables/tables.h"
+#include "render/color_space.h"
 
 namespace skyfit {
 
@@ -123,7 +124,8 @@ struct FrameOptions {
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;
   std::optional<CloudLayer> clouds;
-  bool layers = false;           // fill Frame::layers
+  bool layers = false;                       // fill Frame::layers
+  Primaries primaries = Primaries::kRec709;  // of the light in Frame
   double samples_per_quad = 16;  // side of a terrain quad in the picture, in samples: 1 to 64
 };
 
@@ -132,7 +134,9 @@ struct FrameOptions {
 void validate(const FrameOptions& options);
 void validate(const Scene& scene);
 
-// What the picture is made of, each [pixel][3]; colours are linear sRGB.
+// What the picture is made of, each [pixel][3], in Frame::primaries and not negative, as Frame::rgb
+// is. Light of the air and reflected light add up to the picture's, by their luminance alone where
+// one of them has been brought into the gamut.
 struct FrameLayers {
   std::vector<float>
       in_scatter;  // cd/m^2: of the air between the eye and what it sees, or of the sky
@@ -161,7 +165,10 @@ struct FrameStatistics {
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
 struct Frame {
   int width = 0, height = 0;
-  std::vector<float> rgb;  // [pixel][3] linear sRGB primaries, cd/m^2; negative outside the gamut
+  Primaries primaries = Primaries::kRec709;
+  // [pixel][3] red, green, blue or X, Y, Z, cd/m^2, not negative: light outside the gamut of the
+  // primaries is less saturated, of the same luminance and hue
+  std::vector<float> rgb;
   std::vector<float> luminance;         // [pixel] cd/m^2
   std::vector<float> view_zenith_deg;   // [pixel] of the pixel's centre
   std::vector<float> view_azimuth_deg;  // [pixel] relative to the sun, -180 .. 180
@@ -222,7 +229,8 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 // OpenEXR, 32-bit float: R, G, B, luminance.Y, view.zenith_deg, view.azimuth_deg, Z (metres,
 // infinite for sky) and, where the frame has layers, inscatter.R, .G, .B, reflected.R, .G, .B,
 // transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with Frame::metadata as attributes
-// `skyfit:...` and the chromaticities of sRGB. The file appears whole or not at all; throws
+// `skyfit:...` and the chromaticities of the primaries. R, G, B hold X, Y, Z where these are the
+// primaries. The file appears whole or not at all; throws
 // std::runtime_error that names it.
 void write_exr(const Frame& frame, const std::filesystem::path& file);
 

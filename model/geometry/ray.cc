@@ -72,6 +72,13 @@ std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
   return s;
 }
 
+std::vector<double> with_piece_breaks(const std::vector<double>& breaks) {
+  std::vector<double> all = {breaks.front()};
+  for (std::size_t i = 1; i < breaks.size(); ++i)
+    for_pieces(breaks[i - 1], breaks[i], [&](double, double end) { all.push_back(end); });
+  return all;
+}
+
 std::vector<QuadratureNode> composite_gauss(const std::vector<double>& breaks, int order) {
   const GaussRule rule = gauss_legendre(order);
   std::vector<QuadratureNode> nodes;

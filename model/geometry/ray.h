@@ -59,6 +59,23 @@ auto columns_along(const ToTop& to_top, double bottom_radius, const ViewRay& ray
 std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
                                     const std::vector<double>& heights);
 
+// The pieces of a quadrature from `begin` to `end` along a ray: in thick air, where two shells lie
+// many mean free paths apart along the horizon, the light comes from the nearest of them. No piece
+// is longer than its distance from the eye, or than 500 m, over which the thickest aerosol of the
+// parameters' table has an optical depth of 2.3. Calls piece(begin, end) in order.
+template <class Piece>
+void for_pieces(double begin, double end, Piece&& piece) {
+  constexpr double kNearest = 500;  // m
+  while (begin < end) {
+    const double next = std::min(end, begin + std::max(begin, kNearest));
+    piece(begin, next);
+    begin = next;
+  }
+}
+
+// The breaks (ascending) and those of the pieces between them.
+std::vector<double> with_piece_breaks(const std::vector<double>& breaks);
+
 struct QuadratureNode {
   double s, weight;
 };

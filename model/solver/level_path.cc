@@ -151,22 +151,15 @@ std::vector<double> layer_edges(const Shells& shells, const ViewRay& ray) {
   return shell_crossings(ray, shells.bottom_radius, heights);
 }
 
-// A piece between two nodes, its beginning and length along the ray. Layers begin and end between
-// pieces.
-struct Piece {
-  double begin, length;
-};
-std::vector<Piece> pieces_between(const LevelNode& from, const LevelNode& to,
-                                  const std::vector<double>& edges) {
-  std::vector<Piece> pieces;
-  double begin = from.s;
-  for (const double s : edges) {
-    if (!(s > begin && s < to.s)) continue;
-    pieces.push_back({begin, s - begin});
-    begin = s;
+// Calls part(begin, end) for the parts between the edges (ascending).
+template <class Part>
+void for_parts(double begin, double end, const std::vector<double>& edges, const Part& part) {
+  for (const double edge : edges) {
+    if (!(edge > begin && edge < end)) continue;
+    part(begin, edge);
+    begin = edge;
   }
-  pieces.push_back({begin, to.s - begin});
-  return pieces;
+  part(begin, end);
 }
 
 }  // namespace
@@ -186,37 +179,40 @@ std::vector<LevelNode> level_path(const Shells& shells, const NodeOptics& optics
   }
   NodeValues tau{};
   LevelWeights here(scatterers);
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    for (const auto& [begin, length] : pieces_between(nodes[i], nodes[i + 1], edges)) {
-      std::array<std::array<double, kMostConstituents>, kOrder> density;
-      std::array<NodeValues, kOrder> extinction{};
-      for (int j = 0; j < kOrder; ++j) {
-        const double h = std::max(shared.height_after(shells.bottom_radius, ray.entry_height,
-                                                      ray.entry_mu, begin + length * kNode[j]),
-                                  0.0);
-        for (std::size_t p = 0; p < profiles; ++p) {
-          density[j][p] = shells.profiles[p].density(h).value;
-          for (std::size_t k = 0; k < 4; ++k)
-            extinction[j][k] += length * optics[k].scaled_extinction[p].v * density[j][p];
-        }
-      }
-      for (int j = 0; j < kOrder; ++j) {
-        for (std::size_t k = 0; k < 4; ++k) {
-          const double depth = tau[k] + kUpTo[j][0] * extinction[0][k] +
-                               kUpTo[j][1] * extinction[1][k] + kUpTo[j][2] * extinction[2][k];
-          const double reaches_eye = length * kWeight[j] * std::exp(-depth);
-          for (std::size_t s = 0; s < scatterers; ++s)
-            here[s][k] = reaches_eye * density[j][optics[k].scatterers[s].profile];
-        }
-        const double place = begin + length * kNode[j];
-        of_beam.share(place, [&](std::size_t n, double share) { add(share, here, nodes[n].beam); });
-        of_source.share(place,
-                        [&](std::size_t n, double share) { add(share, here, nodes[n].source); });
-      }
-      for (std::size_t k = 0; k < 4; ++k) {
-        for (int j = 0; j < kOrder; ++j) tau[k] += kWeight[j] * extinction[j][k];
+  const auto add_piece = [&](double begin, double end) {
+    const double length = end - begin;
+    std::array<std::array<double, kMostConstituents>, kOrder> density;
+    std::array<NodeValues, kOrder> extinction{};
+    for (int j = 0; j < kOrder; ++j) {
+      const double h = std::max(shared.height_after(shells.bottom_radius, ray.entry_height,
+                                                    ray.entry_mu, begin + length * kNode[j]),
+                                0.0);
+      for (std::size_t p = 0; p < profiles; ++p) {
+        density[j][p] = shells.profiles[p].density(h).value;
+        for (std::size_t k = 0; k < 4; ++k)
+          extinction[j][k] += length * optics[k].scaled_extinction[p].v * density[j][p];
       }
     }
+    for (int j = 0; j < kOrder; ++j) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double depth = tau[k] + kUpTo[j][0] * extinction[0][k] +
+                             kUpTo[j][1] * extinction[1][k] + kUpTo[j][2] * extinction[2][k];
+        const double reaches_eye = length * kWeight[j] * std::exp(-depth);
+        for (std::size_t s = 0; s < scatterers; ++s)
+          here[s][k] = reaches_eye * density[j][optics[k].scatterers[s].profile];
+      }
+      const double place = begin + length * kNode[j];
+      of_beam.share(place, [&](std::size_t n, double share) { add(share, here, nodes[n].beam); });
+      of_source.share(place,
+                      [&](std::size_t n, double share) { add(share, here, nodes[n].source); });
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (int j = 0; j < kOrder; ++j) tau[k] += kWeight[j] * extinction[j][k];
+    }
+  };
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    for_parts(nodes[i].s, nodes[i + 1].s, edges,
+              [&](double begin, double end) { for_pieces(begin, end, add_piece); });
   }
   return nodes;
 }

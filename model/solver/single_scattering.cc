@@ -133,8 +133,8 @@ RayNodes ray_nodes(const Shells& shells, const std::vector<char>& scattering, co
       shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top)), shells.bottom_radius);
   breaks.insert(breaks.end(), edges.begin(), edges.end());
   RayNodes nodes;
-  for (const QuadratureNode& q :
-       composite_gauss(with_profile_breaks(shells, ray, breaks), kOrder)) {
+  breaks = with_piece_breaks(with_profile_breaks(shells, ray, breaks));
+  for (const QuadratureNode& q : composite_gauss(breaks, kOrder)) {
     nodes.points.push_back(ray_point(ray, shells.bottom_radius, q.s));
     nodes.weight.push_back(q.weight);
     nodes.height.push_back(nodes.points.back().height);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <stdexcept>
 #include <system_error>
 
@@ -15,10 +14,6 @@ namespace skyfit {
 namespace {
 
 namespace fs = std::filesystem;
-
-// x and y of red, green, blue and white: IEC 61966-2-1.
-constexpr std::array<float, 8> kSrgbChromaticities = {0.64f, 0.33f, 0.30f,   0.60f,
-                                                      0.15f, 0.06f, 0.3127f, 0.3290f};
 
 // Writes beside the target under another name and renames, so that the file is whole or not there.
 void write_whole(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
@@ -82,7 +77,7 @@ void write_exr_file(const Frame& frame, const fs::path& file) {
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
-                 kSrgbChromaticities.data());
+                 color_space(frame.primaries).chromaticities.data());
   for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
   const std::size_t pixels = frame.luminance.size();
   std::vector<float> packed(pixels * channels.size());

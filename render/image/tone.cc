@@ -2,8 +2,9 @@
 #include "render/image/tone.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "render/image/gamut.h"
 
 namespace skyfit {
 namespace {
@@ -28,30 +29,20 @@ double white_noise(std::uint32_t index) {
   return index * (1.0 / 4294967296.0);
 }
 
-// Colours that the display cannot show move toward grey of the same luminance.
-std::array<double, 3> into_gamut(std::array<double, 3> rgb, double luminance) {
-  const double lowest = std::min({rgb[0], rgb[1], rgb[2]});
-  if (lowest >= 0 || luminance <= 0) {
-    for (double& c : rgb) c = std::max(c, 0.0);
-    return rgb;
-  }
-  const double keep = luminance / (luminance - lowest);
-  for (double& c : rgb) c = std::max(luminance + keep * (c - luminance), 0.0);
-  return rgb;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone) {
   const double exposure = tone.exposure.value() * std::exp2(tone.exposure_stops);
+  const ColorSpace& display = color_space(Primaries::kRec709);
   const auto curve = [&](double x) {
     return tone.curve == ToneCurve::kFilmic ? film(x) : 1 - std::exp(-std::max(x, 0.0));
   };
   std::vector<std::uint8_t> bytes(frame.rgb.size());
   for (std::size_t pixel = 0; pixel < frame.luminance.size(); ++pixel) {
-    std::array<double, 3> rgb{};
+    ColorChannels rgb;
     for (std::size_t k = 0; k < 3; ++k) rgb[k] = exposure * frame.rgb[3 * pixel + k];
-    rgb = into_gamut(rgb, exposure * frame.luminance[pixel]);
+    rgb = into_gamut(converted(rgb, color_space(frame.primaries), display),
+                     exposure * frame.luminance[pixel], display.white);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto index = static_cast<std::uint32_t>(3 * pixel + k);
       const double noise = white_noise(2 * index) - white_noise(2 * index + 1);

@@ -37,11 +37,9 @@ double metered_exposure(const Frame& frame) {
   return 1 / std::clamp(level, kDarkest / kMiddleGrey, kBrightest / kMiddleGrey);
 }
 
-Adaptation::Adaptation(double adaptation_s, double frames_per_second)
-    : share_(adaptation_s > 0 ? -std::expm1(-1 / (adaptation_s * frames_per_second)) : 1) {}
-
-double Adaptation::next(double metered) {
-  exposure_ = exposure_ > 0 ? exposure_ * std::pow(metered / exposure_, share_) : metered;
+double Adaptation::next(double metered, double passed_s) {
+  const double share = adaptation_s_ > 0 ? -std::expm1(-passed_s / adaptation_s_) : 1;
+  exposure_ = exposure_ > 0 ? exposure_ * std::pow(metered / exposure_, share) : metered;
   return exposure_;
 }
 

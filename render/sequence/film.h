@@ -18,11 +18,12 @@ Frame side_by_side(std::span<const Frame> frames, int gap);
 // was given, so that a sequence that is continued looks as one that was not interrupted.
 class Adaptation {
  public:
-  Adaptation(double adaptation_s, double frames_per_second);
-  double next(double metered);  // the exposure of the next frame; m^2/cd
+  explicit Adaptation(double adaptation_s) : adaptation_s_(adaptation_s) {}
+  // The exposure of the next frame, m^2/cd, `passed_s` >= 0 after the one before.
+  double next(double metered, double passed_s);
 
  private:
-  double share_;
+  double adaptation_s_;
   double exposure_ = 0;  // of the frame before; 0: there was none
 };
 

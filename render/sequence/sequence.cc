@@ -20,6 +20,28 @@ void require(bool good, std::string_view field, double value, std::string_view e
         fmt::format("sequence.{} = {:.9g}: must be {}", field, value, expected));
 }
 
+// The keyframes about a time and the share of the way from one to the other.
+struct Between {
+  const Keyframe &a, &b;
+  double share;
+};
+
+Between between(const Sequence& sequence, double time_s) {
+  const std::vector<Keyframe>& keys = sequence.keyframes;
+  const auto next = std::ranges::upper_bound(keys, time_s, {}, &Keyframe::time_s);
+  const Keyframe& b = next == keys.end() ? keys.back() : *next;
+  const Keyframe& a = next == keys.begin() ? keys.front() : *(next - 1);
+  const double length = b.time_s - a.time_s;
+  return {a, b, length > 0 ? (time_s - a.time_s) / length : 0};
+}
+
+std::optional<Instant> instant_at(const Between& at) {
+  if (!at.a.sun.time || !at.b.sun.time) return {};
+  const auto passed =
+      std::chrono::duration<double, std::milli>(*at.b.sun.time - *at.a.sun.time) * at.share;
+  return *at.a.sun.time + std::chrono::round<std::chrono::milliseconds>(passed);
+}
+
 }  // namespace
 
 void validate(const Sequence& sequence) {
@@ -38,20 +60,19 @@ void validate(const Sequence& sequence) {
   }
 }
 
+double scene_seconds(const Sequence& sequence, int from, int to) {
+  const double begin_s = sequence.time_s(from), end_s = sequence.time_s(to);
+  const auto begin = instant_at(between(sequence, begin_s)),
+             end = instant_at(between(sequence, end_s));
+  if (!begin || !end) return std::abs(end_s - begin_s);
+  return std::abs(std::chrono::duration<double>(*end - *begin).count());
+}
+
 Shot shot_at(const Sequence& sequence, double time_s, const SunAt& sun_at) {
-  const std::vector<Keyframe>& keys = sequence.keyframes;
-  const auto next = std::ranges::upper_bound(keys, time_s, {}, &Keyframe::time_s);
-  const Keyframe& b = next == keys.end() ? keys.back() : *next;
-  const Keyframe& a = next == keys.begin() ? keys.front() : *(next - 1);
-  const double length = b.time_s - a.time_s;
-  const double share = length > 0 ? (time_s - a.time_s) / length : 0;
+  const Between at = between(sequence, time_s);
+  const auto& [a, b, share] = at;
   const CameraPose camera = pose_between(a.camera, b.camera, share);
-  if (a.sun.time && b.sun.time) {
-    const auto passed =
-        std::chrono::duration<double, std::milli>(*b.sun.time - *a.sun.time) * share;
-    const Instant time = *a.sun.time + std::chrono::round<std::chrono::milliseconds>(passed);
-    return {camera, sun_at(time, camera.place.value())};
-  }
+  if (const auto time = instant_at(at)) return {camera, sun_at(*time, camera.place.value())};
   return {camera, sun_between(direction_of(a.sun, a.camera, sun_at),
                               direction_of(b.sun, b.camera, sun_at), share)};
 }

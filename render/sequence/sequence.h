@@ -78,6 +78,10 @@ struct Shot {
   SunDirection sun;
 };
 
+// How long it takes in the scene from one frame to another, s: by the clock where the sun has one,
+// so that minutes may pass between two frames of a day; by the film where it has none.
+double scene_seconds(const Sequence& sequence, int from, int to);
+
 // Before the first keyframe and after the last, theirs.
 Shot shot_at(const Sequence& sequence, double time_s, const SunAt& sun_at);
 

@@ -42,11 +42,13 @@ Frame side_by_side(std::span<const Frame> frames, int gap) {
   for (const Frame& frame : frames) {
     width += frame.width;
     if (frame.height != frames[0].height ||
-        frame.layers.has_value() != frames[0].layers.has_value())
+        frame.layers.has_value() != frames[0].layers.has_value() ||
+        frame.primaries != frames[0].primaries)
       throw std::invalid_argument("side_by_side: expected frames of one height and kind");
   }
   Frame whole = empty_frame(width, frames[0].height, frames[0].layers.has_value());
   whole.metadata = frames[0].metadata;
+  whole.primaries = frames[0].primaries;
   int left = 0;
   for (const Frame& frame : frames) {
     const auto add = [&](const std::vector<float>& from, std::size_t values,

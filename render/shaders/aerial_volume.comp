@@ -4,8 +4,8 @@
 #include "render/shaders/aerial_volume.glsl"
 
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
-layout(rgba32f, binding = 0) writeonly uniform image3D air_means;
-layout(rgba32f, binding = 1) writeonly uniform image3D aerosol_means;
+layout(rgba32f, binding = 0) writeonly uniform image3D air_sources;
+layout(rgba32f, binding = 1) writeonly uniform image3D aerosol_sources;
 layout(rgba32f, binding = 2) writeonly uniform image2D extinction_means;
 
 void main() {
@@ -19,13 +19,13 @@ void main() {
   for (int slice = 0; slice < int(kVolumeSize.z); ++slice) {
     float d = slice_share(float(slice)) * longest_path(ray);
     Place end = place_along(start, nu, d);
-    vec4 depth_between = optical_depth_between(start, end, ray.hits_ground);
+    vec4 depth_between = max(optical_depth_between(start, end, ray.hits_ground), least * d);
+    vec4 taken = share_taken(depth_between);
     Scattering path = scattering_before(whole, exp(-depth_between), scattering(end, nu, ray.hits_ground));
-    imageStore(air_means, ivec3(texel, slice), log(max(path.rayleigh_like / d, least)));
+    imageStore(air_sources, ivec3(texel, slice), log(max(path.rayleigh_like / taken, least)));
     for (int c = 0; c < kClasses; ++c) {
-      imageStore(aerosol_means, ivec3(texel, slice + c * int(kVolumeSize.z)), log(max(path.single[c] / d, least)));
+      imageStore(aerosol_sources, ivec3(texel, slice + c * int(kVolumeSize.z)), log(max(path.single[c] / taken, least)));
     }
-    if (texel.x == 0)
-      imageStore(extinction_means, ivec2(texel.y, slice), log(max(depth_between / d, least)));
+    if (texel.x == 0) imageStore(extinction_means, ivec2(texel.y, slice), log(depth_between / d));
   }
 }

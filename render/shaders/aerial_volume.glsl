@@ -2,8 +2,10 @@
 // Light scattered into paths from the eye and their transmittance in a volume of 32 x 32 x 16 (Bodare & Sandberg 2014,
 // 6.4.2); of the transmittance one slice across, for it is the same in all azimuths. Deviations: the directions are those of
 // sky_view.glsl, by the azimuth from the sun and apart above and below the horizon, which a volume over the frustum would
-// mix (half of the light of a pixel beside it); the volume holds the logarithms of means per kilometre, smooth where a path
-// begins, and the two kinds of scattering apart, so that the phase functions stay those of the pixel.
+// mix (half of the light of a pixel beside it); the volume holds logarithms, of the extinction per kilometre and of the
+// light over the share of its passing light that a path takes, which is about the source of light along it: smooth where a
+// path begins and where haze lets no more light through; and the two kinds of scattering apart, so that the phase functions
+// stay those of the pixel.
 #include "render/shaders/sky_view.glsl"
 
 const vec3 kVolumeSize = vec3(32.0, 32.0, 16.0);
@@ -22,6 +24,11 @@ float slice_share(float slice) {
   return x * x;
 }
 float slice_coordinate(float share) { return sqrt(share) * ((kVolumeSize.z - 0.5) / kVolumeSize.z); }
+
+// 1 - exp(-depth); by its series where the difference would lose digits, to 4e-7.
+vec4 share_taken(vec4 depth) {
+  return mix(1.0 - exp(-depth), depth * (1.0 - 0.5 * depth * (1.0 - depth * (1.0 / 3.0))), lessThan(depth, vec4(0.02)));
+}
 
 #ifndef VOLUME_WRITE
 layout(binding = 15) uniform sampler3D air_volume;
@@ -42,7 +49,7 @@ VolumeLight volume_light(ViewRay ray, float d) {
     // A class keeps to its own slices.
     light.single[c] = texture(aerosol_volume, vec3(place.xy, in_class(c, max(place.z, 0.5 / kVolumeSize.z))));
   }
-  return VolumeLight(scaled(exponential(light), d),
-                   exp(-d * exp(texture(extinction_volume, place.yz))));
+  vec4 depth = d * exp(texture(extinction_volume, place.yz));
+  return VolumeLight(scaled(exponential(light), share_taken(depth)), exp(-depth));
 }
 #endif

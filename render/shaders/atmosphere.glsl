@@ -132,11 +132,12 @@ struct Scattering {
   vec4 single[CLASSES];
 };
 
-Scattering scaled(Scattering s, float factor) {
+Scattering scaled(Scattering s, vec4 factor) {
   s.rayleigh_like *= factor;
   for (int c = 0; c < kClasses; ++c) s.single[c] *= factor;
   return s;
 }
+Scattering scaled(Scattering s, float factor) { return scaled(s, vec4(factor)); }
 
 // Of logarithms.
 Scattering exponential(Scattering s) {

@@ -21,11 +21,11 @@ vec2 pixel_centre;  // that seen_at() is asked for
 
 layout(binding = 5) uniform usampler2D gbuffer;
 
-const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // linear sRGB and luminance, cd/m^2
+const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // in the frame's primaries and luminance, cd/m^2
 
 const float kInfinity = uintBitsToFloat(0x7f800000u);
 
-vec3 srgb(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
+vec3 color_of(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
 
 #ifdef DISC
 // A sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel; its mean is 1.
@@ -120,7 +120,7 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 }
 
 struct Seen {
-  vec4 light;  // linear sRGB and luminance, cd/m^2
+  vec4 light;  // in the frame's primaries and luminance, cd/m^2
   float distance_km;
 #ifdef LAYERS
   vec4 in_scatter, reflected, transmittance, albedo, normal;
@@ -176,12 +176,12 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   seen.light = light_from_nodes * (path.in_scatter + path.reflected);
   seen.distance_km = d;
 #ifdef LAYERS
-  vec3 white = srgb(vec4(1.0));
-  seen.in_scatter = vec4(srgb(path.in_scatter), 1.0);
-  seen.reflected = vec4(srgb(path.reflected), 1.0);
-  seen.transmittance = vec4(srgb(clear * path.transmittance) / white, 1.0);
+  vec3 white = color_of(vec4(1.0));
+  seen.in_scatter = vec4(color_of(path.in_scatter), 1.0);
+  seen.reflected = vec4(color_of(path.reflected), 1.0);
+  seen.transmittance = vec4(color_of(clear * path.transmittance) / white, 1.0);
 #ifdef SURFACE
-  seen.albedo = vec4(srgb(surface.reflectance) / white, 1.0);
+  seen.albedo = vec4(color_of(surface.reflectance) / white, 1.0);
   seen.normal = vec4(surface.normal, 1.0);
 #else
   seen.albedo = vec4(0.0);

@@ -9,9 +9,9 @@ layout(binding = 12) uniform sampler2DArrayShadow shadow_maps;
 const int kShadowMaps = 3;
 layout(std140, binding = 3) uniform Shadows {
   mat4 map_from_site[kShadowMaps];  // of positions relative to the camera; x, y, depth in 0..1
-  vec4 shadow_texel_km;             // side of a texel of each map
-  vec4 shadow_depth_per_km;         // of each map's depth, along the beam
-  float shadow_reach_km;            // half a side of the largest
+  vec4 shadow_offset_km;            // off a surface that must not shade itself, of each map
+  float shadow_map_count;           // that hold, from the finest on
+  float shadow_reach_km;            // half a side of the largest of them
 };
 
 // x, y, map, depth of the finest map that holds the position; a map of -1 where none does.
@@ -20,22 +20,28 @@ vec4 place_in_maps(vec3 position) {
   for (int i = kShadowMaps - 1; i >= 0; --i) {
     vec3 p = (map_from_site[i] * vec4(position, 1.0)).xyz;
     vec2 from_middle = abs(p.xy - 0.5);
-    if (max(from_middle.x, from_middle.y) < 0.49) found = vec4(p.xy, float(i), p.z);
+    // Beyond its end, a map says that everything is shaded; what lies before its beginning is held there.
+    bool inside = max(from_middle.x, from_middle.y) < 0.49 && p.z < 1.0;
+    if (inside && float(i) < shadow_map_count) found = vec4(p.xy, float(i), p.z);
   }
   return found;
 }
 
+// The place in the maps for a position on or above a surface that faces `normal`, off it by the offset of the map.
+vec4 place_off(vec3 position, vec3 normal) {
+  float map = place_in_maps(position).z;
+  return place_in_maps(position + shadow_offset_km[int(max(map, 0.0))] * normal);
+}
+
 // Share of the sun that reaches a surface.
 float sunlit(vec3 position, vec3 normal) {
-  float map = place_in_maps(position).z;
-  if (map < 0.0) return 1.0;
-  // Off the surface by more than a texel's slope.
-  vec4 place = place_in_maps(position + (1.5 * shadow_texel_km[int(map)]) * normal);
+  vec4 place = place_off(position, normal);
+  if (place.z < 0.0) return 1.0;
   vec2 texel = 0.75 / vec2(textureSize(shadow_maps, 0).xy);
   float sum = 0.0;
   for (int i = 0; i < 4; ++i) {
     vec2 corner = vec2((i & 1) == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
-    sum += texture(shadow_maps, vec4(place.xy + corner * texel, max(place.z, 0.0), place.w));
+    sum += texture(shadow_maps, vec4(place.xy + corner * texel, place.zw));
   }
   return 0.25 * sum;
 }
@@ -52,11 +58,10 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
   vec4 sum = vec4(0.0);
   for (int i = 0; i < kSteps; ++i) {
     float t = (float(i) + begin) * step_km;
-    vec4 place = place_in_maps((ray.entry + t) * ray.direction);
-    // Nearer to the sun by more than a texel's slope, as on surfaces.
-    int map = int(max(place.z, 0.0));
-    float depth_in_map = place.w - 2.0 * shadow_texel_km[map] * shadow_depth_per_km[map];
-    float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, vec4(place.xy, float(map), depth_in_map));
+    vec3 position = (ray.entry + t) * ray.direction;
+    // The air above level ground is not in its shadow.
+    vec4 place = place_off(position, normalize(position + vec3(0.0, 0.0, bottom_km + camera_km)));
+    float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, place);
     Place at = place_along(start, nu, t);
     vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);
     sum += (1.0 - lit) * light * radiance(scattering_at(at.h), nu);

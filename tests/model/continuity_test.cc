@@ -3,7 +3,9 @@
 // the atmosphere; and an eye on the ground that looks down sees the ground.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <vector>
 
@@ -18,10 +20,10 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 const WavelengthNode kGreen{550, 0};
 
-Atmosphere<double> haze() {
+Atmosphere<double> haze(double aerosol_per_m = 1.5e-4) {
   Atmosphere<double> a;
   a.at("ozone").amount = 0;
-  set_scattering(a.at("mie"), 550, 1.5e-4, 1.0);
+  set_scattering(a.at("mie"), 550, aerosol_per_m, 1.0);
   a.at("mie").phase.g = 0.65;
   return a;
 }
@@ -60,6 +62,24 @@ TEST(Continuity, OfTheViewThroughTheHorizon) {
     // The horizon is a kink within the width of a step, softened by some 10 to 60 km of haze.
     constexpr double kSoftHorizon = 0.01;
     EXPECT_LT(worst_kink(points), kSoftHorizon) << altitude;
+  }
+}
+
+// In thick haze the light comes from one mean free path: a ray that stays in it all the way sees no
+// less than one a little higher.
+TEST(Continuity, OfTheViewAlongThickHaze) {
+  std::vector<SkyPoint> points;
+  for (double view = 88; view <= 91; view += 0.1)
+    points.push_back({500, 62 * kDegree, view * kDegree, 1.7});
+  for (const double aerosol_per_m : {6e-4, 2e-3}) {
+    const SkyValues sky = make_sky_model("reference", refs::standard_spectral_data(), 2)
+                              ->radiance(haze(aerosol_per_m), {&kGreen, 1}, points, {});
+    double most = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      most = std::max(most, std::abs(std::log(sky.value[i] / sky.value[i - 1])));
+    std::printf("[ haze   ] %g / m: %.2f %% from step to step\n", aerosol_per_m, 100 * most);
+    constexpr double kStep = 0.02;  // of 0.1 deg
+    EXPECT_LT(most, kStep) << aerosol_per_m;
   }
 }
 

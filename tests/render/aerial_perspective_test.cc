@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "data_refs/spectra.h"
 #include "model/registry.h"
@@ -23,9 +24,14 @@ constexpr double kNearest = 3e3;  // m: nearer paths are the small difference of
 
 // A planet under a preset, with tables of full size.
 struct Planet {
-  explicit Planet(const std::string& name)
-      : preset(shipped(name)), tables(tables_of(preset, TableSizes{})) {
+  Planet(const std::string& name, double aerosol_per_m)
+      : preset(with_aerosol(shipped(name), aerosol_per_m)),
+        tables(tables_of(preset, TableSizes{})) {
     renderer.set_atmosphere(preset, tables);
+  }
+  static Preset with_aerosol(Preset preset, double per_m) {
+    if (per_m > 0) preset.atmosphere.mie.scattering_per_m.value = per_m;
+    return preset;
   }
   Preset preset;
   AtmosphereTables tables;
@@ -33,11 +39,12 @@ struct Planet {
 };
 
 // The last one that was asked for.
-Planet& planet_of(const std::string& name) {
-  static std::string made;
+Planet& planet_of(const std::string& name, double aerosol_per_m) {
+  static std::pair<std::string, double> made;
   static std::optional<Planet> planet;
-  if (made != name) planet.emplace(name);
-  made = name;
+  const std::pair asked(name, aerosol_per_m);
+  if (made != asked) planet.emplace(name, aerosol_per_m);
+  made = asked;
   return *planet;
 }
 
@@ -50,13 +57,13 @@ double luminance(const ColorRule& color, const NodeValues& nodes) {
 struct Seen {
   const char* preset;
   const char* view;
-  double sun_deg, altitude_m;  // 0: the view's own
+  double sun_deg, altitude_m, aerosol_per_m;  // 0: the view's and the preset's own
 };
 class AerialPerspectiveOf : public ::testing::TestWithParam<Seen> {};
 
 TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
-  const auto& [preset, view, sun_deg, altitude_m] = GetParam();
-  Planet& planet = planet_of(preset);
+  const auto& [preset, view, sun_deg, altitude_m, aerosol_per_m] = GetParam();
+  Planet& planet = planet_of(preset, aerosol_per_m);
   const AtmosphereTables& tables = planet.tables;
   FrameOptions options = options_of(view, 96, 54);
   if (options.site)
@@ -123,12 +130,17 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
   EXPECT_LT(worst_volume, kAgreement);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Views, AerialPerspectiveOf,
-    ::testing::Values(Seen{"earth-clear", "valley", 0, 0}, Seen{"earth-clear", "10km", 0, 0},
-                      Seen{"earth-clear", "valley", 84, 0}, Seen{"earth-clear", "10km", 84, 0},
-                      Seen{"earth-clear", "10km", 0, 12e3}, Seen{"earth-clear", "10km", 84, 12e3},
-                      Seen{"bodare-2014", "valley", 0, 0}, Seen{"mars", "10km", 84, 0}));
+INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf,
+                         ::testing::Values(Seen{"earth-clear", "valley", 0, 0, 0},
+                                           Seen{"earth-clear", "10km", 0, 0, 0},
+                                           Seen{"earth-clear", "valley", 84, 0, 0},
+                                           Seen{"earth-clear", "10km", 84, 0, 0},
+                                           Seen{"earth-clear", "10km", 0, 12e3, 0},
+                                           Seen{"earth-clear", "10km", 84, 12e3, 0},
+                                           Seen{"earth-clear", "valley", 0, 0, 6e-4},
+                                           Seen{"earth-clear", "valley", 0, 0, 2e-3},
+                                           Seen{"bodare-2014", "valley", 0, 0, 0},
+                                           Seen{"mars", "10km", 84, 0, 0}));
 
 }  // namespace
 }  // namespace skyfit

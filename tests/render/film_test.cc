@@ -49,23 +49,29 @@ TEST(MeteredExposure, MakesAnEvenPictureMiddleGrey) {
 }
 
 TEST(Adaptation, FollowsAJumpByItsTime) {
-  Adaptation adaptation(2, 10);
-  EXPECT_EQ(adaptation.next(1), 1);
+  Adaptation adaptation(2);
+  EXPECT_EQ(adaptation.next(1, 0), 1);
   double exposure = 0;
-  for (int i = 0; i < 20; ++i) exposure = adaptation.next(std::numbers::e);
+  for (int i = 0; i < 20; ++i) exposure = adaptation.next(std::numbers::e, 0.1);
   EXPECT_NEAR(std::log(exposure), 1 - std::exp(-1), 1e-9);
 }
 
 TEST(Adaptation, AtOnceWithoutTime) {
-  Adaptation adaptation(0, 24);
-  adaptation.next(1);
-  EXPECT_DOUBLE_EQ(adaptation.next(5), 5);
+  Adaptation adaptation(0);
+  adaptation.next(1, 0);
+  EXPECT_DOUBLE_EQ(adaptation.next(5, 0.04), 5);
+}
+
+TEST(Adaptation, AtOnceWhereMinutesPassBetweenFrames) {
+  Adaptation adaptation(1);
+  adaptation.next(1, 0);
+  EXPECT_DOUBLE_EQ(adaptation.next(1e4, 255), 1e4);
 }
 
 TEST(Adaptation, DependsOnTheMeteredExposuresOnly) {
-  Adaptation first(1, 24), second(1, 24);
+  Adaptation first(1), second(1);
   for (const double metered : {1.0, 3.0, 2.0, 8.0})
-    EXPECT_EQ(first.next(metered), second.next(metered));
+    EXPECT_EQ(first.next(metered, 0.04), second.next(metered, 0.04));
 }
 
 }  // namespace

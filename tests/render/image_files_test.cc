@@ -97,6 +97,21 @@ TEST_F(ImageFiles, ExrKeepsEveryChannelAndTheMetadata) {
   }
 }
 
+TEST_F(ImageFiles, ExrSaysWhichPrimariesItsColoursHave) {
+  Frame frame = gradient(4, 4);
+  for (const Primaries primaries : {Primaries::kRec709, Primaries::kRec2020, Primaries::kXyz}) {
+    frame.primaries = primaries;
+    const fs::path file = directory_ / "frame.exr";
+    write_exr_file(frame, file);
+    const auto input = OIIO::ImageInput::open(file.string());
+    const auto* attribute = input->spec().find_attribute("chromaticities");
+    ASSERT_NE(attribute, nullptr);
+    const auto* values = static_cast<const float*>(attribute->data());
+    for (std::size_t i = 0; i < 8; ++i)
+      EXPECT_EQ(values[i], color_space(primaries).chromaticities[i]);
+  }
+}
+
 TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
   Frame frame = gradient(16, 4);
   FrameLayers layers;

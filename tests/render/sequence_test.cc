@@ -88,6 +88,17 @@ TEST(Sequence, TheSunOfTheDayIsThatOfTimeAndPlace) {
   EXPECT_NEAR(shot.sun.azimuth, 15 * kDegree, kRounding);
 }
 
+TEST(Sequence, SceneTimeIsTheClocksWhereTheSunHasOne) {
+  const std::string text = R"({"time_s": 0, "camera": {"latitude_deg": 0, "longitude_deg": 10},
+          "sun": {"date": "1970-01-02", "time": "02:00"}},
+         {"time_s": 1, "sun": {"time": "04:00"}},
+         {"time_s": 2, "sun": {"zenith_deg": 60}})";
+  const Sequence sequence = of_keyframes(text);
+  EXPECT_NEAR(scene_seconds(sequence, 5, 6), 7200.0 / 24, 2e-3);  // milliseconds of an instant
+  EXPECT_NEAR(scene_seconds(sequence, 40, 41), 1.0 / 24, kRounding);
+  EXPECT_EQ(scene_seconds(sequence, 5, 5), 0);
+}
+
 struct Refused {
   const char *keyframes, *place, *what;
 };

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "model/tables/table_lookup.h"
+#include "render/gl/passes/shadow_pass.h"
 #include "tests/render/mesh_fixture.h"
 
 namespace skyfit {
@@ -62,7 +64,7 @@ TEST_F(Wall, ShadesTheFloorBehindItAndNothingElse) {
     direct += tables.color.xyz_from_nodes[1][k] * sun[k] * mu_s;
   }
   const double expected = diffuse / (diffuse + direct);
-  constexpr double kSoftEdge = 3;  // m: texels of the map, and the offset off the surface
+  constexpr double kSoftEdge = 5;  // m: 8 texels, of the filter and of the offset off the surface
   WorstPixel dark, bright;
   for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
     if (is_sky(lit, i)) continue;
@@ -132,6 +134,71 @@ TEST_F(Wall, TakesLightFromTheAirInItsShadow) {
   EXPECT_LT(most, 1);
   EXPECT_LT(most, share * (1 + kStep) + 0.1);
   EXPECT_GT(least, share * (1 - kStep) - 0.1);
+}
+
+// From orbit the maps have texels of half a kilometre and more. No texel of theirs may shade the
+// sea, but for mountains at the coast, nor the air at the limb, however low the sun.
+TEST(Shadow, FromOrbitLeavesSeaAndLimbAlone) {
+  FrameOptions options = options_of("orbit", 160, 90);
+  options.samples_per_quad = 2;  // mountains as high as in a large picture
+  const double bottom = earth_clear().atmosphere.bottom_radius_m;
+  const glm::dvec3 eye(0, 0, bottom + options.camera.altitude_m);
+  constexpr double kSea = 5;                 // m: floats of 1e6 m, and of the ray
+  constexpr double kCoast = 0.02;            // share of the sea
+  constexpr double kMountainsAtLimb = 0.03;  // of the light along a path
+  constexpr double kMountains = 0.05;        // share of the land
+  int all_shaded = 0;
+  for (const auto& [sun_deg, view_deg] : {std::pair{60.0, 125.0},
+                                          {82.0, 125.0},
+                                          {87.0, 125.0},
+                                          {60.0, 150.0},
+                                          {75.0, 150.0},
+                                          {82.0, 150.0},
+                                          {87.0, 150.0}}) {
+    options.sun_zenith = sun_deg * kDegree;
+    options.camera.view_zenith = view_deg * kDegree;
+    options.shadows = false;
+    const Frame lit = draw_layers(options);
+    options.shadows = true;
+    const Frame shaded = draw_layers(options);
+    int sea = 0, shaded_sea = 0, land = 0, shaded_land = 0;
+    WorstPixel limb;
+    for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
+      if (is_sky(lit, i)) {
+        const double before = luminance_of(lit.layers->in_scatter, i);
+        if (before > 1) limb.add(lit, i, luminance_of(shaded.layers->in_scatter, i) / before - 1);
+        continue;
+      }
+      const bool is_sea =
+          glm::length(eye + double{lit.depth_m[i]} * ray_of(lit, i)) < bottom + kSea;
+      const double before = luminance_of(lit.layers->reflected, i),
+                   after = luminance_of(shaded.layers->reflected, i);
+      ++(is_sea ? sea : land);
+      if (after < (1 - kFloatSum) * before) ++(is_sea ? shaded_sea : shaded_land);
+    }
+    std::printf("[ shadow ] sun %g deg: %d of %d pixels of the sea are shaded, %d of %d of land\n",
+                sun_deg, shaded_sea, sea, shaded_land, land);
+    limb.print("limb");
+    EXPECT_GT(sea, 1000);
+    if (view_deg < 130) {
+      EXPECT_GT(limb.count(), 100);
+    }
+    EXPECT_LT(shaded_sea, kCoast * sea);
+    EXPECT_LT(shaded_land, kMountains * land);
+    all_shaded += shaded_land;
+    EXPECT_LT(limb.error(), kMountainsAtLimb);
+  }
+  EXPECT_GT(all_shaded, 50);
+}
+
+TEST(Shadow, MapsThatCannotHoldAShadowAreLeftOut) {
+  constexpr double kHighest = 6e3;  // m
+  const auto maps = [](double distance_m) {
+    return shadow_views({0.6, 0, 0.8}, distance_m, kHighest).size();
+  };
+  EXPECT_EQ(maps(2), 3u);
+  EXPECT_EQ(maps(400e3), 1u);
+  EXPECT_EQ(maps(11e6), 0u);
 }
 
 }  // namespace

@@ -134,12 +134,12 @@ double thickness_m(const AtmosphereTables& tables) {
 }
 
 // Columns: a node each.
-std::array<double, 16> light_from_nodes(const ColorRule& color) {
+std::array<double, 16> light_from_nodes(const ColorRule& color, const ColorSpace& space) {
   std::array<double, 16> columns{};
   for (std::size_t node = 0; node < 4; ++node) {
     for (std::size_t row = 0; row < 3; ++row) {
       for (std::size_t k = 0; k < 3; ++k)
-        columns[4 * node + row] += kLinearSrgbFromXyz[row][k] * color.xyz_from_nodes[k][node];
+        columns[4 * node + row] += space.from_xyz[row][k] * color.xyz_from_nodes[k][node];
     }
     columns[4 * node + 3] = color.xyz_from_nodes[1][node];
   }
@@ -237,8 +237,7 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
           fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
           fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
           fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
-          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples),
-          fmt::format("LIGHT_FROM_NODES {:.9g}", fmt::join(light_from_nodes(tables.color), ", "))};
+          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)};
 }
 
 GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
@@ -308,6 +307,9 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
 GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
                                const AtmosphereView& view) {
   Defined defined = defined_by(view.options);
+  defined.push_back(fmt::format(
+      "LIGHT_FROM_NODES {:.9g}",
+      fmt::join(light_from_nodes(tables_.color, color_space(view.options.primaries)), ", ")));
   if (path == kCompute) std::ranges::copy(class_defines(), std::back_inserter(defined));
   defined.insert(defined.end(), what.begin(), what.end());
   const bool surface = std::ranges::find(what, kSurface) != what.end();
@@ -316,7 +318,7 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
   if (view.volume(tables_)) defined.push_back("VOLUME");
   if (view.options.layers) defined.push_back("LAYERS");
   if (view.options.clouds) defined.push_back("CLOUDS");
-  if (view.shadows != nullptr) defined.push_back("SHADOWS");
+  if (!view.shadows.empty()) defined.push_back("SHADOWS");
   return program(path, defined);
 }
 
@@ -328,14 +330,13 @@ void AtmospherePass::classify(const AtmosphereView& view) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   draw_triangle(classes);
-  glDisable(GL_DEPTH_TEST);
 }
 
 void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky,
                           GLuint grainy) {
   bind_blocks(sky, view);
-  if (view.shadows != nullptr) {
-    shadow_maps.bind(*view.shadows, grainy, kShadowUnit, blocks_);
+  if (!view.shadows.empty()) {
+    shadow_maps.bind(view.shadows, grainy, kShadowUnit, blocks_);
   }
   glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
   if (view.options.clouds) {
@@ -362,8 +363,6 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
   draw_suns(view);
   // What takes longest comes last: before another program samples what has been drawn, Mesa's
   // renderer waits for all that is on its way.
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
   if (view.sees_grains()) {
     glDepthRange(kGrainlessClass, 1);
     draw_triangle(grainless);
@@ -373,9 +372,6 @@ void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_m
     glDepthFunc(GL_LESS);  // than any depth: the pixels have no classes
     draw_triangle(grainless);
   }
-  glDepthRange(0, 1);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_DEPTH_TEST);
 }
 
 void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shadow_maps) {
@@ -404,8 +400,6 @@ void AtmospherePass::draw_suns(const AtmosphereView& view) {
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_EQUAL);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_DEPTH_TEST);
 }
 
 }  // namespace skyfit

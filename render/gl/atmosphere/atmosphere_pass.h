@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The atmosphere over the G-buffer. Reads the tables and the G-buffer in the order of
-// kAtmosphereReads; writes light (linear sRGB and luminance, cd/m^2), the distance from the camera
-// (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites. The sky, the
-// suns' discs, surfaces and those near enough to show their grains are drawn apart, each by a
-// shader that does no more than it must. As fragments, of which a renderer in software skips those
-// that fail the depth test, or as compute shaders, which have all of a GPU to themselves: fragments
-// are shaded by a part of it on cards made for computing. Before it, the light of whole rays from
-// the eye is looked up once for all pixels, into the targets kSkyViewWrites.
+// kAtmosphereReads; writes light (in the frame's primaries and luminance, cd/m^2), the distance
+// from the camera (km, infinite for sky) and, when asked, the layers in the order of kLayerWrites.
+// The sky, the suns' discs, surfaces and those near enough to show their grains are drawn apart,
+// each by a shader that does no more than it must. As fragments, of which a renderer in software
+// skips those that fail the depth test, or as compute shaders, which have all of a GPU to
+// themselves: fragments are shaded by a part of it on cards made for computing. Before it, the
+// light of whole rays from the eye is looked up once for all pixels, into the targets
+// kSkyViewWrites.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,7 @@ struct AtmosphereView {
   const FrameOptions& options;
   const Projection& projection;
   const SiteAxes& axes;
-  const std::array<ShadowView, kShadowMaps>* shadows;  // null: none
+  std::span<const ShadowView> shadows;
   double farthest_km;  // of the ground that is seen: the length of the volume
   bool only_ground;    // is seen: no meshes, no moon
   double nearest_m;    // of the ground that is seen, or less

@@ -11,7 +11,6 @@ void add_gbuffer(int width, int height, FrameGraph& graph) {
 void clear_gbuffer() {
   const float far_depth = 0;
   glClearBufferfv(GL_DEPTH, 0, &far_depth);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
 }

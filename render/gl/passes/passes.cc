@@ -23,6 +23,20 @@ GlTexture make_texture(GLenum target, GLint filter = GL_LINEAR) {
   return GlTexture(id);
 }
 
+// No pass sees what another left behind, nor what a new context begins with.
+void set_default_state() {
+  // Depths in 0..1, for reversed depth, too; OpenGL's own -1..1 would halve their range.
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  for (const GLenum feature :
+       {GL_DEPTH_TEST, GL_DEPTH_CLAMP, GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST}) {
+    glDisable(feature);
+  }
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glDepthRange(0, 1);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 std::int64_t nanoseconds(const GlQuery& stamp) {
   GLint64 value = 0;
   glGetQueryObjecti64v(stamp.id(), GL_QUERY_RESULT, &value);
@@ -110,6 +124,7 @@ StartedPasses FrameGraph::run(std::span<const Pass> passes) const {
   };
   stamp();
   for (const Pass& pass : passes) {
+    set_default_state();
     const GlFramebuffer target = pass.writes.empty() ? GlFramebuffer() : framebuffer(pass);
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
     for (std::size_t unit = 0; unit < pass.reads.size(); ++unit) {

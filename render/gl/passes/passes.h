@@ -3,6 +3,11 @@
 // pass reads is bound to texture units 0, 1, ... in the order of `reads`; what it writes are the
 // colour targets 0, 1, ... in the order of `writes`, a depth texture is the depth target; what its
 // compute shaders write are the image units 0, 1, ... in the order of `images`.
+//
+// Each pass begins with the same state, whatever ran before it: clip control from 0 to 1, no depth
+// test, depth function GL_LESS, depth range 0 to 1, all masks open, no culling, blending, scissors
+// or depth clamp. It sets what it needs otherwise, with a viewport of its own where it writes no
+// target, and restores nothing.
 #pragma once
 
 #include <cstdint>

@@ -107,6 +107,7 @@ class GlRenderer final : public FrameDrawer {
     before_.reset();
     frame.statistics = start_frame(sampled, true, report).wait();
     report(0.9);
+    frame.primaries = options.primaries;
     frame.width = options.width;
     frame.height = options.height;
     resolve_light(graph_, samples, frame);
@@ -203,7 +204,7 @@ class GlRenderer final : public FrameDrawer {
     TerrainDraw blocks;
     std::vector<Placed> meshes;  // they cast shadows, the moon does not
     std::optional<Placed> moon;
-    std::array<ShadowView, kShadowMaps> shadows;
+    std::vector<ShadowView> shadows;
     std::array<TerrainDraw, kShadowMaps> casters;
     double farthest_km = 0;
   };
@@ -220,6 +221,7 @@ class GlRenderer final : public FrameDrawer {
     const BlockSelection selection = affordable_blocks(view, store);
     statistics.blocks_outside = selection.outside;
     statistics.blocks_behind = selection.behind;
+    current_.shadows.clear();
     if (options.shadows) prepare_shadows(options, view, ground_distance);
     statistics.blocks_made = store.made();
     terrain_->prepare(selection.blocks, view, current_.blocks);
@@ -234,8 +236,8 @@ class GlRenderer final : public FrameDrawer {
   // The same blocks as in the picture where both see them: a surface must not shade itself.
   void prepare_shadows(const FrameOptions& options, TerrainView view, double ground_distance_m) {
     const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
-    current_.shadows = shadow_views(sun, ground_distance_m);
-    for (std::size_t i = 0; i < kShadowMaps; ++i) {
+    current_.shadows = shadow_views(sun, ground_distance_m, ground_->highest_m());
+    for (std::size_t i = 0; i < current_.shadows.size(); ++i) {
       view.planes = current_.shadows[i].planes;
       terrain_->prepare(affordable_blocks(view, terrain_->store()).blocks, view,
                         current_.casters[i]);
@@ -263,14 +265,15 @@ class GlRenderer final : public FrameDrawer {
     const AtmosphereView view{options,
                               current_.projection,
                               current_.axes,
-                              options.shadows ? &current_.shadows : nullptr,
+                              current_.shadows,
                               current_.farthest_km,
                               current_.meshes.empty() && !current_.moon,
                               current_.blocks.nearest_m,
                               ground_->highest_m(),
                               materials_};
     std::vector<Pass> list;
-    if (options.shadows) list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
+    if (!current_.shadows.empty())
+      list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
     list.push_back({"terrain", {}, kGBuffer, [this] {
                       clear_gbuffer();
                       terrain_->draw(current_.blocks, current_.projection, current_.axes);
@@ -328,8 +331,7 @@ class GlRenderer final : public FrameDrawer {
 
   void draw_shadows() {
     const glm::dmat4 site_from_planet(current_.axes.site_from_planet());
-    shadow_maps().draw([&](int i) {
-      const auto map = static_cast<std::size_t>(i);
+    shadow_maps().draw(current_.shadows.size(), [&](std::size_t map) {
       const glm::dmat4& clip_from_site = current_.shadows[map].clip_from_site;
       terrain_->draw_depth(current_.casters[map], glm::mat4(clip_from_site * site_from_planet));
       for (const Placed& mesh : current_.meshes)

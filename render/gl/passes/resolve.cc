@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "render/gl/passes/view_basis.h"
+#include "render/image/gamut.h"
 
 namespace skyfit {
 namespace {
@@ -27,6 +28,17 @@ void for_samples(const Frame& frame, int samples_per_side, F&& f) {
         static_cast<std::size_t>(frame.height - 1 - y / samples_per_side) * frame.width;
     for (std::size_t x = 0; x < width; ++x)
       f(row + x / samples_per_side, static_cast<std::size_t>(y) * width + x);
+  }
+}
+
+// No light is negative. `values`: [pixel][3].
+void bring_into_gamut(const ColorSpace& space, const ColorChannels& white,
+                      std::vector<float>& values) {
+  for (std::size_t i = 0; i < values.size(); i += 3) {
+    const ColorChannels color = {values[i], values[i + 1], values[i + 2]};
+    if (std::ranges::min(color) >= 0) continue;
+    const ColorChannels mapped = into_gamut(color, luminance_of(color, space), white);
+    for (std::size_t k = 0; k < 3; ++k) values[i + k] = static_cast<float>(mapped[k]);
   }
 }
 
@@ -54,6 +66,8 @@ void resolve_light(const FrameGraph& graph, int samples_per_side, Frame& frame) 
     for (std::size_t k = 0; k < 3; ++k) frame.rgb[3 * pixel + k] += part * light[4 * sample + k];
     frame.luminance[pixel] += part * light[4 * sample + 3];
   });
+  const ColorSpace& space = color_space(frame.primaries);
+  bring_into_gamut(space, space.white, frame.rgb);
   const std::vector<float> distance = graph.read_back("distance", GL_RED, 1);
   frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
   for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
@@ -68,6 +82,11 @@ FrameLayers resolve_layers(const FrameGraph& graph, int samples_per_side, const 
   layers.transmittance = resolve_color(graph, "transmittance", samples_per_side, frame);
   layers.normal = resolve_color(graph, "normal", samples_per_side, frame);
   layers.albedo = resolve_color(graph, "albedo", samples_per_side, frame);
+  const ColorSpace& space = color_space(frame.primaries);
+  for (std::vector<float>* light : {&layers.in_scatter, &layers.reflected})
+    bring_into_gamut(space, space.white, *light);
+  for (std::vector<float>* share : {&layers.transmittance, &layers.albedo})
+    bring_into_gamut(space, {1, 1, 1}, *share);
   for (std::size_t i = 0; i < layers.normal.size(); i += 3) {
     float* const n = &layers.normal[i];
     const float length = std::hypot(n[0], n[1], n[2]);

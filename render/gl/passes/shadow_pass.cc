@@ -2,9 +2,9 @@
 #include "render/gl/passes/shadow_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "render/gl/context/context.h"
 #include "render/gl/context/uniform_block.h"
 
 namespace skyfit {
@@ -16,14 +16,18 @@ constexpr double kHalfPerDistance = 1.5;  // and of one seen from high above
 constexpr double kGrowth = 8;             // from map to map
 constexpr double kBeyond = 60e3;          // m along the beam that a peak's shadow crosses
 
+double texel_m(double half_m) { return 2 * half_m / kSide; }
+
 }  // namespace
 
-std::array<ShadowView, kShadowMaps> shadow_views(const glm::dvec3& sun, double ground_distance_m) {
+std::vector<ShadowView> shadow_views(const glm::dvec3& sun, double ground_distance_m,
+                                     double highest_m) {
   const glm::dvec3 aside = std::abs(sun.z) < 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(aside, sun)), y = glm::cross(sun, x);
-  std::array<ShadowView, kShadowMaps> views;
+  std::vector<ShadowView> views;
   double half = std::max(kSmallestHalf, kHalfPerDistance * ground_distance_m);
-  for (ShadowView& view : views) {
+  for (int i = 0; i < kShadowMaps && kShadowOffTexels * texel_m(half) < highest_m; ++i) {
+    ShadowView& view = views.emplace_back();
     const double depth = 2 * half + kBeyond;
     const glm::dmat3 rows(x * (1e3 / half), y * (1e3 / half), -sun * (0.5e3 / depth));
     view.clip_from_site = glm::dmat4(glm::transpose(rows));
@@ -50,7 +54,7 @@ ShadowPass::ShadowPass() {
   glTextureParameteri(id, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
-void ShadowPass::draw(const std::function<void(int)>& draw) const {
+void ShadowPass::draw(std::size_t maps, const std::function<void(std::size_t)>& draw) const {
   GLuint id = 0;
   glCreateFramebuffers(1, &id);
   const GlFramebuffer target(id);
@@ -62,38 +66,30 @@ void ShadowPass::draw(const std::function<void(int)>& draw) const {
   // What stands nearer to the sun than the view begins casts its shadow too.
   glEnable(GL_DEPTH_CLAMP);
   const float farthest = 1;
-  for (int i = 0; i < kShadowMaps; ++i) {
-    glNamedFramebufferTextureLayer(id, GL_DEPTH_ATTACHMENT, maps_.id(), 0, i);
+  for (std::size_t i = 0; i < maps; ++i) {
+    glNamedFramebufferTextureLayer(id, GL_DEPTH_ATTACHMENT, maps_.id(), 0, static_cast<GLint>(i));
     glClearNamedFramebufferfv(id, GL_DEPTH, 0, &farthest);
     draw(i);
   }
-  glDisable(GL_DEPTH_CLAMP);
-  glDisable(GL_DEPTH_TEST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  check_gl("shadow maps");
 }
 
-void ShadowPass::bind(const std::array<ShadowView, kShadowMaps>& views, GLuint program, GLuint unit,
+void ShadowPass::bind(std::span<const ShadowView> views, GLuint program, GLuint unit,
                       UniformBuffers& buffers) const {
   glBindTextureUnit(unit, maps_.id());
   // From -1..1 to texture coordinates.
   glm::dmat4 texture_from_clip(1);
   texture_from_clip[0][0] = texture_from_clip[1][1] = 0.5;
   texture_from_clip[3] = glm::dvec4(0.5, 0.5, 0, 1);
-  std::array<glm::mat4, kShadowMaps> matrices;
-  glm::vec4 texels(0), depth_per_km(0);
-  for (std::size_t i = 0; i < kShadowMaps; ++i) {
+  std::array<glm::mat4, kShadowMaps> matrices{};
+  glm::vec4 offsets(0);
+  for (std::size_t i = 0; i < views.size(); ++i) {
     matrices[i] = glm::mat4(texture_from_clip * views[i].clip_from_site);
-    const int map = static_cast<int>(i);
-    texels[map] = static_cast<float>(2 * views[i].half_km / kSide);
-    const glm::dmat4& clip = views[i].clip_from_site;
-    depth_per_km[map] =
-        static_cast<float>(glm::length(glm::dvec3(clip[0][2], clip[1][2], clip[2][2])));
+    offsets[static_cast<int>(i)] = static_cast<float>(kShadowOffTexels * texel_m(views[i].half_km));
   }
   UniformBlock block(program, "Shadows");
   block.set("map_from_site", std::span<const glm::mat4>(matrices));
-  block.set("shadow_texel_km", texels);
-  block.set("shadow_depth_per_km", depth_per_km);
+  block.set("shadow_offset_km", offsets);
+  block.set("shadow_map_count", static_cast<double>(views.size()));
   block.set("shadow_reach_km", views.back().half_km);
   block.bind(buffers);
 }

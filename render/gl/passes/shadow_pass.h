@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth seen from the sun, in three maps about the camera, each of a larger part of the terrain;
-// see render/shaders/shadows.glsl.
+// Depth seen from the sun, in up to three maps about the camera, each of a larger part of the
+// terrain; see render/shaders/shadows.glsl.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "render/gl/context/objects.h"
@@ -14,7 +14,7 @@
 
 namespace skyfit {
 
-inline constexpr int kShadowMaps = 3;
+inline constexpr int kShadowMaps = 3;  // at most
 
 // An orthographic view along the sun's beam; the axes of the site, kilometres from the camera.
 struct ShadowView {
@@ -23,18 +23,27 @@ struct ShadowView {
   double half_km;
 };
 
-// `ground_distance_m`: of the camera from the ground below.
-std::array<ShadowView, kShadowMaps> shadow_views(const glm::dvec3& sun, double ground_distance_m);
+// The maps that hold, from the finest on: those whose texels are so small that what stands up to
+// `highest_m` above the bottom radius can shade what is looked up kShadowOffTexels off the ground.
+// None for a camera far away. `ground_distance_m`: of the camera from the ground below.
+std::vector<ShadowView> shadow_views(const glm::dvec3& sun, double ground_distance_m,
+                                     double highest_m);
+
+// How far off a plane a place is looked up, in texels of its map, so that the plane does not shade
+// it. The farthest depth that is compared lies 0.75 texels aside (the corners of sunlit()) and 1
+// more (the filter), along both axes, and with the beam at an angle a to the plane's normal is
+// nearer to the sun by that times tan(a), which the offset t outweighs by t / cos(a).
+inline constexpr double kShadowOffTexels = 1.75 * 1.41421356;
 
 class ShadowPass {
  public:
   ShadowPass();
 
-  // Calls draw(i) with the map of the view i as the depth target.
-  void draw(const std::function<void(int)>& draw) const;
+  // Calls draw(i) for the first `maps` with the map i as the depth target.
+  void draw(std::size_t maps, const std::function<void(std::size_t)>& draw) const;
 
   // The maps as texture `unit`, and what render/shaders/shadows.glsl needs of the views.
-  void bind(const std::array<ShadowView, kShadowMaps>& views, GLuint program, GLuint unit,
+  void bind(std::span<const ShadowView> views, GLuint program, GLuint unit,
             UniformBuffers& buffers) const;
 
  private:
