@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// An atmosphere is a list: a constituent split into two of half the amount and the order of the list
+// change nothing, a constituent that only a preset knows has exact derivatives, and a homogeneous
+// layer is as bright as adding-doubling says.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "data_refs/spectra.h"
+#include "model/atmosphere/parameters.h"
+#include "model/registry.h"
+#include "tests/atmospheres.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Dust at 3 km that absorbs in the blue and has its own phase function at each wavelength.
+Constituent<double> dust() {
+  const auto phase = [](double g) {
+    TwoColumns table;
+    for (int i = 0; i <= 360; ++i) {
+      const double nu = std::cos(0.5 * kDegree * i), d = 1 + g * g - 2 * g * nu;
+      table.x.push_back(0.5 * i);
+      table.y.push_back((1 - g * g) / (4 * std::numbers::pi * d * std::sqrt(d)));
+    }
+    return std::make_shared<const TabulatedPhase>(std::move(table));
+  };
+  Constituent<double> c;
+  c.name = "dust";
+  c.amount_type = AmountType::kOpticalDepth;
+  c.amount = 0.3;
+  c.angstrom_exponent = 0.2;
+  c.albedo_spectrum =
+      std::make_shared<const SpectrumTable>(TwoColumns{{400, 700}, {0.75, 0.97}}, kAlbedoFormat);
+  c.profile.type = ProfileType::kLayer;
+  c.profile.base_m = 3000;
+  c.profile.top_m = 4500;
+  c.phase.type = PhaseType::kByWavelength;
+  c.phase.by_wavelength = std::make_shared<const SpectralPhase>(
+      std::vector<double>{400, 700},
+      std::vector<std::shared_ptr<const TabulatedPhase>>{phase(0.75), phase(0.6)});
+  return c;
+}
+
+Atmosphere<double> dusty() {
+  Atmosphere<double> a;
+  a.constituents.push_back(dust());
+  return a;
+}
+
+std::vector<SkyPoint> points() {
+  std::vector<SkyPoint> list;
+  for (const double sun : {35.0, 75.0, 87.0}) {
+    for (const double view : {5.0, 60.0, 84.0, 130.0}) {
+      for (const double azimuth : {10.0, 120.0})
+        list.push_back({view > 90 ? 9e3 : 0.0, sun * kDegree, view * kDegree, azimuth * kDegree});
+    }
+  }
+  return list;
+}
+
+SkyValues sky_of(const Atmosphere<double>& a, std::span<const Parameter> derivatives = {}) {
+  static const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  static const std::vector<WavelengthNode> nodes =
+      spectral_nodes(refs::standard_spectral_data(), {460, 600});
+  return model->radiance(a, nodes, points(), derivatives);
+}
+
+// `a` with the constituent as two, each of half of it.
+Atmosphere<double> split(Atmosphere<double> a, std::string_view name) {
+  Constituent<double> half = a.at(name);
+  half.amount /= 2;
+  a.at(name) = half;
+  half.name += "_too";
+  a.constituents.push_back(half);
+  return a;
+}
+
+TEST(Constituents, SplitInTwoTheyAreTheSameSky) {
+  constexpr double kRounding = 1e-9;
+  const SkyValues whole = sky_of(dusty());
+  for (const char* name : {"rayleigh", "mie", "ozone", "dust"}) {
+    const SkyValues halves = sky_of(split(dusty(), name));
+    for (std::size_t i = 0; i < whole.value.size(); ++i)
+      EXPECT_NEAR(halves.value[i] / whole.value[i], 1, kRounding) << name << ' ' << i;
+  }
+}
+
+TEST(Constituents, SplitInTwoTheirDerivativesAddUp) {
+  constexpr double kRounding = 1e-9;
+  const Parameter depth("dust", Quantity::kOpticalDepth);
+  const std::vector<Parameter> both = {depth, {"dust_too", Quantity::kOpticalDepth}};
+  const SkyValues whole = sky_of(dusty(), {&depth, 1}), halves = sky_of(split(dusty(), "dust"), both);
+  for (std::size_t i = 0; i < whole.value.size(); ++i) {
+    const double mean = 0.5 * (halves.derivative[i] + halves.derivative[whole.value.size() + i]);
+    EXPECT_NEAR(mean, whole.derivative[i], kRounding * (std::abs(mean) + whole.value[i])) << i;
+  }
+}
+
+TEST(Constituents, TheirOrderDoesNotMatter) {
+  constexpr double kRounding = 1e-10;
+  Atmosphere<double> turned = dusty();
+  std::ranges::reverse(turned.constituents);
+  const SkyValues one = sky_of(dusty()), other = sky_of(turned);
+  for (std::size_t i = 0; i < one.value.size(); ++i)
+    EXPECT_NEAR(other.value[i] / one.value[i], 1, kRounding) << i;
+}
+
+// More parameters than are carried at once, among them the edges of a layer.
+TEST(Constituents, EveryDerivativeIsThatOfADifference) {
+  constexpr double kDifference = 1e-5;
+  Atmosphere<double> a = dusty();
+  Constituent<double> smoke = standard_mie<double>();
+  smoke.name = "smoke";
+  smoke.amount_type = AmountType::kExtinction;
+  smoke.amount = 5e-5;
+  smoke.profile.type = ProfileType::kLayer;
+  smoke.profile.base_m = 0;
+  smoke.profile.top_m = 900;
+  a.constituents.push_back(smoke);
+  const std::vector<Parameter> parameters = parameters_of(a);
+  EXPECT_GT(parameters.size(), 12u);
+  const SkyValues exact = sky_of(a, parameters);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const double middle = get_parameter(a, parameters[p]), step = 2e-5 * std::abs(middle);
+    const auto at = [&](double value) {
+      Atmosphere<double> b = a;
+      set_parameter(b, parameters[p], value);
+      return sky_of(b);
+    };
+    const SkyValues high = at(middle + step), low = at(middle - step);
+    double worst = 0;
+    for (std::size_t i = 0; i < high.value.size(); ++i) {
+      const double difference = (high.value[i] - low.value[i]) / (2 * step);
+      const double scale = std::max(std::abs(difference), exact.value[i] / std::abs(middle));
+      worst = std::max(worst, std::abs(exact.derivative_at(static_cast<int>(p),
+                                                           static_cast<int>(i / 2),
+                                                           static_cast<int>(i % 2)) -
+                                       difference) /
+                                  scale);
+    }
+    std::printf("[derivative] %-32s %.1e\n", parameters[p].name().c_str(), worst);
+    EXPECT_LT(worst, kDifference) << parameters[p].name();
+  }
+}
+
+}  // namespace
+}  // namespace skyfit
