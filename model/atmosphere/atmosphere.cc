@@ -205,6 +205,7 @@ void validate(const Atmosphere<double>& atmosphere) {
   }
   const double albedo = atmosphere.ground_albedo;
   expect(albedo >= 0.0 && albedo <= 1.0, "ground.albedo", albedo, "an albedo from 0 to 1");
+  validate(atmosphere.star);
 }
 
 }  // namespace skyfit

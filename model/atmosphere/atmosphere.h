@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atmosphere that skyfit fits: a spherical planet, its ground, and a list of constituents
+// The atmosphere that skyfit fits: a spherical planet, its star, its ground, and a list of constituents
 // (model/atmosphere/constituent.h), whose order does not matter. Lengths in metres. Source of the
 // standard ones: Bruneton & Neyret 2008, section 2, with the aerosol's wavelength dependence of
 // Angstrom and an ozone layer.
@@ -11,6 +11,7 @@
 
 #include "model/atmosphere/constituent.h"
 #include "model/atmosphere/ground_spectrum.h"
+#include "model/atmosphere/star.h"
 
 namespace skyfit {
 
@@ -26,6 +27,8 @@ struct Atmosphere {
                                               standard_ozone<T>()};
   T ground_albedo{0.1};                                             // Lambertian, at 550 nm
   std::shared_ptr<const GroundSpectrum> ground_spectrum = nullptr;  // null: grey
+  bool sea = true;  // whether a renderer's made-up ground has seas, and plants on its land
+  Star star;
   bool operator==(const Atmosphere&) const = default;
 
   // The constituent of that name; null where there is none.

@@ -83,6 +83,8 @@ Atmosphere<Dual<N>> seeded(const Atmosphere<double>& a, std::span<const Paramete
     s.constituents.push_back(with_scalar<Dual<N>>(c));
   s.ground_albedo = a.ground_albedo;
   s.ground_spectrum = a.ground_spectrum;
+  s.sea = a.sea;
+  s.star = a.star;
   if (parameters.size() > static_cast<std::size_t>(N))
     throw std::logic_error("seeded: too many parameters");
   for (std::size_t i = 0; i < parameters.size(); ++i) {

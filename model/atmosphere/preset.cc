@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "model/atmosphere/preset_choices.h"
 #include "model/atmosphere/preset_constituents.h"
 #include "model/atmosphere/preset_tables.h"
 #include "model/atmosphere/preset_v1.h"
@@ -32,6 +33,50 @@ std::vector<Constituent<double>> read_constituents(const PresetReader& root,
   return list;
 }
 
+Star read_star(const PresetReader& object, const PresetTables& tables) {
+  object.expect_only({"spectrum", "distance_au", "angular_diameter_deg", "limb_darkening"});
+  Star star;
+  if (object.has("spectrum")) {
+    const PresetReader spectrum = object.object("spectrum");
+    star.spectrum = read_choice(spectrum, "type", kStarSpectra);
+    if (star.spectrum == StarSpectrum::kTabulated) {
+      star.table = tables.read_with(spectrum, kIrradianceFormat, [](const TwoColumns& columns) {
+        return std::make_shared<const SpectrumTable>(columns, kIrradianceFormat);
+      });
+    } else if (star.spectrum == StarSpectrum::kBlackBody) {
+      spectrum.expect_only({"type", "temperature_k"});
+      star.temperature_k = spectrum.number("temperature_k");
+    } else {
+      spectrum.expect_only({"type"});
+    }
+  }
+  if (object.has("distance_au")) {
+    if (star.spectrum != StarSpectrum::kSolar)
+      object.fail_value("distance_au", "no distance of a star whose spectrum holds at the planet");
+    star.distance_au = object.number("distance_au");
+  }
+  if (object.has("angular_diameter_deg"))
+    star.angular_diameter_deg = object.number("angular_diameter_deg");
+  if (object.has("limb_darkening")) {
+    const std::vector<double> u = object.numbers("limb_darkening");
+    if (u.size() != 2) object.fail_value("limb_darkening", "two numbers");
+    star.limb_darkening = {u[0], u[1]};
+  }
+  return star;
+}
+
+ordered_json star_to_json(const Star& star) {
+  ordered_json spectrum = {{"type", name_of(star.spectrum, kStarSpectra)}};
+  if (star.spectrum == StarSpectrum::kTabulated)
+    spectrum = table_to_json(star.table->table(), kIrradianceFormat);
+  if (star.spectrum == StarSpectrum::kBlackBody) spectrum["temperature_k"] = star.temperature_k;
+  ordered_json object = {{"spectrum", spectrum}};
+  if (star.spectrum == StarSpectrum::kSolar) object["distance_au"] = star.distance_au;
+  object["angular_diameter_deg"] = star.angular_diameter_deg;
+  object["limb_darkening"] = star.limb_darkening;
+  return object;
+}
+
 Preset read_preset(const PresetReader& root, const PresetTables& tables) {
   const double version = root.number("skyfit_preset");
   if (version != 1 && version != kPresetVersion) {
@@ -43,7 +88,7 @@ Preset read_preset(const PresetReader& root, const PresetTables& tables) {
     root.expect_only(
         {"skyfit_preset", "name", "planet", "rayleigh", "mie", "ozone", "ground", "fit"});
   } else {
-    root.expect_only({"skyfit_preset", "name", "note", "planet", "constituents", "ground", "fit"});
+    root.expect_only({"skyfit_preset", "name", "note", "planet", "star", "ground", "constituents", "fit"});
   }
   Preset preset;
   preset.name = root.text("name");
@@ -55,7 +100,13 @@ Preset read_preset(const PresetReader& root, const PresetTables& tables) {
       first ? read_constituents_v1(root, tables) : read_constituents(root, tables);
   if (root.has("note")) preset.note = root.text("note");
   const PresetReader ground = root.object("ground");
-  ground.expect_only({"albedo", "spectrum"});
+  if (first) {
+    ground.expect_only({"albedo", "spectrum"});
+  } else {
+    ground.expect_only({"albedo", "spectrum", "sea"});
+    if (ground.has("sea")) preset.atmosphere.sea = ground.flag("sea");
+    if (root.has("star")) preset.atmosphere.star = read_star(root.object("star"), tables);
+  }
   preset.atmosphere.ground_albedo = ground.number("albedo");
   if (ground.has("spectrum")) {
     const PresetReader spectrum = ground.object("spectrum");
@@ -104,8 +155,9 @@ std::string preset_to_json(const Preset& preset) {
       {"name", preset.name},
       {"note", preset.note},
       {"planet", {{"bottom_radius_m", a.bottom_radius_m}, {"top_radius_m", a.top_radius_m}}},
-      {"constituents", ordered_json::array()},
-      {"ground", {{"albedo", a.ground_albedo}}}};
+      {"star", star_to_json(a.star)},
+      {"ground", {{"albedo", a.ground_albedo}, {"sea", a.sea}}},
+      {"constituents", ordered_json::array()}};
   for (const Constituent<double>& c : a.constituents)
     root["constituents"].push_back(constituent_to_json(c));
   if (preset.note.empty()) root.erase("note");

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "model/atmosphere/constituent.h"
+#include "model/atmosphere/star.h"
 #include "model/base/preset_reader.h"
 
 namespace skyfit {
@@ -34,6 +35,11 @@ inline constexpr std::array<Named<ProfileType>, 5> kProfileTypes = {
      {"layer", ProfileType::kLayer},
      {"tabulated", ProfileType::kTabulated},
      {"same-as", ProfileType::kSameAs}}};
+
+inline constexpr std::array<Named<StarSpectrum>, 3> kStarSpectra = {
+    {{"solar", StarSpectrum::kSolar},
+     {"black-body", StarSpectrum::kBlackBody},
+     {"tabulated", StarSpectrum::kTabulated}}};
 
 template <class Enum, std::size_t N>
 Enum read_choice(const PresetReader& object, std::string_view field,

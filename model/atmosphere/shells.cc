@@ -14,7 +14,8 @@ PathColumns Shells::columns_to_top(double height, double mu) const {
 }
 
 Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Parameter> derivatives) {
-  Shells shells{a.bottom_radius_m, a.top_radius_m - a.bottom_radius_m, {}, {}, {}};
+  Shells shells{a.bottom_radius_m, a.top_radius_m - a.bottom_radius_m,
+                a.star.angular_radius_rad(), {}, {}, {}};
   const auto matters = [&](const Constituent<double>& c) {
     if (keep != Keep::kWhatMatters) return keep == Keep::kAll || scatters(c);
     return c.amount > 0 || std::ranges::any_of(derivatives, [&](const Parameter& p) {

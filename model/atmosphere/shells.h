@@ -43,6 +43,7 @@ struct Shells {
   static constexpr int kNone = -1;
 
   double bottom_radius, top;  // top is a height
+  double sun_radius;          // of the star's disc, rad
   std::vector<Profile> profiles;
   std::vector<char> breaks;  // per profile: whether quadratures along a ray begin anew at it
   // Per constituent of the atmosphere: which of the profiles is its own, or kNone of one that is

@@ -244,6 +244,12 @@ std::string PresetReader::text(std::string_view field) const {
   return found.get<std::string>();
 }
 
+bool PresetReader::flag(std::string_view field) const {
+  const json& found = member(field, "true or false");
+  if (!found.is_boolean()) fail_value(field, "true or false");
+  return found.get<bool>();
+}
+
 void PresetReader::fail_value(std::string_view field, std::string_view expectation) const {
   const std::string path = path_of(field);
   throw std::invalid_argument(fmt::format("{}: {} = {}: expected {}", document_.place(path), path,

@@ -56,6 +56,7 @@ class PresetReader {
   std::vector<double> numbers(std::string_view field) const;
   std::vector<std::vector<double>> rows(std::string_view field) const;  // an array of arrays
   std::string text(std::string_view field) const;
+  bool flag(std::string_view field) const;
 
   // The result of `make`, which may throw std::invalid_argument with a message that begins with a
   // path inside this object: source, line and this object's path are put before it.

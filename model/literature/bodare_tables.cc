@@ -74,7 +74,7 @@ template <int N>
 BodareTables<N>::BodareTables(const BodareGeometry& geometry, const ClearAir<N>& air)
     : geometry_(geometry),
       air_(air),
-      sun_(geometry.shells().bottom_radius, geometry.shells().top,
+      sun_(geometry.shells(),
            [&](double height, double mu) {
              return air.optical_depth(geometry.shells().columns_to_top(height, mu));
            }),

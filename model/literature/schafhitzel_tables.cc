@@ -43,7 +43,7 @@ SchafhitzelTables<N>::SchafhitzelTables(const SchafhitzelGeometry& geometry, con
     }
   }
   const Shells& shells = geometry.shells();
-  const SunColumns<N> sun(shells.bottom_radius, shells.top, [&](double height, double mu) {
+  const SunColumns<N> sun(shells, [&](double height, double mu) {
     return air.optical_depth(shells.columns_to_top(height, mu));
   });
   tbb::parallel_for(0, kSize * kSize, [&](int i) { fill_ray(i / kSize, i % kSize, sun, wanted); });

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "model/atmosphere/shells.h"
 #include "model/literature/grid.h"
 #include "model/tables/table_lookup.h"
 
@@ -15,16 +16,16 @@ class SunColumns {
  public:
   // `optical_depth(height, mu)`: to the top along a ray that misses the ground.
   template <class OpticalDepth>
-  SunColumns(double bottom, double top, const OpticalDepth& optical_depth)
-      : top_(top), light_({kHeights, kCosines}) {
+  SunColumns(const Shells& shells, const OpticalDepth& optical_depth)
+      : top_(shells.top), light_({kHeights, kCosines}) {
     tbb::parallel_for(0, kHeights, [&](int i) {
-      const double x = unit_of(i, kHeights), height = top * x * x;
+      const double x = unit_of(i, kHeights), height = shells.top * x * x;
       for (int k = 0; k < kCosines; ++k) {
         const double mu_s = 2 * unit_of(k, kCosines) - 1;
-        const double visible = visible_sun(bottom, height, mu_s);
+        const double visible = visible_sun(shells.bottom_radius, height, mu_s, shells.sun_radius);
         if (visible <= 0) continue;
         light_.at({i, k}) =
-            visible * exp(-optical_depth(height, std::max(mu_s, horizon_cosine(bottom, height))));
+            visible * exp(-optical_depth(height, std::max(mu_s, horizon_cosine(shells.bottom_radius, height))));
       }
     });
   }

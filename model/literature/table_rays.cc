@@ -45,7 +45,7 @@ ViewRay table_ray(const Shells& shells, double height, double mu, bool ground) {
 }
 
 SunLight sun_light(const Shells& shells, double height, double mu_s) {
-  const double visible = visible_sun(shells.bottom_radius, height, mu_s);
+  const double visible = visible_sun(shells.bottom_radius, height, mu_s, shells.sun_radius);
   if (visible <= 0) return {};
   return {visible, shells.columns_to_top(
                        height, std::max(mu_s, horizon_cosine(shells.bottom_radius, height)))};

@@ -111,6 +111,26 @@ double Spectrum::at(double nm) const {
   return value[i - 1] + t * (value[i] - value[i - 1]);
 }
 
+SpectralData under(const SpectralData& data, const Star& star) {
+  SpectralData result = data;
+  Spectrum& irradiance = result.solar_irradiance;
+  switch (star.spectrum) {
+    case StarSpectrum::kSolar:
+      for (double& value : irradiance.value) value /= star.distance_au * star.distance_au;
+      break;
+    case StarSpectrum::kBlackBody:
+      for (std::size_t i = 0; i < irradiance.value.size(); ++i)
+        irradiance.value[i] = black_body_irradiance(irradiance.wavelength_nm[i],
+                                                    star.temperature_k, star.angular_radius_rad());
+      break;
+    case StarSpectrum::kTabulated:
+      for (std::size_t i = 0; i < irradiance.value.size(); ++i)
+        irradiance.value[i] = star.table->at(irradiance.wavelength_nm[i]);
+      break;
+  }
+  return result;
+}
+
 std::vector<WavelengthNode> spectral_nodes(const SpectralData& data,
                                            const std::vector<double>& wavelengths_nm) {
   std::vector<WavelengthNode> nodes;

@@ -8,6 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "model/atmosphere/star.h"
+
 namespace skyfit {
 
 // A tabulated function of wavelength, ascending, linear in between.
@@ -20,9 +22,12 @@ struct Spectrum {
 // The tabulated inputs of the model; data_refs/spectra.h delivers the standard ones.
 struct SpectralData {
   Spectrum x_bar, y_bar, z_bar;  // CIE 1931 2 deg colour matching functions
-  Spectrum solar_irradiance;     // W m^-2 nm^-1 at 1 au
+  Spectrum solar_irradiance;     // W m^-2 nm^-1 of the sun at 1 au, or of another star, see under()
   Spectrum ozone_cross_section;  // m^2 per molecule
 };
+
+// The same under another star.
+SpectralData under(const SpectralData& data, const Star& star);
 
 // One wavelength at which the model is solved.
 struct WavelengthNode {

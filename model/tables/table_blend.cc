@@ -45,6 +45,8 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
         same_table(x.phase.table, y.phase.table) && x.phase.by_wavelength == y.phase.by_wavelength,
         x.name + ".phase");
   }
+  require_same(a.star == b.star, "star");
+  require_same(a.sea == b.sea, "ground.sea");
   require_same(same_table(a.ground_spectrum, b.ground_spectrum), "ground.spectrum");
 }
 

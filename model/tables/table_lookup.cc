@@ -14,8 +14,6 @@ namespace {
 
 Shared<double> shared;  // stateless
 
-constexpr double kSunRadius = 0.004654793;  // rad, at 1 au
-
 struct Planet {
   explicit Planet(const AtmosphereTables& tables)
       : bottom(tables.atmosphere.bottom_radius_m),
@@ -123,8 +121,8 @@ double horizon_cosine(double bottom, double height) {
   return -shared.horizon_distance(height, bottom) / (bottom + height);
 }
 
-double visible_sun(double bottom, double height, double mu_s) {
-  const double half_disc = bottom / (bottom + height) * kSunRadius;
+double visible_sun(double bottom, double height, double mu_s, double angular_radius) {
+  const double half_disc = bottom / (bottom + height) * angular_radius;
   const double above = mu_s - horizon_cosine(bottom, height);
   const double t = std::clamp(above / (2 * half_disc) + 0.5, 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -164,7 +162,8 @@ NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, d
 
 NodeValues lookup_sun_transmittance(const AtmosphereTables& tables, double height, double mu_s) {
   const double bottom = tables.atmosphere.bottom_radius_m;
-  const double visible = visible_sun(bottom, height, mu_s);
+  const double visible =
+      visible_sun(bottom, height, mu_s, tables.atmosphere.star.angular_radius_rad());
   if (visible <= 0) return {};
   NodeValues value =
       lookup_optical_depth(tables, height, std::max(mu_s, horizon_cosine(bottom, height)));

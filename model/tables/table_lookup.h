@@ -23,8 +23,8 @@ NodeValues lookup_transmittance(const AtmosphereTables& tables, const TablePlace
 // Cosine of the zenith angle of the horizon.
 double horizon_cosine(double bottom, double height);
 
-// Share of the sun's disc, 0.533 degrees wide, that stands above the horizon.
-double visible_sun(double bottom, double height, double mu_s);
+// Share of the sun's disc, of that angular radius, that stands above the horizon.
+double visible_sun(double bottom, double height, double mu_s, double angular_radius);
 
 // Below the lowest sun of a table its light falls by e per degree of the sun's height or cosine.
 double deep_twilight(double sun, double lowest);

@@ -35,8 +35,10 @@ const vec2 irradiance_size = vec2(IRRADIANCE_SIZE);
 const vec4 scattering_size = vec4(SCATTERING_SIZE);  // mu_s, azimuth, rays to the ground, rays to the sky
 const float scattering_heights = float(SCATTERING_HEIGHTS);
 
-const float kSunRadius = 0.004654793;       // rad, at 1 au
-const float kSunSolidAngle = 6.8069e-5;     // sr
+// The star's disc: its radius (rad), its solid angle (sr), its limb darkening 1 - u1 (1 - mu) - u2 (1 - mu)^2.
+const float kSunRadius = SUN_RADIUS;
+const float kSunSolidAngle = SUN_SOLID_ANGLE;
+const vec2 kLimbDarkening = vec2(LIMB_DARKENING);
 
 #ifdef EXACT_FILTER
 // GPUs interpolate in steps of 1/256 of a texel, too coarse where neighbouring points are subtracted.

@@ -28,12 +28,13 @@ const float kInfinity = uintBitsToFloat(0x7f800000u);
 vec3 color_of(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
 
 #ifdef DISC
-// A sun's disc with the limb darkening 1 - 0.6 (1 - cos), its edge softened over a pixel; its mean is 1.
+// A sun's disc with its limb darkening, its edge softened over a pixel; its mean is 1.
 float disc(vec3 ray, vec3 sun) {
   float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
   float cover = clamp((kSunRadius - away) / pixel_angle + 0.5, 0.0, 1.0);
   float inside = min(away / kSunRadius, 1.0);
-  return cover * (1.0 - 0.6 * (1.0 - sqrt(1.0 - inside * inside))) / 0.8;
+  float fall = 1.0 - sqrt(1.0 - inside * inside);  // 1 - mu
+  return cover * (1.0 - dot(kLimbDarkening, vec2(fall, fall * fall))) / (1.0 - dot(kLimbDarkening, vec2(1.0 / 3.0, 1.0 / 6.0)));
 }
 #endif
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <iterator>
+#include <numbers>
 
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
@@ -223,12 +224,18 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
   const glm::ivec3 sky_view = sky_view_size(s);
   const Table& sky_rays = tables.sky_rays.air;
   const int classes = static_cast<int>(tables.phases.others.size());
+  const double sun_radius = a.star.angular_radius_rad();
   return {fmt::format("CLASSES {}", classes),
           fmt::format("PHASE_TYPES {}", fmt::join(phase_types, ", ")),
           fmt::format("LOBE_TYPES {}", fmt::join(lobe_types, ", ")),
           fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
           fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
           fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
+          fmt::format("SUN_RADIUS {:.9g}", sun_radius),
+          fmt::format("SUN_SOLID_ANGLE {:.9g}",
+                      4 * std::numbers::pi * std::pow(std::sin(0.5 * sun_radius), 2)),
+          fmt::format("LIMB_DARKENING {:.9g}, {:.9g}", a.star.limb_darkening[0],
+                      a.star.limb_darkening[1]),
           fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
           fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
           fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,

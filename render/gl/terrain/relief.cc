@@ -53,6 +53,9 @@ double land_value(const glm::dvec3& p, double resolution) {
   return fractal_noise(p + glm::dvec3(1.7e6), 5.2e6, std::max(resolution, 500.0)) - 0.02;
 }
 
+// How much of its relief the ground of a dry planet has: basins are smoother than the land.
+double basin(double continent) { return 0.35 + 0.65 * smoothstep(-0.15, 0.15, continent); }
+
 glm::dvec3 fibonacci_direction(int index, int count) {
   const double z = 1 - (2 * index + 1.0) / count;
   const double turn = index * std::numbers::pi * (3 - std::sqrt(5.0));
@@ -62,8 +65,11 @@ glm::dvec3 fibonacci_direction(int index, int count) {
 
 }  // namespace
 
-Relief::Relief(double bottom_radius_m, double ground_albedo)
-    : radius_m_(bottom_radius_m), albedo_(ground_albedo), scale_(bottom_radius_m / kEarthRadius) {
+Relief::Relief(double bottom_radius_m, const NodeValues& ground_albedo, bool sea)
+    : radius_m_(bottom_radius_m),
+      albedo_(ground_albedo),
+      sea_(sea),
+      scale_(bottom_radius_m / kEarthRadius) {
   settle_on_a_coast();
   balance_materials();
 }
@@ -120,8 +126,8 @@ double Relief::height_m(const glm::dvec3& direction, double resolution_m) const 
   const double near_site = 1 - smoothstep(80e3, 400e3, distance);
   const double beach = 1 - smoothstep(300, 600, distance);
   const double continent = land_value(p, resolution);
-  if (continent < 0 && beach <= 0) return 0;
-  const double land = smoothstep(0, 2 * kShore, continent);
+  if (sea_ && continent < 0 && beach <= 0) return 0;
+  const double land = sea_ ? smoothstep(0, 2 * kShore, continent) : basin(continent);
   const double fading = smoothstep(200, 5e3, distance);
   double roughness = kRoughness * (1 + fractal_noise(p, 9, resolution));
   if (resolution < kBoulder) {
@@ -142,11 +148,12 @@ double Relief::height_m(const glm::dvec3& direction, double resolution_m) const 
   height += kCragHeight * (0.3 + mountains) *
             ridged_noise(bent + glm::dvec3(9e5), kCragLength, resolution);
   return std::max(fading * land * height, 0.0) +
-         roughness * std::max(smoothstep(0, 0.1 * kShore, continent), beach);
+         roughness * (sea_ ? std::max(smoothstep(0, 0.1 * kShore, continent), beach) : 1.0);
 }
 
 NodeValues Relief::material(const glm::dvec3& direction, double height_m, double steepness,
                             double resolution_m) const {
+  if (!sea_) return dry_material(direction, steepness, resolution_m);
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const glm::dvec3 p = direction * kEarthRadius;
   const double patches =
@@ -166,21 +173,36 @@ NodeValues Relief::material(const glm::dvec3& direction, double height_m, double
   return mix(kSea, soil, smoothstep(0.0, 0.05, height_m));
 }
 
+// Dust, thinner on slopes, over rock: one colour, lighter and darker.
+NodeValues Relief::dry_material(const glm::dvec3& direction, double steepness,
+                                double resolution_m) const {
+  const double resolution = std::max(resolution_m / scale_, kFinest);
+  const glm::dvec3 p = direction * kEarthRadius;
+  const double patches =
+      fractal_noise(p + glm::dvec3(2e5, 0, 7e5), 2.4e6, std::max(resolution, 8e3));
+  const double spots = fractal_noise(p, kSpots, resolution);
+  const double grain = fractal_noise(p + glm::dvec3(50), 3, resolution);
+  double value = 1 + 0.25 * patches + 0.1 * spots + 0.25 * grain;
+  value *= 1 - 0.3 * smoothstep(0.03, 0.12, steepness);
+  value = std::max(value, 0.2);
+  return {value, value, value, value};
+}
+
 NodeValues Relief::reflectance(const glm::dvec3& direction, double height_m, double steepness,
                                double resolution_m) const {
   NodeValues value = material(direction, height_m, steepness, resolution_m);
   for (std::size_t k = 0; k < 4; ++k) {
-    value[k] = std::clamp(albedo_ * (1 + contrast_ * (value[k] / mean_[k] - 1)), 0.0, 1.0);
+    value[k] = std::clamp(albedo_[k] * (1 + contrast_ * (value[k] / mean_[k] - 1)), 0.0, 1.0);
   }
   return value;
 }
 
 double Relief::rock(const glm::dvec3& direction, double height_m, double steepness,
                     double resolution_m) const {
-  if (height_m <= 0.01) return -1;
+  if (sea_ && height_m <= 0.01) return -1;
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const double spots = fractal_noise(direction * kEarthRadius, kSpots, resolution);
-  const double high = smoothstep(900, 1900, height_m + 500 * spots);
+  const double high = sea_ ? smoothstep(900, 1900, height_m + 500 * spots) : 0;
   return std::max(high, smoothstep(0.04, 0.14, steepness));
 }
 
@@ -206,7 +228,8 @@ void Relief::balance_materials() {
     mean_[k] = sum[k] / kDirections;
     // No material above 1: a bright planet has less contrast.
     const double excess = 1.2 * highest[k] / mean_[k] - 1;
-    contrast_ = std::min(contrast_, (1 - albedo_) / std::max(albedo_ * excess, 1e-9));
+    contrast_ =
+        std::min(contrast_, (1 - albedo_[k]) / std::max(albedo_[k] * excess, 1e-9));
   }
 }
 

@@ -14,14 +14,16 @@ namespace skyfit {
 
 class Relief final : public Ground {
  public:
-  Relief(double bottom_radius_m, double ground_albedo);
+  // Without a sea the basins are plains below the land, and nothing grows: dust, rock and no snow.
+  // `albedo` at the nodes of the colour rule.
+  Relief(double bottom_radius_m, const NodeValues& ground_albedo, bool sea);
 
   // The sun's azimuth is that of the water.
   const SiteAxes& coast() const { return coast_; }
 
   double height_m(const glm::dvec3& direction, double resolution_m) const override;
 
-  // Its mean over the planet is the ground albedo at every node.
+  // Its mean over the planet is the ground albedo.
   NodeValues reflectance(const glm::dvec3& direction, double height_m, double steepness,
                          double resolution_m) const override;
   double rock(const glm::dvec3& direction, double height_m, double steepness,
@@ -32,9 +34,13 @@ class Relief final : public Ground {
   void settle_on_a_coast();
   NodeValues material(const glm::dvec3& direction, double height_m, double steepness,
                       double resolution_m) const;
+  NodeValues dry_material(const glm::dvec3& direction, double steepness,
+                          double resolution_m) const;
   void balance_materials();
 
-  double radius_m_, albedo_;
+  double radius_m_;
+  NodeValues albedo_;
+  bool sea_;
   double scale_;  // this planet's radius / 6360 km
   SiteAxes coast_;
   NodeValues mean_{1, 1, 1, 1};  // of material() over the planet
