@@ -16,4 +16,10 @@ double scattering_angle(const Sample& sample) {
   return std::atan2(across, cos_s * cos_v + sin_s * sin_v * cos_az);
 }
 
+DirectionFromSun direction_from_sun(const Sample& sample) {
+  constexpr double kUnit = 1e-9;  // a thousand times what degrees and back cost, far below any step
+  return {sample.scan, std::llround((sample.view_zenith - sample.sun_zenith) / kUnit),
+          std::llround(sample.relative_azimuth / kUnit)};
+}
+
 }  // namespace skyfit::refs
