@@ -26,7 +26,7 @@ struct PatchScan {
   std::string name;
   ScanSun sun;
   std::vector<double> values;
-  std::optional<double> stated_sun_azimuth;  // radians, as the file counts azimuths
+  std::optional<double> stated_sun_azimuth = {};  // radians, as the file counts azimuths
 };
 
 // The samples of the scans. Where azimuth_zero is stated, throws std::invalid_argument when the

@@ -5,6 +5,14 @@
 
 namespace skyfit::refs {
 
+std::map<std::string, int> samples_left_out(const Reference& reference) {
+  std::map<std::string, int> counts;
+  for (const Sample& sample : reference.samples) {
+    if (!(sample.weight > 0)) ++counts[sample.zero_weight_reason];
+  }
+  return counts;
+}
+
 double scattering_angle(const Sample& sample) {
   // Vincenty's form of the angle between two directions: exact near 0 and pi, where acos loses half
   // the digits.

@@ -3,6 +3,7 @@
 // struct.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -49,6 +50,9 @@ struct Reference {
   std::vector<Scan> scans;         // indexed by Sample::scan; empty when nothing is known of them
   std::vector<std::string> notes;  // what the reader of a measured sky concluded or left out
 };
+
+// How many samples have weight 0, by the reason.
+std::map<std::string, int> samples_left_out(const Reference& reference);
 
 // Angle between the view ray and the direction to the sun, radians.
 double scattering_angle(const Sample& sample);

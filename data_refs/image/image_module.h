@@ -17,9 +17,9 @@ using Chromaticities = std::array<float, 8>;
 // Rows from the upper edge, channels interleaved.
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::string> channels;             // "R", "G", "B", ..
-  std::vector<float> pixels;                     // height x width x channels
-  std::optional<Chromaticities> chromaticities;  // where the file states them
+  std::vector<std::string> channels;                  // "R", "G", "B", ..
+  std::vector<float> pixels;                          // height x width x channels
+  std::optional<Chromaticities> chromaticities = {};  // where the file states them
   const float* pixel(int x, int y) const {
     return &pixels[(static_cast<std::size_t>(y) * width + x) * channels.size()];
   }

@@ -73,18 +73,8 @@ void write_data(Script& script, const MeasuredOutcome& outcome, const MeasuredDi
   script.line("EOD");
 }
 
-// Of one wavelength gnuplot would have an empty range.
-std::string range_of_wavelengths(const MeasuredOutcome& outcome) {
-  constexpr double kMargin_nm = 50;
-  const auto [first, last] =
-      std::ranges::minmax_element(outcome.samples, {}, &MeasuredSample::wavelength_nm);
-  if (first->wavelength_nm < last->wavelength_nm) return "set xrange [*:*] noextend";
-  return fmt::format("set xrange [{:.6g}:{:.6g}]", first->wavelength_nm - kMargin_nm,
-                     first->wavelength_nm + kMargin_nm);
-}
-
 void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_t index,
-                const std::string& wavelength_range) {
+                const std::string& x_range) {
   script.begin_axes(box);
   const MeasuredDirection& d = chosen.direction;
   script.text_label(box.left + box.width / 2, box.top() + 26, chosen.meaning, "center font ',12'");
@@ -99,7 +89,7 @@ void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_
   script.line(
       "{}; set xtics 100 nomirror textcolor rgb '#202020'; set ytics nomirror "
       "textcolor rgb '#202020'",
-      wavelength_range);
+      x_range);
   const std::string data = fmt::format("$spectrum{}", index);
   script.line(
       "plot {0} using 1:($5>0?$2-$3:NaN):($5>0?$2+$3:NaN) with filledcurves fc rgb '#d8d8d8' "
@@ -142,7 +132,7 @@ Figure spectra_figure(const MeasuredOutcome& outcome, int scan) {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     Box box = grid.cell(i);
     draw_panel(script, chosen[i], {box.left, box.bottom, box.width - kGap / 2, box.height - kGap},
-               i, range_of_wavelengths(outcome));
+               i, wavelength_range(outcome));
   }
   script.line("unset multiplot");
   return {kWidth, height, script.text()};
