@@ -70,7 +70,9 @@ class ScanBuilder {
     }
     constexpr std::size_t kFewest = 10;  // that chance does not make equal
     if (values.size() == 1 && readings.size() >= kFewest) {
-      for (Reading& reading : readings) reading.flaw = "one value in every direction";
+      for (Reading& reading : readings) {
+        if (reading.flaw.empty()) reading.flaw = "one value in every direction";
+      }
     }
     return readings;
   }

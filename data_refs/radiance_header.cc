@@ -34,7 +34,8 @@ std::vector<double> numbers_of(const std::string& line, std::size_t count,
     if (!value || !std::isfinite(*value)) break;
     values.push_back(*value);
   }
-  if (values.size() != count) fail(source, line, fmt::format("{} numbers", count));
+  if (values.size() != count)
+    fail(source, line, count == 1 ? "a number > 0" : fmt::format("{} numbers", count));
   return values;
 }
 

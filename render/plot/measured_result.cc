@@ -56,6 +56,7 @@ void read_report(const std::filesystem::path& file, MeasuredOutcome& outcome) {
 std::map<double, double> widths_of(const std::vector<MeasuredSample>& samples) {
   std::map<double, double> widths;
   for (const MeasuredSample& sample : samples) widths[sample.wavelength_nm] = 0;
+  if (widths.size() == 1) widths.begin()->second = 1;  // ratios of its directions remain
   for (auto at = widths.begin(); at != widths.end(); ++at) {
     const auto next = std::next(at);
     if (next == widths.end()) continue;

@@ -137,7 +137,7 @@ TEST(AeronetCsv, ALineThatCannotBeUsedIsLeftOutAndSaid) {
             line("11:12:49", "675", "60", values, "Hybrid") + line("11:13:49", "870", "60", "22"));
   EXPECT_EQ(sky.samples.size(), 5u);
   ASSERT_EQ(sky.notes.size(), 2u);
-  EXPECT_THAT(sky.notes[0], StartsWith("a line is left out: sky.alm:5: Sky_Scan_Type"));
+  EXPECT_THAT(sky.notes[0], StartsWith("a line is left out: sky.alm:6: Sky_Scan_Type"));
   EXPECT_EQ(sky.notes[1], "a line is left out: sky.alm:7: expected 13 fields, got 9");
 }
 
