@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -152,6 +153,22 @@ void ResultDirectory::publish(const std::function<void(const fs::path&)>& write)
       fs::remove(directory_ / name);
     }
   }
+}
+
+void Figures::draw(std::string_view name, const std::function<void()>& draw) {
+  try {
+    draw();
+  } catch (const std::exception& error) {
+    failures_.push_back(fmt::format("{} ({})", name, error.what()));
+  }
+}
+
+void Figures::expect_all(const std::string& directory) const {
+  if (failures_.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{}: the result is complete but for figures that could not be "
+                  "drawn: {}",
+                  directory, fmt::join(failures_, ", ")));
 }
 
 void write_text(const fs::path& file, std::string_view text) {

@@ -38,6 +38,19 @@ class ResultDirectory {
   std::vector<std::string> names_;
 };
 
+// Figures of a result, which is published without those that cannot be drawn.
+class Figures {
+ public:
+  // Calls `draw`; what it throws is kept.
+  void draw(std::string_view name, const std::function<void()>& draw);
+  // Throws std::runtime_error with one line that names the figures that are missing and why, so
+  // that the exit status tells.
+  void expect_all(const std::string& directory) const;
+
+ private:
+  std::vector<std::string> failures_;
+};
+
 // Writes text to a file; throws std::runtime_error with one line.
 void write_text(const std::filesystem::path& file, std::string_view text);
 

@@ -19,7 +19,11 @@ Image read(const std::filesystem::path& file) {
   if (!input) fail(file, OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.depth > 1 || spec.deep) fail(file, "expected a flat image");
-  Image image{spec.width, spec.height, spec.channelnames, {}};
+  Image image{spec.width, spec.height, spec.channelnames, {}, {}};
+  Chromaticities chromaticities;
+  const OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, static_cast<int>(chromaticities.size()));
+  if (spec.getattribute("chromaticities", type, chromaticities.data()))
+    image.chromaticities = chromaticities;
   image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   const bool whole =
       input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data());

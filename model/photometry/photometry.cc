@@ -96,6 +96,17 @@ XyzRule xyz_of(const SpectralData& data, std::span<const ChosenNode> chosen) {
 
 }  // namespace
 
+bool Spectrum::covers(double nm) const {
+  return !wavelength_nm.empty() && nm >= wavelength_nm.front() && nm <= wavelength_nm.back();
+}
+
+bool has_spectra_at(const SpectralData& data, double wavelength_nm) {
+  return data.solar_irradiance.covers(wavelength_nm) &&
+         data.ozone_cross_section.covers(wavelength_nm);
+}
+
+double Spectrum::at_or_zero(double nm) const { return covers(nm) ? at(nm) : 0; }
+
 double Spectrum::at(double nm) const {
   if (wavelength_nm.empty() || !(nm >= wavelength_nm.front() && nm <= wavelength_nm.back())) {
     throw std::out_of_range(
@@ -120,13 +131,18 @@ SpectralData under(const SpectralData& data, const Star& star) {
       break;
     case StarSpectrum::kBlackBody:
       for (std::size_t i = 0; i < irradiance.value.size(); ++i)
-        irradiance.value[i] = black_body_irradiance(irradiance.wavelength_nm[i],
-                                                    star.temperature_k, star.angular_radius_rad());
+        irradiance.value[i] = black_body_irradiance(irradiance.wavelength_nm[i], star.temperature_k,
+                                                    star.angular_radius_rad());
       break;
-    case StarSpectrum::kTabulated:
-      for (std::size_t i = 0; i < irradiance.value.size(); ++i)
-        irradiance.value[i] = star.table->at(irradiance.wavelength_nm[i]);
+    case StarSpectrum::kTabulated: {  // nothing is known beyond the table
+      const TwoColumns& table = star.table->table();
+      std::erase_if(irradiance.wavelength_nm,
+                    [&](double nm) { return nm < table.x.front() || nm > table.x.back(); });
+      irradiance.value.clear();
+      for (const double nm : irradiance.wavelength_nm)
+        irradiance.value.push_back(star.table->at(nm));
       break;
+    }
   }
   return result;
 }

@@ -16,8 +16,7 @@ namespace skyfit {
 
 inline const SiteAxes& coast() {
   static const SiteAxes axes =
-      Relief(earth_clear().atmosphere.bottom_radius_m, earth_clear().atmosphere.ground_albedo)
-          .coast();
+      Relief(earth_clear().atmosphere.bottom_radius_m, {0.1, 0.1, 0.1, 0.1}, true).coast();
   return axes;
 }
 

@@ -76,7 +76,9 @@ class GlRenderer final : public FrameDrawer {
     }
     radius_m_ = bottom;
     // The made-up planet's colours have the preset's ground albedo as their mean.
-    const double albedo = tables.atmosphere.ground_albedo;
+    NodeValues albedo;
+    for (std::size_t k = 0; k < 4; ++k)
+      albedo[k] = ground_albedo_at(tables.atmosphere, tables.color.nodes[k].wavelength_nm);
     if (!ground_ || (scene_.height_map.empty() && albedo != albedo_)) {
       albedo_ = albedo;
       terrain_.reset();
@@ -134,7 +136,7 @@ class GlRenderer final : public FrameDrawer {
  private:
   void make_ground(const AtmosphereTables& tables) {
     if (scene_.height_map.empty()) {
-      auto relief = std::make_unique<Relief>(radius_m_, albedo_);
+      auto relief = std::make_unique<Relief>(radius_m_, albedo_, tables.atmosphere.sea);
       home_ = relief->coast();
       ground_ = std::move(relief);
     } else {
@@ -343,7 +345,8 @@ class GlRenderer final : public FrameDrawer {
   GraphicsDevice device_;
   std::unique_ptr<GlContext> context_;
   FrameGraph graph_;
-  double radius_m_ = 0, albedo_ = 0;
+  double radius_m_ = 0;
+  NodeValues albedo_{};
   std::unique_ptr<Ground> ground_;
   SiteAxes home_;  // where the camera stands without a site
   std::optional<TerrainPass> terrain_;
