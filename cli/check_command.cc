@@ -19,9 +19,12 @@
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/references.h"
+#include "data_refs/spectra.h"
 #include "data_refs/table_csv.h"
 #include "data_refs/units.h"
 #include "model/atmosphere/preset.h"
+#include "model/photometry/atmosphere_summary.h"
+#include "model/registry.h"
 
 namespace skyfit::cli {
 namespace {
@@ -38,10 +41,62 @@ bool looks_like_json(const std::filesystem::path& file) {
   return in >> first && first == '{';
 }
 
+json json_of(const PhotometricColor& color, const char* quantity) {
+  return {{quantity, color.luminance}, {"x", color.x}, {"y", color.y}};
+}
+
 json summary_of_preset(const std::string& file) {
-  const Preset preset = load_preset(file, refs::load_table_csv);
-  return {
-      {"file", file}, {"kind", "preset"}, {"name", preset.name}, {"fitted", !preset.fit.is_null()}};
+  const Preset preset = preset_named(file);
+  const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
+  const AtmosphereSummary summary =
+      summary_of(preset.atmosphere, spectra, *make_sky_model("reference", spectra, 1));
+  json constituents = json::array();
+  for (const ConstituentSummary& c : summary.constituents) {
+    json row = {{"name", c.name}, {"optical_depth", c.optical_depth}};
+    if (c.single_scattering_albedo) row["single_scattering_albedo"] = *c.single_scattering_albedo;
+    if (c.mean_cosine) row["mean_cosine"] = *c.mean_cosine;
+    constituents.push_back(row);
+  }
+  json result = {{"file", file},
+                 {"kind", "preset"},
+                 {"name", preset.name},
+                 {"fitted", !preset.fit.is_null()},
+                 {"wavelengths_nm", kSummaryWavelengths_nm},
+                 {"constituents", constituents},
+                 {"visibility_m", summary.visibility_m},
+                 {"zenith", json_of(summary.zenith, "luminance_cd_m2")},
+                 {"beam", json_of(summary.beam, "illuminance_lx")},
+                 {"warnings", summary.warnings}};
+  if (summary.turbidity) result["turbidity"] = *summary.turbidity;
+  return result;
+}
+
+// What a preset holds.
+std::string preset_lines(const json& summary) {
+  std::string text = fmt::format("  {:<26}{:>10}{:>10}{:>10}   {:<12}{}\n", "optical depth at",
+                                 "450 nm", "550 nm", "650 nm", "albedo", "mean cosine");
+  for (const json& row : summary["constituents"]) {
+    const auto number = [&](const char* field) {
+      return row.contains(field) ? fmt::format("{:.3f}", row[field].get<double>()) : "-";
+    };
+    text += fmt::format("  {:<26}", row["name"].get<std::string>());
+    for (const json& depth : row["optical_depth"])
+      text += fmt::format("{:>10.4g}", depth.get<double>());
+    text += fmt::format("   {:<12}{}\n", number("single_scattering_albedo"), number("mean_cosine"));
+  }
+  text += fmt::format("  visibility {:.4g} km", 1e-3 * summary["visibility_m"].get<double>());
+  if (summary.contains("turbidity"))
+    text += fmt::format(", turbidity {:.4g}", summary["turbidity"].get<double>());
+  const json &zenith = summary["zenith"], &beam = summary["beam"];
+  text += fmt::format(
+      "\n  star 30 deg from the zenith: zenith sky {:.4g} cd/m^2 (x {:.3f}, y {:.3f}), beam {:.4g} "
+      "lx "
+      "(x {:.3f}, y {:.3f})\n",
+      zenith["luminance_cd_m2"].get<double>(), zenith["x"].get<double>(), zenith["y"].get<double>(),
+      beam["illuminance_lx"].get<double>(), beam["x"].get<double>(), beam["y"].get<double>());
+  for (const json& warning : summary["warnings"])
+    text += fmt::format("  warning: {}\n", warning.get<std::string>());
+  return text;
 }
 
 json summary_of_sidecar(const std::string& file) {
@@ -146,7 +201,8 @@ std::string text_of(const json& summary) {
   const std::string file = summary["file"];
   if (summary["kind"] == "preset") {
     return fmt::format("{}: valid preset \"{}\"{}\n", file, summary["name"].get<std::string>(),
-                       summary["fitted"].get<bool>() ? ", the result of a fit" : "");
+                       summary["fitted"].get<bool>() ? ", the result of a fit" : "") +
+           preset_lines(summary);
   }
   if (summary["kind"] == "sidecar") {
     return fmt::format("{}: valid sidecar, {} excluded samples\n", file,
@@ -166,14 +222,16 @@ std::string text_of(const json& summary) {
 }
 
 void run_check(const std::string& file, const refs::ImportOptions& options, bool as_json) {
-  if (!std::filesystem::exists(file)) {
+  const auto shipped = refs::shipped_preset_names();
+  const bool is_shipped = std::ranges::find(shipped, file) != shipped.end();
+  if (!is_shipped && !std::filesystem::exists(file)) {
     throw std::runtime_error(fmt::format(
         "{}: expected a preset (.json) or a measured sky, there is no such file", file));
   }
   json summary;
   if (file.ends_with(kSidecarEnd)) {
     summary = summary_of_sidecar(file);
-  } else if (std::filesystem::is_regular_file(file) && looks_like_json(file)) {
+  } else if (is_shipped || (std::filesystem::is_regular_file(file) && looks_like_json(file))) {
     summary = summary_of_preset(file);
   } else {
     summary = summary_of_samples(file, options);

@@ -12,6 +12,7 @@ void add_sky_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_presets_command(CLI::App& app);
+void add_parameters_command(CLI::App& app);
 void add_references_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_classify_command(CLI::App& app);

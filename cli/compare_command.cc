@@ -78,7 +78,7 @@ refs::Reference solved_reference(const CompareOptions& options, const Preset& pr
   reference.quantity = refs::Quantity::kLuminance;
   std::vector<SkyPoint> points;
   for (const refs::Sample& sample : reference.samples) points.push_back(fit::sky_point(sample));
-  const SpectralData& spectra = refs::standard_spectral_data();
+  const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   const auto model = make_sky_model("reference", spectra, options.threads);
   const fit::Luminance luminance =
       fit::model_luminance(*model, luminance_rule(spectra), preset.atmosphere, points, {});
@@ -108,7 +108,7 @@ std::vector<fit::ModelComparison> compare_all(const CompareOptions& options,
                     fmt::format("{}: {}", names[i], status));
     };
     progress.show(share * static_cast<double>(i), names[i]);
-    const SpectralData& spectra = refs::standard_spectral_data();
+    const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
     rows.push_back(
         fit::compare_model(reference, spectra, *make_sky_model(names[i], spectra, options.threads),
                            preset.atmosphere, how.exclude_sun, options.fitted ? &how : nullptr));
@@ -158,7 +158,7 @@ plot::FisheyeFigure fisheye_of(const refs::Reference& reference,
     figure.sun_zenith_deg.push_back(
         degrees(suns[count > 1 ? k * (suns.size() - 1) / (count - 1) : 0]));
   }
-  const SpectralData& spectra = refs::standard_spectral_data();
+  const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   for (const fit::ModelComparison& row : rows) {
     const Atmosphere<double>& atmosphere =
         row.fitted ? row.fit->preset.atmosphere : preset.atmosphere;

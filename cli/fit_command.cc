@@ -14,6 +14,7 @@
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
+#include "fit/problem/free_parameters.h"
 #include "model/registry.h"
 #include "render/plot/evaluate.h"
 #include "render/plot/results.h"
@@ -73,7 +74,8 @@ void write_result(const std::filesystem::path& directory, const refs::Reference&
   const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
   figures.draw("comparison", [&] {
     plot::write_comparison(
-        plot::comparison_of({&outcome, 1}, refs::standard_spectral_data(), model_named),
+        plot::comparison_of({&outcome, 1}, refs::spectral_data_of(result.preset.atmosphere),
+                            model_named),
         {directory / kFigureFiles[0], directory / kFigureFiles[1]});
   });
 }
@@ -84,7 +86,8 @@ fit::FitResult fit_with_progress(const refs::Reference& reference, const SkyMode
   options.progress = [&](double fraction, const std::string& status) {
     progress.show(fraction, status);
   };
-  return fit::fit_atmosphere(reference, refs::standard_spectral_data(), model, options);
+  return fit::fit_atmosphere(reference, refs::spectral_data_of(fit::start_atmosphere(options)),
+                             model, options);
 }
 
 std::vector<std::string> result_files() {

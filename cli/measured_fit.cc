@@ -14,6 +14,7 @@
 #include "data_refs/absorption_bands.h"
 #include "data_refs/ground_spectra.h"
 #include "data_refs/spectra.h"
+#include "fit/problem/free_parameters.h"
 #include "fit/result/measured_report.h"
 #include "model/sky_model.h"
 #include "render/plot/measured_csv.h"
@@ -91,7 +92,7 @@ void apply(const MeasuredArguments& arguments, fit::MeasuredOptions& options) {
 fit::MeasuredChecks checks_of(const MeasuredArguments& arguments, const SkyModel& model,
                               const fit::MeasuredOptions& options,
                               const fit::MeasuredResult& result) {
-  const SpectralData& spectra = refs::standard_spectral_data();
+  const SpectralData spectra = refs::spectral_data_of(fit::start_atmosphere(options.common));
   const auto seed = static_cast<std::uint64_t>(arguments.seed);
   fit::MeasuredChecks checks;
   for (const std::string& name : arguments.profiles)
@@ -253,7 +254,8 @@ void run_measured_fit(const MeasuredArguments& arguments, refs::Reference refere
     options.common.progress = [&](double fraction, const std::string& status) {
       progress.show(fraction, status);
     };
-    result = fit::fit_measured(reference, refs::standard_spectral_data(), model, options);
+    result = fit::fit_measured(
+        reference, refs::spectral_data_of(fit::start_atmosphere(options.common)), model, options);
     options.common.progress = {};
     checks = checks_of(arguments, model, options, result);
   }

@@ -54,7 +54,7 @@ void run_plot(const PlotOptions& options) {
   std::vector<plot::FitOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(plot::read_fit_outcome(directory));
-  const SpectralData& spectra = refs::standard_spectral_data();
+  const SpectralData spectra = refs::spectral_data_of(fits.front().preset.atmosphere);
   std::map<std::string, std::unique_ptr<SkyModel>, std::less<>> models;
   const auto model_named = [&](std::string_view of_fit) -> const SkyModel& {
     const std::string name(options.model.empty() ? of_fit : options.model);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// `skyfit presets`: lists the shipped presets or prints one.
+// `skyfit presets`: lists the shipped presets, prints one or the schema, or upgrades a file.
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/references.h"
 
@@ -11,18 +12,30 @@ namespace skyfit::cli {
 
 void add_presets_command(CLI::App& app) {
   struct Options {
-    std::string name;
-    bool json = false;
+    std::string name, upgrade;
+    bool json = false, schema = false;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* const command =
       app.add_subcommand("presets", "Lists the shipped presets, or prints one as JSON.");
   command->add_option("name", options->name, "The preset to print")->type_name("NAME");
   command->add_flag("--json", options->json, "Print the list as JSON");
-  command->footer("Example: skyfit presets earth-clear > my-sky.json");
+  command->add_flag("--schema", options->schema, "Print the JSON Schema of presets of version 2");
+  command
+      ->add_option("--upgrade", options->upgrade,
+                   "Print the preset of any version as one of version 2")
+      ->type_name("FILE");
+  command->footer(
+      "Examples:\n  skyfit presets earth-clear > my-sky.json\n  skyfit presets --upgrade old.json "
+      "> "
+      "new.json");
   command->callback([options] {
     const std::vector<std::string> names = refs::shipped_preset_names();
-    if (!options->name.empty()) {
+    if (options->schema) {
+      print(refs::preset_schema_json());
+    } else if (!options->upgrade.empty()) {
+      print(preset_to_json(preset_named(options->upgrade)));
+    } else if (!options->name.empty()) {
       print(refs::shipped_preset_json(options->name));
     } else if (options->json) {
       print(nlohmann::json(names).dump(2) + "\n");

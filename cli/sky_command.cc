@@ -56,8 +56,7 @@ SkyGrid parse_grid(const SkyOptions& options) {
   return grid;
 }
 
-SkyTable parse_table(const SkyOptions& options) {
-  const SpectralData& data = refs::standard_spectral_data();
+SkyTable parse_table(const SkyOptions& options, const SpectralData& data) {
   if (options.wavelength.empty()) {
     if (options.irradiance) return illuminance_table(data);
     return options.color ? color_table(data) : luminance_table(data);
@@ -154,15 +153,16 @@ void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
 
 void run_sky(const SkyOptions& options) {
   const SkyGrid grid = parse_grid(options);
-  SkyTable table = parse_table(options);
+  Preset preset = preset_named(options.preset);
+  const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
+  SkyTable table = parse_table(options, spectra);
   table.orders = options.orders;
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--model", options.model, "expected reference with --orders");
-  Preset preset = preset_named(options.preset);
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
     set_site_pressure(preset.atmosphere, *pressure);
-  const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
+  const auto model = make_sky_model(options.model, spectra, options.threads);
   if (options.irradiance) {
     print_irradiance(*model, preset.atmosphere, grid, table);
   } else {

@@ -16,8 +16,9 @@ Studio::Studio(const RenderRequest& request, std::vector<WeatherStep> weather, R
       weather_(std::move(weather), [this](const Preset& preset) { return tables_of(preset); }) {}
 
 AtmosphereTables Studio::tables_of(const Preset& preset) const {
-  return compute_tables_of(*model_, preset.atmosphere, color_rule(refs::standard_spectral_data()),
-                           TableSizes{}, request_.threads,
+  return compute_tables_of(*model_, preset.atmosphere,
+                           color_rule(refs::spectral_data_of(preset.atmosphere)), TableSizes{},
+                           request_.threads,
                            [this](double done) { report_(done, "tables of the atmosphere"); });
 }
 

@@ -126,6 +126,8 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
                   name, cie_skies().size(), kTraditionalOvercast));
 }
 
+std::string preset_schema_json() { return std::string(embedded_text("preset.schema.json")); }
+
 std::vector<std::string> shipped_preset_names() {
   std::vector<std::string> names;
   for (const EmbeddedFile& file : embedded_files()) {

@@ -33,7 +33,10 @@ std::vector<ReferenceEntry> shipped_references();
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
                          Sampling sampling, const ImportOptions& options = {});
 
-// Shipped presets: "bodare-2014", "bruneton-2008", "earth-clear", "mars"; JSON text.
+// The JSON Schema of presets of version 2.
+std::string preset_schema_json();
+
+// Shipped presets, see data_refs/README.md; JSON text.
 std::vector<std::string> shipped_preset_names();
 std::string shipped_preset_json(
     std::string_view name);  // throws std::invalid_argument that lists the names

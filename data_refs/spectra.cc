@@ -42,4 +42,8 @@ const SpectralData& standard_spectral_data() {
   return data;
 }
 
+SpectralData spectral_data_of(const Atmosphere<double>& atmosphere) {
+  return under(standard_spectral_data(), atmosphere.star);
+}
+
 }  // namespace skyfit::refs

@@ -3,10 +3,14 @@
 // ozone cross section (provenance in the CSV files beside this header, which are compiled in).
 #pragma once
 
+#include "model/atmosphere/atmosphere.h"
 #include "model/photometry/photometry.h"
 
 namespace skyfit::refs {
 
 const SpectralData& standard_spectral_data();
+
+// The same under the star of an atmosphere.
+SpectralData spectral_data_of(const Atmosphere<double>& atmosphere);
 
 }  // namespace skyfit::refs
