@@ -43,10 +43,11 @@ class Profile {
   // Ascending heights that divide the profile for a quadrature: the same shares of the column lie
   // above them for every profile, and empty layers end at them.
   std::vector<double> quadrature_heights() const;
-  // Heights near which a layer wants levels of the solver, ascending; empty for other profiles.
-  // They lie on a lattice and do not follow base and top continuously, so that a derivative by
-  // these holds the levels fixed, as a small difference does.
-  std::vector<double> level_heights() const;
+  bool is_layer() const { return top_ > 0; }
+  // Heights near which a layer of that optical depth wants levels of the solver, ascending; empty
+  // for other profiles. They lie on a lattice and do not follow base, top and depth continuously,
+  // so that a derivative by these holds the levels fixed, as a small difference does.
+  std::vector<double> level_heights(double optical_depth) const;
 
   friend bool operator==(const Profile&, const Profile&) = default;
 

@@ -4,7 +4,19 @@
 #include <algorithm>
 #include <iterator>
 
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
+
 namespace skyfit {
+namespace {
+
+double depth_at_550(const Constituent<double>& c, const Profile& profile) {
+  const double column = profile.vertical_column().value;
+  return coefficients_at<0>(with_scalar<Dual<0>>(c), Dual<0>(column), {550, 0}).extinction.v *
+         column;
+}
+
+}  // namespace
 
 PathColumns Shells::columns_to_top(double height, double mu) const {
   PathColumns c;
@@ -14,8 +26,13 @@ PathColumns Shells::columns_to_top(double height, double mu) const {
 }
 
 Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Parameter> derivatives) {
-  Shells shells{a.bottom_radius_m, a.top_radius_m - a.bottom_radius_m,
-                a.star.angular_radius_rad(), {}, {}, {}};
+  Shells shells{a.bottom_radius_m,
+                a.top_radius_m - a.bottom_radius_m,
+                a.star.angular_radius_rad(),
+                {},
+                {},
+                {},
+                {}};
   const auto matters = [&](const Constituent<double>& c) {
     if (keep != Keep::kWhatMatters) return keep == Keep::kAll || scatters(c);
     return c.amount > 0 || std::ranges::any_of(derivatives, [&](const Parameter& p) {
@@ -28,6 +45,7 @@ Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Paramet
     shells.profile_of[i] = static_cast<int>(shells.profiles.size());
     shells.profiles.emplace_back(a.constituents[i].profile);
     shells.breaks.push_back(a.constituents[i].profile.type == ProfileType::kLayer);
+    shells.layer_depth.push_back(0);
   };
   // Smooth absorbers need none: the columns along a ray are exact.
   const auto note_breaks = [&](std::size_t i) {
@@ -47,6 +65,12 @@ Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Paramet
     add(other);
     shells.profile_of[i] = shells.profile_of[other];
     note_breaks(i);
+  }
+  for (std::size_t i = 0; i < a.constituents.size(); ++i) {
+    if (shells.profile_of[i] == Shells::kNone) continue;
+    const auto profile = static_cast<std::size_t>(shells.profile_of[i]);
+    if (shells.profiles[profile].is_layer())
+      shells.layer_depth[profile] += depth_at_550(a.constituents[i], shells.profiles[profile]);
   }
   return shells;
 }

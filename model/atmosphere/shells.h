@@ -45,7 +45,8 @@ struct Shells {
   double bottom_radius, top;  // top is a height
   double sun_radius;          // of the star's disc, rad
   std::vector<Profile> profiles;
-  std::vector<char> breaks;  // per profile: whether quadratures along a ray begin anew at it
+  std::vector<char> breaks;         // per profile: whether quadratures along a ray begin anew at it
+  std::vector<double> layer_depth;  // per profile: vertical optical depth of a layer at 550 nm
   // Per constituent of the atmosphere: which of the profiles is its own, or kNone of one that is
   // left out because it neither weakens light nor is differentiated by its amount.
   std::vector<int> profile_of;

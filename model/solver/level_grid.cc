@@ -13,9 +13,9 @@ LevelGrid::LevelGrid(const Shells& shells, int count) {
     const double x = static_cast<double>(i) / (count - 1);
     heights_.push_back(shells.top * x * x * x);
   }
-  for (const Profile& profile : shells.profiles) {
-    const std::vector<double> wanted = profile.level_heights();
-    if (wanted.empty()) continue;
+  for (std::size_t i = 0; i < shells.profiles.size(); ++i) {
+    const std::vector<double> wanted = shells.profiles[i].level_heights(shells.layer_depth[i]);
+    if (wanted.size() < 2) continue;
     // A level of another origin close to one of these would make a layer of no use.
     const double apart = 0.4 * (wanted[1] - wanted[0]);
     std::erase_if(heights_, [&](double h) {

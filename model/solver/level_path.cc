@@ -142,7 +142,7 @@ void add(double share, const LevelWeights& from, LevelWeights& to) {
 std::vector<double> layer_edges(const Shells& shells, const ViewRay& ray) {
   std::vector<double> heights;
   for (const Profile& profile : shells.profiles) {
-    if (profile.level_heights().empty()) continue;
+    if (!profile.is_layer()) continue;
     const std::vector<double>& corners = profile.table().heights();
     heights.insert(heights.end(), corners.begin(), corners.end());
   }
