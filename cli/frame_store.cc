@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "cli/output.h"
-#include "cli/studio.h"
+#include "cli/render_session.h"
 #include "model/version.h"
 #include "render/plot/whole_files.h"
 
@@ -114,8 +114,8 @@ std::string name_of(int frame) { return fmt::format("frame_{:05}", frame); }
 
 }  // namespace
 
-Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<WeatherStep>& weather)
-    : weather_(weather) {
+Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<TimelineStep>& timeline)
+    : timeline_(timeline) {
   common_ = {{"version", kVersion},
              {"model", request.model},
              {"device", static_cast<int>(request.device)},
@@ -127,14 +127,14 @@ Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<Weath
 }
 
 std::string Fingerprints::of(const Shot& shot, double time_s) const {
-  const WeatherMoment moment = moment_at(weather_, time_s);
+  const TimelineMoment moment = moment_at(timeline_, time_s);
   ordered_json json = common_;
   json["camera"] = json_of(shot.camera);
   json["sun"] = {shot.sun.zenith, shot.sun.azimuth};
-  json["weather"] = {preset_to_json(weather_[moment.before].preset),
-                     preset_to_json(weather_[moment.after].preset), moment.share};
-  // Where the weather stands still, time does not matter.
-  if (json["weather"][0] == json["weather"][1]) json["weather"][2] = 0;
+  json["timeline"] = {preset_to_json(timeline_[moment.before].preset),
+                      preset_to_json(timeline_[moment.after].preset), moment.share};
+  // Where the timeline stands still, time does not matter.
+  if (json["timeline"][0] == json["timeline"][1]) json["timeline"][2] = 0;
   return hash_of(json.dump());
 }
 
@@ -148,7 +148,7 @@ FrameStore::FrameStore(fs::path directory, std::vector<std::string> extensions)
   require_writable_file(directory_ / kManifest);
   const ordered_json manifest = read_manifest(directory_ / kManifest);
   frames_ = manifest.at("frames");
-  film_ = manifest.value("film", "");
+  video_ = manifest.value("film", "");
 }
 
 FrameStore::~FrameStore() {
@@ -193,18 +193,18 @@ void FrameStore::write(int frame, const Entry& entry, const Frame& picture, Tone
   whole.commit();
 }
 
-bool FrameStore::has_film(int frames, double frames_per_second) const {
-  return film_ == film_of(frames, frames_per_second);
+bool FrameStore::has_video(int frames, double frames_per_second) const {
+  return video_ == video_of(frames, frames_per_second);
 }
 
-void FrameStore::note_film(int frames, double frames_per_second) {
-  film_ = film_of(frames, frames_per_second);
+void FrameStore::note_video(int frames, double frames_per_second) {
+  video_ = video_of(frames, frames_per_second);
   plot::WholeFiles whole({directory_ / kManifest});
   write_text(whole.temporary(0), manifest());
   whole.commit();
 }
 
-std::string FrameStore::film_of(int frames, double frames_per_second) const {
+std::string FrameStore::video_of(int frames, double frames_per_second) const {
   ordered_json film = {frames_per_second};
   for (int i = 0; i < frames; ++i) film.push_back(frames_.value(name_of(i), ordered_json()));
   return hash_of(film.dump());
@@ -212,7 +212,7 @@ std::string FrameStore::film_of(int frames, double frames_per_second) const {
 
 std::string FrameStore::manifest() const {
   const ordered_json json = {
-      {"skyfit_frames", kManifestVersion}, {"film", film_}, {"frames", frames_}};
+      {"skyfit_frames", kManifestVersion}, {"film", video_}, {"frames", frames_}};
   return json.dump(1) + "\n";
 }
 

@@ -10,20 +10,20 @@
 #include <vector>
 
 #include "cli/render_request.h"
-#include "render/sequence/weather.h"
+#include "render/sequence/timeline.h"
 
 namespace skyfit::cli {
 
 // Of everything that the pixels of a frame depend on but the exposure: scene with the content of
-// its files, camera, sun, weather, picture, model and version. The textures' directory counts by
+// its files, camera, sun, timeline, picture, model and version. The textures' directory counts by
 // its name only: drawing adds to it.
 class Fingerprints {
  public:
-  explicit Fingerprints(const RenderRequest& request, const std::vector<WeatherStep>& weather);
+  explicit Fingerprints(const RenderRequest& request, const std::vector<TimelineStep>& timeline);
   std::string of(const Shot& shot, double time_s) const;
 
  private:
-  const std::vector<WeatherStep>& weather_;
+  const std::vector<TimelineStep>& timeline_;
   nlohmann::ordered_json common_;
 };
 
@@ -49,18 +49,18 @@ class FrameStore {
   void write(int frame, const Entry& entry, const Frame& picture, ToneOptions tone);
 
   // Whether the film that was noted last was of these frames as they are now.
-  bool has_film(int frames, double frames_per_second) const;
-  void note_film(int frames, double frames_per_second);
+  bool has_video(int frames, double frames_per_second) const;
+  void note_video(int frames, double frames_per_second);
 
  private:
-  std::string film_of(int frames, double frames_per_second) const;
+  std::string video_of(int frames, double frames_per_second) const;
   std::string manifest() const;
   std::vector<std::filesystem::path> files_of(int frame) const;
 
   std::filesystem::path directory_;
   std::vector<std::string> extensions_;
   nlohmann::ordered_json frames_;
-  std::string film_;
+  std::string video_;
   bool made_ = false;
 };
 

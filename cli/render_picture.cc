@@ -8,8 +8,8 @@
 #include "cli/progress.h"
 #include "cli/render_arguments.h"
 #include "cli/render_modes.h"
-#include "cli/studio.h"
-#include "render/sequence/film.h"
+#include "cli/render_session.h"
+#include "render/sequence/strip.h"
 
 namespace skyfit::cli {
 namespace {
@@ -27,10 +27,10 @@ void render_picture(const RenderRequest& request) {
   Frame frame;
   {
     Progress progress("rendering");
-    Studio studio(request, weather_of(request.sequence), [&](double done, std::string_view what) {
-      progress.show(kTablesShare * done, what);
-    });
-    frame = studio.draw(shot_at(request.sequence, 0, sun_over), 0, [&](double done) {
+    RenderSession session(
+        request, timeline_of(request.sequence),
+        [&](double done, std::string_view what) { progress.show(kTablesShare * done, what); });
+    frame = session.draw(shot_at(request.sequence, 0, sun_over), 0, [&](double done) {
       progress.show(kTablesShare + (1 - kTablesShare) * done, "frame");
     });
   }
@@ -41,7 +41,7 @@ void render_picture(const RenderRequest& request) {
 void render_strip(const RenderRequest& request) {
   const Strip& strip = *request.strip;
   const int count = static_cast<int>(strip.values.size());
-  std::vector<WeatherStep> steps;
+  std::vector<TimelineStep> steps;
   for (int i = 0; i < count; ++i) {
     Preset preset = request.sequence.keyframes.front().preset;
     set_parameter(preset.atmosphere, strip.parameter, strip.values[i]);
@@ -53,10 +53,10 @@ void render_strip(const RenderRequest& request) {
   {
     Progress progress("rendering");
     StatisticsTable table;
-    Studio studio(request, steps, [](double, std::string_view) {});
+    RenderSession session(request, steps, [](double, std::string_view) {});
     for (int i = 0; i < count; ++i) {
       progress.show((i + 0.0) / count, fmt::format("frame {} of {}", i + 1, count));
-      frames.push_back(studio.draw(shot_at(request.sequence, 0, sun_over), i, {}));
+      frames.push_back(session.draw(shot_at(request.sequence, 0, sun_over), i, {}));
       statistics += table.row(i, frames.back().statistics);
     }
     statistics += table.medians();

@@ -12,9 +12,9 @@
 #include "cli/progress.h"
 #include "cli/render_arguments.h"
 #include "cli/render_modes.h"
-#include "cli/studio.h"
+#include "cli/render_session.h"
 #include "cli/video.h"
-#include "render/sequence/film.h"
+#include "render/sequence/exposure.h"
 
 namespace skyfit::cli {
 namespace {
@@ -27,8 +27,8 @@ class Shooting {
  public:
   explicit Shooting(const RenderRequest& request)
       : request_(request),
-        weather_(weather_of(request.sequence)),
-        fingerprints_(request, weather_),
+        timeline_(timeline_of(request.sequence)),
+        fingerprints_(request, timeline_),
         store_(request.out_dir, request.extensions),
         adaptation_(request.adaptation_s) {}
 
@@ -65,7 +65,7 @@ class Shooting {
       progress.show((number + done) / frames, fmt::format("frame {} of {}", number + 1, frames));
     };
     show(0);
-    if (!studio_) studio_.emplace(request_, weather_, [](double, std::string_view) {});
+    if (!studio_) studio_.emplace(request_, timeline_, [](double, std::string_view) {});
     const Frame picture = studio_->draw(shot, time_s, show);
     const double metered = metered_exposure(picture);
     if (!exposure) exposure = exposure_after(number, metered);
@@ -75,12 +75,12 @@ class Shooting {
   }
 
   const RenderRequest& request_;
-  std::vector<WeatherStep> weather_;
+  std::vector<TimelineStep> timeline_;
   Fingerprints fingerprints_;
   FrameStore store_;
   Adaptation adaptation_;
   StatisticsTable statistics_;
-  std::optional<Studio> studio_;  // opened by the first frame that is drawn
+  std::optional<RenderSession> studio_;  // opened by the first frame that is drawn
   int drawn_ = 0;
 };
 
@@ -97,9 +97,9 @@ std::string film(const RenderRequest& request, FrameStore& store) {
     return {};
   }
   const std::filesystem::path video = directory / "sequence.mp4";
-  if (!std::filesystem::exists(video) || !store.has_film(frames, rate)) {
+  if (!std::filesystem::exists(video) || !store.has_video(frames, rate)) {
     make_video(*ffmpeg, directory, frames, rate);
-    store.note_film(frames, rate);
+    store.note_video(frames, rate);
   }
   return fmt::format(", film {}", video.string());
 }

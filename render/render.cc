@@ -62,9 +62,9 @@ void Renderer::require_ready(const FrameOptions& options) const {
   if (preset_.empty()) throw std::logic_error("render: a frame needs an atmosphere");
 }
 
-FrameStatistics Renderer::draw_unread(const FrameOptions& options) {
+FrameStatistics Renderer::submit(const FrameOptions& options) {
   require_ready(options);
-  return drawer_->draw_unread(options);
+  return drawer_->submit(options);
 }
 
 FrameStatistics Renderer::wait() { return drawer_->wait(); }

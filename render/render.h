@@ -210,7 +210,7 @@ class Renderer {
   // The same for frames that are shown one after another on the device. Waits for the frame before,
   // not for this one, which is drawn while the next is prepared. The statistics are those of the
   // frame before, of this one when there is none. Errors as above.
-  FrameStatistics draw_unread(const FrameOptions& options);
+  FrameStatistics submit(const FrameOptions& options);
   // For the last of these frames, whose statistics it returns; throws std::logic_error when nothing
   // has been drawn since the last draw().
   FrameStatistics wait();

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "model/atmosphere/parameter_field.h"
-#include "model/solver/mode_pack.h"
+#include "model/solver/fourier_modes.h"
 
 namespace skyfit {
 
@@ -32,13 +32,15 @@ void normalised_legendre(int m, int count, double mu, double* out) {
 
 namespace {
 
-ModeBasis mode_basis(const RayFan& fan, const std::vector<double>& sun_mu, int m, int moments) {
+ModeBasis mode_basis(const Streams& streams, const std::vector<double>& sun_mu, int m,
+                     int moments) {
   const int own = moments - m;
   ModeBasis basis;
-  basis.at_rays.resize(static_cast<std::size_t>(fan.levels()) * fan.most() * own);
-  for (int i = 0; i < fan.levels(); ++i) {
-    for (int k = 0; k < fan.count(i); ++k)
-      normalised_legendre(m, moments, fan.mu(i, k), &basis.at_rays[(i * fan.most() + k) * own]);
+  basis.at_rays.resize(static_cast<std::size_t>(streams.levels()) * streams.most() * own);
+  for (int i = 0; i < streams.levels(); ++i) {
+    for (int k = 0; k < streams.count(i); ++k)
+      normalised_legendre(m, moments, streams.mu(i, k),
+                          &basis.at_rays[(i * streams.most() + k) * own]);
   }
   basis.at_suns.resize(sun_mu.size() * own);
   for (std::size_t j = 0; j < sun_mu.size(); ++j)
@@ -68,7 +70,7 @@ int mode_count(const Optics<N>& optics, int moments, double tolerance) {
   return moments;
 }
 
-void unpack(const ModePack& pack, int lane, int m, DiffuseField& field) {
+void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
   LargeArray& out = field.moments[m];
   out.reserve(field.shape.levels * field.shape.level(m));
   for (int i = 0; i < field.shape.levels; ++i) pack.append_moments(lane, i, out);
@@ -90,13 +92,13 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
   return i;
 }
 
-SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, const RayFan& fan,
-                         int first) {
-  SunCoupling c;
+HorizontalCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved,
+                                const Streams& streams, int first) {
+  HorizontalCoupling c;
   for (int i = 0; i < grid.size(); ++i) {
     if (solved[i] < 0) continue;
     c.coupled.push_back(i >= first);
-    SunCoupling::Sun sun;
+    HorizontalCoupling::Sun sun;
     if (i >= first) {
       sun.at_zenith = grid.zenith(i) == 0;
       sun.cotangent = sun.at_zenith ? 0 : 1 / std::tan(grid.zenith(i));
@@ -105,25 +107,23 @@ SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, co
     }
     c.suns.push_back(sun);
   }
-  for (int i = 0; i + 1 < fan.levels(); ++i) {
-    for (int k = 0; k < fan.most(); ++k) {
+  for (int i = 0; i + 1 < streams.levels(); ++i) {
+    for (int k = 0; k < streams.most(); ++k) {
       // The difference of the ray's zenith angles at both ends.
-      const double low = fan.mu(i, k), high = fan.mu(i + 1, k);
-      c.step.push_back(k < fan.count(i) ? std::asin(std::sqrt(1 - low * low) * high -
-                                                    low * std::sqrt(1 - high * high))
-                                        : 0.0);
+      const double low = streams.mu(i, k), high = streams.mu(i + 1, k);
+      c.step.push_back(k < streams.count(i) ? std::asin(std::sqrt(1 - low * low) * high -
+                                                        low * std::sqrt(1 - high * high))
+                                            : 0.0);
     }
   }
   return c;
 }
 
 template <int N>
-std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
-                                               std::span<const Optics<N>> optics, int slices,
-                                               const std::vector<double>& heights,
-                                               const std::vector<double>& sun_mu, const RayFan& fan,
-                                               const SunCoupling& coupling,
-                                               const DiffuseOptions& options) {
+std::vector<DiffuseField> solve_diffuse_fields(
+    const Shells& shells, std::span<const Optics<N>> optics, int slices,
+    const std::vector<double>& heights, const std::vector<double>& sun_mu, const Streams& streams,
+    const HorizontalCoupling& coupling, const DiffuseOptions& options) {
   const int waves = static_cast<int>(optics.size()), moments = options.moments;
   const FieldShape shape{static_cast<int>(heights.size()), moments, static_cast<int>(sun_mu.size()),
                          slices};
@@ -136,31 +136,31 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
     field.moments.resize(modes);
   }
   std::vector<ModeBasis> bases(modes);
-  tbb::parallel_for(0, modes, [&](int m) { bases[m] = mode_basis(fan, sun_mu, m, moments); });
-  const FieldColumns columns = field_columns(shells, heights, sun_mu, fan);
+  tbb::parallel_for(0, modes, [&](int m) { bases[m] = mode_basis(streams, sun_mu, m, moments); });
+  const FieldColumns columns = field_columns(shells, heights, sun_mu, streams);
   // As many wavelengths at a time as there are lanes; with few, several modes share the lanes.
-  constexpr int kLanes = static_cast<int>(lanes::kLanes);
-  for (int first = 0; first < waves; first += kLanes) {
-    const int width = std::min(kLanes, waves - first), at_once = kLanes / width;
-    std::array<const Optics<N>*, lanes::kLanes> lane_optics;
-    for (int k = 0; k < kLanes; ++k) lane_optics[k] = &optics[first + k % width];
+  constexpr int kBatchWidth = static_cast<int>(batch::kBatchWidth);
+  for (int first = 0; first < waves; first += kBatchWidth) {
+    const int width = std::min(kBatchWidth, waves - first), at_once = kBatchWidth / width;
+    std::array<const Optics<N>*, batch::kBatchWidth> lane_optics;
+    for (int k = 0; k < kBatchWidth; ++k) lane_optics[k] = &optics[first + k % width];
     const LayerMedium medium = layer_medium<N>(lane_optics, static_cast<std::size_t>(slices - 1),
-                                               heights, sun_mu, columns, fan, moments);
+                                               heights, sun_mu, columns, streams, moments);
     const auto pack_of = [&](int p) {
-      ModePack::Modes lane_modes;
-      for (int k = 0; k < kLanes; ++k)
+      FourierModes::Modes lane_modes;
+      for (int k = 0; k < kBatchWidth; ++k)
         lane_modes[k] = std::min(p * at_once + std::min(k / width, at_once - 1), modes - 1);
-      return ModePack(fan, medium, bases, lane_modes);
+      return FourierModes(streams, medium, bases, lane_modes);
     };
-    const auto unpack_all = [&](const ModePack& pack, int p) {
+    const auto unpack_all = [&](const FourierModes& pack, int p) {
       for (int k = 0; k < at_once * width && p * at_once + k / width < modes; ++k)
         unpack(pack, k, p * at_once + k / width, fields[first + k % width]);
     };
     const int count = (modes + at_once - 1) / at_once;
     const bool coupled = std::ranges::count(coupling.coupled, 1) > 0 && options.order == 0;
-    std::vector<std::optional<ModePack>> packs(coupled ? count : 0);
+    std::vector<std::optional<FourierModes>> packs(coupled ? count : 0);
     tbb::parallel_for(0, count, [&](int p) {
-      ModePack pack = pack_of(p);
+      FourierModes pack = pack_of(p);
       if (options.order == 0) pack.solve();
       for (int k = 0; k < options.order; ++k) pack.advance();
       if (coupled) {
@@ -181,9 +181,9 @@ std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
 
 template std::vector<DiffuseField> solve_diffuse_fields<0>(
     const Shells&, std::span<const Optics<0>>, int, const std::vector<double>&,
-    const std::vector<double>&, const RayFan&, const SunCoupling&, const DiffuseOptions&);
+    const std::vector<double>&, const Streams&, const HorizontalCoupling&, const DiffuseOptions&);
 template std::vector<DiffuseField> solve_diffuse_fields<kDerivativesAtOnce>(
     const Shells&, std::span<const Optics<kDerivativesAtOnce>>, int, const std::vector<double>&,
-    const std::vector<double>&, const RayFan&, const SunCoupling&, const DiffuseOptions&);
+    const std::vector<double>&, const Streams&, const HorizontalCoupling&, const DiffuseOptions&);
 
 }  // namespace skyfit

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diffuse field of the atmosphere for a list of local sun angles, in spherical shells: rays are
 // straight lines through them, the horizon dips with height, the sun's beam is that of each level.
-// Azimuth is a Fourier series, zenith a fan of rays (model/solver/ray_fan.h), each mode is solved
-// directly (model/solver/mode_pack.h). At first the sun turns with the local zenith, as if the sky
-// were the same everywhere on the planet; what neighbouring places lend each other by having
-// another sun then couples modes and suns, in two steps of an iteration, for the suns for which it
-// matters. The field's Legendre moments are the source of multiple scattering; the caller
+// Azimuth is a Fourier series, zenith a streams of rays (model/solver/streams.h), each mode is
+// solved directly (model/solver/fourier_modes.h). At first the sun turns with the local zenith, as
+// if the sky were the same everywhere on the planet; what neighbouring places lend each other by
+// having another sun then couples modes and suns, in two steps of an iteration, for the suns for
+// which it matters. The field's Legendre moments are the source of multiple scattering; the caller
 // integrates it along view rays at the local sun.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "model/solver/mode_pack.h"
+#include "model/solver/fourier_modes.h"
 #include "model/solver/sun_grid.h"
 
 namespace skyfit {
@@ -49,18 +49,16 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells);
 // The coupling of the suns of `grid` that are solved (solved[i] >= 0 is the place of grid node i
 // among them), from the node `first` on; it and those after it, and the two before it, must be
 // solved.
-SunCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved, const RayFan& fan,
-                         int first);
+HorizontalCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved,
+                                const Streams& streams, int first);
 
 // The fields of several wavelengths, in parallel over wavelengths and modes on the calling arena's
 // threads; results do not depend on their number.
 template <int N>
-std::vector<DiffuseField> solve_diffuse_fields(const Shells& shells,
-                                               std::span<const Optics<N>> optics, int slices,
-                                               const std::vector<double>& heights,
-                                               const std::vector<double>& sun_mu, const RayFan& fan,
-                                               const SunCoupling& coupling,
-                                               const DiffuseOptions& options);
+std::vector<DiffuseField> solve_diffuse_fields(
+    const Shells& shells, std::span<const Optics<N>> optics, int slices,
+    const std::vector<double>& heights, const std::vector<double>& sun_mu, const Streams& streams,
+    const HorizontalCoupling& coupling, const DiffuseOptions& options);
 
 // Lambda_lm = sqrt((2 l + 1) / (4 pi) (l - m)! / (l + m)!) P_lm for l = m .. count - 1, written to
 // out[0 .. count - m), so that a phase function with moments chi_l is

@@ -13,7 +13,7 @@ namespace skyfit {
 namespace {
 
 Shared<double> shared;  // stateless
-constexpr std::size_t kLanes = lanes::kLanes;
+constexpr std::size_t kBatchWidth = batch::kBatchWidth;
 
 double derivative(const Dual<0>&, std::size_t) { return 0; }
 template <int N>
@@ -91,9 +91,9 @@ void for_each_array(LayerMedium& m, const F& f) {
   }
   for (LayerMedium::PhaseTangent& t : m.phase_tangents) f(t.chi);
   std::ranges::for_each(m.sun_depth_tangent, f);
-  for (Lanes* array : {&m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent}) f(*array);
+  for (Batch* array : {&m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent}) f(*array);
   for (LayerMedium::Layer& layer : m.layers) {
-    for (Lanes* array : {&layer.t, &layer.near, &layer.far, &layer.near_slope, &layer.far_slope,
+    for (Batch* array : {&layer.t, &layer.near, &layer.far, &layer.near_slope, &layer.far_slope,
                          &layer.depth_tangent})
       f(*array);
     for (BeamWeights* w : {&layer.down, &layer.up}) {
@@ -106,8 +106,8 @@ void for_each_array(LayerMedium& m, const F& f) {
 }
 
 void copy_lane(LayerMedium& m, std::size_t from, std::size_t to) {
-  for_each_array(m, [&](Lanes& array) {
-    for (std::size_t i = 0; i < array.size(); i += kLanes) array[i + to] = array[i + from];
+  for_each_array(m, [&](Batch& array) {
+    for (std::size_t i = 0; i < array.size(); i += kBatchWidth) array[i + to] = array[i + from];
   });
 }
 
@@ -133,20 +133,20 @@ void set(BeamWeights& w, std::size_t at, const BeamWeight& weight) {
 template <int N>
 class LaneFiller {
  public:
-  LaneFiller(const Optics<N>& optics, const FieldColumns& columns, const RayFan& fan,
+  LaneFiller(const Optics<N>& optics, const FieldColumns& columns, const Streams& streams,
              std::size_t lane, LayerMedium& medium)
-      : optics_(optics), columns_(columns), fan_(fan), lane_(lane), medium_(medium) {}
+      : optics_(optics), columns_(columns), streams_(streams), lane_(lane), medium_(medium) {}
 
   void fill_levels(const std::vector<double>& heights) {
     for (std::size_t k = 0; k < optics_.scatterers.size(); ++k) {
       const std::vector<Dual<N>>& chi = optics_.scatterers[k].moments;
       for (std::size_t l = 0; l < chi.size(); ++l)
-        medium_.scatterers[k].chi[l * kLanes + lane_] = chi[l].v;
+        medium_.scatterers[k].chi[l * kBatchWidth + lane_] = chi[l].v;
     }
     for (LayerMedium::PhaseTangent& tangent : medium_.phase_tangents) {
       const std::vector<Dual<N>>& chi = optics_.scatterers[tangent.scatterer].moments;
       for (std::size_t l = 0; l < chi.size(); ++l)
-        tangent.chi[l * kLanes + lane_] = derivative(chi[l], tangent.parameter);
+        tangent.chi[l * kBatchWidth + lane_] = derivative(chi[l], tangent.parameter);
     }
     for (std::size_t i = 0; i < heights.size(); ++i)
       set_level(i, optics_.densities_at_level(heights[i > 0 ? i - 1 : 0], heights[i],
@@ -154,7 +154,8 @@ class LaneFiller {
     medium_.ground_albedo[lane_] = optics_.ground_albedo.v;
     put(medium_.ground_albedo_tangent, 0, optics_.ground_albedo);
     for (std::size_t j = 0; j < medium_.suns; ++j) {
-      medium_.ground_beam[j * kLanes + lane_] = columns_.lit[j] ? std::exp(-sun_depth_[j].v) : 0;
+      medium_.ground_beam[j * kBatchWidth + lane_] =
+          columns_.lit[j] ? std::exp(-sun_depth_[j].v) : 0;
     }
   }
 
@@ -162,12 +163,12 @@ class LaneFiller {
   void set_layer(int i) {
     LayerMedium::Layer& layer = medium_.layers[i];
     const std::size_t suns = medium_.suns, below = i * suns, above = below + suns;
-    for (int k = 0; k < fan_.count(i); ++k) {
-      PathColumns c = columns_.rays[i * fan_.most() + k];
-      c -= columns_.rays[(i + 1) * fan_.most() + k];
+    for (int k = 0; k < streams_.count(i); ++k) {
+      PathColumns c = columns_.rays[i * streams_.most() + k];
+      c -= columns_.rays[(i + 1) * streams_.most() + k];
       const Dual<N> depth = optics_.scaled_optical_depth(c);
       const DiffuseWeights w = diffuse_weights(depth.v);
-      const std::size_t ray = static_cast<std::size_t>(k), at = ray * kLanes + lane_;
+      const std::size_t ray = static_cast<std::size_t>(k), at = ray * kBatchWidth + lane_;
       layer.t[at] = w.t;
       layer.near[at] = w.near;
       layer.far[at] = w.far;
@@ -177,7 +178,7 @@ class LaneFiller {
       for (std::size_t j = 0; j < suns; ++j) {
         const bool lit = columns_.lit[below + j], lit_above = columns_.lit[above + j];
         const double tau = sun_depth_[below + j].v, tau_above = sun_depth_[above + j].v;
-        const std::size_t sun_at = (ray * suns + j) * kLanes + lane_;
+        const std::size_t sun_at = (ray * suns + j) * kBatchWidth + lane_;
         set(layer.down, sun_at, beam_weight(depth.v, w, lit, lit_above, tau, tau_above));
         set(layer.up, sun_at, beam_weight(depth.v, w, lit_above, lit, tau_above, tau));
       }
@@ -185,9 +186,9 @@ class LaneFiller {
   }
 
  private:
-  void put(Lanes& tangent, std::size_t index, const Dual<N>& x) const {
+  void put(Batch& tangent, std::size_t index, const Dual<N>& x) const {
     for (std::size_t p = 0; p < medium_.parameters; ++p)
-      tangent[(index * medium_.parameters + p) * kLanes + lane_] = derivative(x, p);
+      tangent[(index * medium_.parameters + p) * kBatchWidth + lane_] = derivative(x, p);
   }
 
   void set_level(std::size_t level, const Densities<N>& rho) {
@@ -210,7 +211,7 @@ class LaneFiller {
 
   const Optics<N>& optics_;
   const FieldColumns& columns_;
-  const RayFan& fan_;
+  const Streams& streams_;
   const std::size_t lane_;
   LayerMedium& medium_;
   std::vector<Dual<N>> sun_depth_;  // [level][sun]
@@ -219,13 +220,14 @@ class LaneFiller {
 }  // namespace
 
 FieldColumns field_columns(const Shells& shells, const std::vector<double>& heights,
-                           const std::vector<double>& sun_mu, const RayFan& fan) {
+                           const std::vector<double>& sun_mu, const Streams& streams) {
   FieldColumns c;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const int level = static_cast<int>(i);
-    for (int k = 0; k < fan.most(); ++k) {
-      c.rays.push_back(k < fan.count(level) ? shells.columns_to_top(heights[i], fan.mu(level, k))
-                                            : PathColumns{});
+    for (int k = 0; k < streams.most(); ++k) {
+      c.rays.push_back(k < streams.count(level)
+                           ? shells.columns_to_top(heights[i], streams.mu(level, k))
+                           : PathColumns{});
     }
     for (const double mu : sun_mu) {
       const bool lit =
@@ -238,21 +240,21 @@ FieldColumns field_columns(const Shells& shells, const std::vector<double>& heig
 }
 
 template <int N>
-LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& optics,
+LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>& optics,
                          std::size_t parameters, const std::vector<double>& heights,
                          const std::vector<double>& sun_mu, const FieldColumns& columns,
-                         const RayFan& fan, int moments) {
+                         const Streams& streams, int moments) {
   LayerMedium m;
   m.moments = moments;
   m.suns = sun_mu.size();
   m.parameters = parameters;
   m.sun_mu = sun_mu;
-  const auto sized = [](std::size_t elements) { return Lanes(elements * kLanes, 0.0); };
+  const auto sized = [](std::size_t elements) { return Batch(elements * kBatchWidth, 0.0); };
   const std::size_t l_count = static_cast<std::size_t>(moments);
   m.sun_depth_tangent.assign(heights.size(), sized(m.suns * parameters));
   m.scatterers.assign(optics[0]->scatterers.size(),
-                      {sized(l_count), std::vector<Lanes>(heights.size(), sized(1)),
-                       std::vector<Lanes>(heights.size(), sized(parameters))});
+                      {sized(l_count), std::vector<Batch>(heights.size(), sized(1)),
+                       std::vector<Batch>(heights.size(), sized(parameters))});
   for (std::size_t k = 0; k < m.scatterers.size(); ++k) {
     for (std::size_t p = 0; p < parameters; ++p) {
       const bool changes = std::ranges::any_of(optics, [&](const Optics<N>* o) {
@@ -267,39 +269,39 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& opti
   m.ground_albedo_tangent = sized(parameters);
   m.layers.resize(heights.size() - 1);
   for (std::size_t i = 0; i < m.layers.size(); ++i) {
-    const auto rays = static_cast<std::size_t>(fan.count(static_cast<int>(i)));
+    const auto rays = static_cast<std::size_t>(streams.count(static_cast<int>(i)));
     LayerMedium::Layer& layer = m.layers[i];
-    for (Lanes* v : {&layer.t, &layer.near, &layer.far, &layer.near_slope, &layer.far_slope})
+    for (Batch* v : {&layer.t, &layer.near, &layer.far, &layer.near_slope, &layer.far_slope})
       *v = sized(rays);
     layer.depth_tangent = sized(rays * parameters);
-    resize(layer.down, rays * m.suns * kLanes, parameters > 0);
-    resize(layer.up, rays * m.suns * kLanes, parameters > 0);
+    resize(layer.down, rays * m.suns * kBatchWidth, parameters > 0);
+    resize(layer.up, rays * m.suns * kBatchWidth, parameters > 0);
   }
   std::vector<LaneFiller<N>> fillers;  // of the first lane of each wavelength
-  std::array<std::size_t, kLanes> first;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  std::array<std::size_t, kBatchWidth> first;
+  for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
     first[lane] = static_cast<std::size_t>(
         std::find(optics.begin(), optics.begin() + lane, optics[lane]) - optics.begin());
     if (first[lane] < lane) continue;
-    fillers.emplace_back(*optics[lane], columns, fan, lane, m);
+    fillers.emplace_back(*optics[lane], columns, streams, lane, m);
     fillers.back().fill_levels(heights);
   }
-  tbb::parallel_for(0, fan.levels() - 1, [&](int i) {
+  tbb::parallel_for(0, streams.levels() - 1, [&](int i) {
     for (LaneFiller<N>& filler : fillers) filler.set_layer(i);
   });
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  for (std::size_t lane = 0; lane < kBatchWidth; ++lane) {
     if (first[lane] < lane) copy_lane(m, first[lane], lane);
   }
   return m;
 }
 
-template LayerMedium layer_medium<0>(const std::array<const Optics<0>*, lanes::kLanes>&,
+template LayerMedium layer_medium<0>(const std::array<const Optics<0>*, batch::kBatchWidth>&,
                                      std::size_t, const std::vector<double>&,
-                                     const std::vector<double>&, const FieldColumns&, const RayFan&,
-                                     int);
+                                     const std::vector<double>&, const FieldColumns&,
+                                     const Streams&, int);
 template LayerMedium layer_medium<kDerivativesAtOnce>(
-    const std::array<const Optics<kDerivativesAtOnce>*, lanes::kLanes>&, std::size_t,
-    const std::vector<double>&, const std::vector<double>&, const FieldColumns&, const RayFan&,
+    const std::array<const Optics<kDerivativesAtOnce>*, batch::kBatchWidth>&, std::size_t,
+    const std::vector<double>&, const std::vector<double>&, const FieldColumns&, const Streams&,
     int);
 
 }  // namespace skyfit

@@ -17,16 +17,16 @@
 #include <vector>
 
 #include "model/atmosphere/optics.h"
-#include "model/numerics/lane_blocks.h"
-#include "model/solver/ray_fan.h"
+#include "model/numerics/batch_blocks.h"
+#include "model/solver/streams.h"
 
 namespace skyfit {
 
 // The beam's weights for the rays of one layer that look one way, [ray][sun], and how they change
 // with the layer's depth x and the sun's depths at the near and the far end.
 struct BeamWeights {
-  Lanes near, far;
-  std::array<Lanes, 3> near_slope, far_slope;  // empty without derivatives
+  Batch near, far;
+  std::array<Batch, 3> near_slope, far_slope;  // empty without derivatives
 };
 
 struct LayerMedium {
@@ -35,44 +35,45 @@ struct LayerMedium {
   std::vector<double> sun_mu;
   // Source per extinction of the moment l at a level: sum over scatterers of share chi_l.
   struct Scatterer {
-    Lanes chi;                         // [l]
-    std::vector<Lanes> share;          // per level, one element: of the extinction
-    std::vector<Lanes> share_tangent;  // per level: [parameter]
+    Batch chi;                         // [l]
+    std::vector<Batch> share;          // per level, one element: of the extinction
+    std::vector<Batch> share_tangent;  // per level: [parameter]
   };
   std::vector<Scatterer> scatterers;
   // The parameters that change the moments of a scatterer, and how: [l].
   struct PhaseTangent {
     std::size_t scatterer, parameter;
-    Lanes chi;
+    Batch chi;
   };
   std::vector<PhaseTangent> phase_tangents;
   // Per level.
-  std::vector<Lanes> sun_depth_tangent;  // [sun][parameter]
-  Lanes ground_beam;                     // [sun], transmittance
-  Lanes ground_albedo, ground_albedo_tangent;
+  std::vector<Batch> sun_depth_tangent;  // [sun][parameter]
+  Batch ground_beam;                     // [sun], transmittance
+  Batch ground_albedo, ground_albedo_tangent;
   // Per layer.
   struct Layer {
-    Lanes t, near, far, near_slope, far_slope;  // [ray]
-    Lanes depth_tangent;                        // [ray][parameter]
+    Batch t, near, far, near_slope, far_slope;  // [ray]
+    Batch depth_tangent;                        // [ray][parameter]
     BeamWeights down, up;  // of rays that look up and see light that travels down; the others
   };
   std::vector<Layer> layers;
 };
 
-// Columns to the top of the fan's rays and of the suns at every level; they serve all wavelengths.
+// Columns to the top of the streams's rays and of the suns at every level; they serve all
+// wavelengths.
 struct FieldColumns {
   std::vector<PathColumns> rays;  // [level][ray], upward
   std::vector<PathColumns> suns;  // [level][sun]
   std::vector<char> lit;          // [level][sun]: the planet is not in the way
 };
 FieldColumns field_columns(const Shells& shells, const std::vector<double>& heights,
-                           const std::vector<double>& sun_mu, const RayFan& fan);
+                           const std::vector<double>& sun_mu, const Streams& streams);
 
 // `parameters` derivatives, the first ones of Dual<N>. The optics keep `moments` moments.
 template <int N>
-LayerMedium layer_medium(const std::array<const Optics<N>*, lanes::kLanes>& optics,
+LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>& optics,
                          std::size_t parameters, const std::vector<double>& heights,
                          const std::vector<double>& sun_mu, const FieldColumns& columns,
-                         const RayFan& fan, int moments);
+                         const Streams& streams, int moments);
 
 }  // namespace skyfit

@@ -30,10 +30,10 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
     solved_[i] = static_cast<int>(suns.size());
     suns.push_back(grid_.mu(i));
   }
-  const RayFan fan(shells_.bottom_radius, levels_.heights(), options.streams);
+  const Streams streams(shells_.bottom_radius, levels_.heights(), options.streams);
   fields_ = solve_diffuse_fields<N>(
-      shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, fan,
-      sun_coupling(grid_, solved_, fan, first),
+      shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
+      sun_coupling(grid_, solved_, streams, first),
       {options.moments, options.tolerance, std::max(options.order - 1, 0)});
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Atmospheres and their tables between two others: weather that changes from frame to frame without
-// tables of its own for every frame.
+// Atmospheres and their tables between two others: timeline that changes from frame to frame
+// without tables of its own for every frame.
 #pragma once
 
 #include "model/tables/tables.h"

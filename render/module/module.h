@@ -17,7 +17,7 @@ class FrameDrawer {
   virtual void set_atmosphere(const AtmosphereTables& tables) = 0;
   virtual double ground_height_m(const std::optional<Site>& site) const = 0;
   virtual Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) = 0;
-  virtual FrameStatistics draw_unread(const FrameOptions& options) = 0;
+  virtual FrameStatistics submit(const FrameOptions& options) = 0;
   virtual FrameStatistics wait() = 0;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/sequence/exposure.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "render/render.h"
-#include "render/sequence/film.h"
 
 namespace skyfit {
 namespace {

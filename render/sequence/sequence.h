@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sequence of frames: keyframes of camera, sun and weather, and what lies between them. Read from
-// JSON:
+// A sequence of frames: keyframes of camera, sun and timeline, and what lies between them. Read
+// from JSON:
 //
 //     {"skyfit_sequence": 1, "frames_per_second": 24, "frames": 241, "keyframes": [
 //       {"time_s": 0, "preset": "earth-clear",

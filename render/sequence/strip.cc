@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/sequence/strip.h"
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-
-#include "render/sequence/film.h"
 
 namespace skyfit {
 namespace {

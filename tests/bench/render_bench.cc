@@ -73,15 +73,15 @@ void warm_up(const std::function<void()>& draw) {
 }
 
 void run(benchmark::State& state, Renderer& renderer, const FrameOptions& options) {
-  warm_up([&] { renderer.draw_unread(options); });
+  warm_up([&] { renderer.submit(options); });
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    renderer.draw_unread(options);
+    renderer.submit(options);
     state.SetIterationTime(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   renderer.wait();
-  renderer.draw_unread(options);
+  renderer.submit(options);
   const FrameStatistics statistics = renderer.wait();
   for (const PassTime& pass : statistics.passes) state.counters[pass.pass] = pass.milliseconds;
   state.counters["alone"] = statistics.milliseconds;

@@ -32,36 +32,36 @@ AtmosphereTables tables_of(const Atmosphere<double>& atmosphere) {
 }
 
 // A clear sky and one with a quarter more aerosol over brighter ground: the most that one step of
-// the weather changes (render/sequence/weather.h).
-struct Weather {
+// the timeline changes (render/sequence/timeline.h).
+struct Timeline {
   AtmosphereTables clear, hazy;
 };
-const Weather& weather() {
-  static const Weather made = [] {
+const Timeline& timeline() {
+  static const Timeline made = [] {
     const Atmosphere<double> clear = shipped("earth-clear");
     Atmosphere<double> hazy = clear;
     hazy.at("mie").amount *= 1.25;
     hazy.ground_albedo += 0.05;
-    return Weather{tables_of(clear), tables_of(hazy)};
+    return Timeline{tables_of(clear), tables_of(hazy)};
   }();
   return made;
 }
 
 TEST(TableBlend, TheEndsAreTheTables) {
-  const AtmosphereTables start = interpolated_tables(weather().clear, weather().hazy, 0),
-                         end = interpolated_tables(weather().clear, weather().hazy, 1);
-  EXPECT_EQ(start.atmosphere, weather().clear.atmosphere);
-  EXPECT_EQ(start.rayleigh_like.rgba, weather().clear.rayleigh_like.rgba);
-  EXPECT_EQ(start.sky_rays.air.rgba, weather().clear.sky_rays.air.rgba);
-  EXPECT_EQ(start.optical_depth.rgba, weather().clear.optical_depth.rgba);
-  EXPECT_EQ(end.atmosphere, weather().hazy.atmosphere);
-  EXPECT_EQ(end.single.rgba, weather().hazy.single.rgba);
-  EXPECT_EQ(end.sky_rays.aerosol.rgba, weather().hazy.sky_rays.aerosol.rgba);
-  EXPECT_EQ(end.irradiance.rgba, weather().hazy.irradiance.rgba);
+  const AtmosphereTables start = interpolated_tables(timeline().clear, timeline().hazy, 0),
+                         end = interpolated_tables(timeline().clear, timeline().hazy, 1);
+  EXPECT_EQ(start.atmosphere, timeline().clear.atmosphere);
+  EXPECT_EQ(start.rayleigh_like.rgba, timeline().clear.rayleigh_like.rgba);
+  EXPECT_EQ(start.sky_rays.air.rgba, timeline().clear.sky_rays.air.rgba);
+  EXPECT_EQ(start.optical_depth.rgba, timeline().clear.optical_depth.rgba);
+  EXPECT_EQ(end.atmosphere, timeline().hazy.atmosphere);
+  EXPECT_EQ(end.single.rgba, timeline().hazy.single.rgba);
+  EXPECT_EQ(end.sky_rays.aerosol.rgba, timeline().hazy.sky_rays.aerosol.rgba);
+  EXPECT_EQ(end.irradiance.rgba, timeline().hazy.irradiance.rgba);
 }
 
 TEST(TableBlend, HalfwayIsTheAtmosphereHalfway) {
-  const AtmosphereTables blended = interpolated_tables(weather().clear, weather().hazy, 0.5),
+  const AtmosphereTables blended = interpolated_tables(timeline().clear, timeline().hazy, 0.5),
                          computed = tables_of(blended.atmosphere);
   constexpr double kOfLogarithms = 0.01;  // (ln 1.25)^2 / 8, for light linear in the parameter
   for (const double sun : {10.0, 60.0, 85.0}) {

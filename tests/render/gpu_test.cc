@@ -63,7 +63,7 @@ TEST(Gpu, DrawsTheSamePicture) {
 TEST(Gpu, FramesThatStayOnTheDeviceAreTheSameWork) {
   const FrameOptions options = options_of("valley", 96, 60);
   const FrameStatistics read = renderer().draw(options).statistics,
-                        unread = renderer().draw_unread(options);
+                        unread = renderer().submit(options);
   EXPECT_GT(read.milliseconds, 0);
   EXPECT_EQ(unread.triangles, read.triangles);
   EXPECT_EQ(unread.blocks_drawn, read.blocks_drawn);
@@ -72,7 +72,7 @@ TEST(Gpu, FramesThatStayOnTheDeviceAreTheSameWork) {
     EXPECT_EQ(unread.passes[i].pass, read.passes[i].pass);
   // The statistics come a frame later.
   const FrameOptions other = options_of("limb", 96, 60);
-  EXPECT_EQ(renderer().draw_unread(other).triangles, read.triangles);
+  EXPECT_EQ(renderer().submit(other).triangles, read.triangles);
   const FrameStatistics last = renderer().wait();
   EXPECT_EQ(last.triangles, renderer().draw(other).statistics.triangles);
   EXPECT_NE(last.triangles, read.triangles);
@@ -80,7 +80,7 @@ TEST(Gpu, FramesThatStayOnTheDeviceAreTheSameWork) {
   EXPECT_THROW(renderer().wait(), std::logic_error);
   FrameOptions below = options;
   below.camera.altitude_m = -1e4;
-  EXPECT_THROW(renderer().draw_unread(below), std::invalid_argument);
+  EXPECT_THROW(renderer().submit(below), std::invalid_argument);
 }
 
 // What a frame writes the one before may still read.
@@ -88,7 +88,7 @@ TEST(Gpu, FramesOnTheirWayDoNotDisturbEachOther) {
   const FrameOptions valley = options_of("valley", 96, 60), sunset = options_of("sunset", 96, 60);
   const std::vector<float> alone = renderer().draw(valley).luminance;
   for (int i = 0; i < 3; ++i) {
-    renderer().draw_unread(sunset);
+    renderer().submit(sunset);
     EXPECT_EQ(renderer().draw(valley).luminance, alone);
   }
 }

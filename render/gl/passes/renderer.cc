@@ -119,8 +119,8 @@ class GlRenderer final : public FrameDrawer {
     return frame;
   }
 
-  FrameStatistics draw_unread(const FrameOptions& options) override {
-    StartedFrame started = start_frame(affordable(options), false, [](double) {});
+  FrameStatistics submit(const FrameOptions& options) override {
+    SubmittedFrame started = start_frame(affordable(options), false, [](double) {});
     glFlush();
     const FrameStatistics statistics = (before_ ? *before_ : started).wait();
     before_ = std::move(started);
@@ -169,7 +169,7 @@ class GlRenderer final : public FrameDrawer {
   }
 
   // What the device draws while the next frame is prepared.
-  struct StartedFrame {
+  struct SubmittedFrame {
     FrameStatistics statistics;
     std::int64_t begin_ns;  // by the device's clock
     StartedPasses passes;
@@ -183,8 +183,8 @@ class GlRenderer final : public FrameDrawer {
   };
 
   // `read`: distances are wanted, too.
-  StartedFrame start_frame(const FrameOptions& options, bool read,
-                           const std::function<void(double)>& report) {
+  SubmittedFrame start_frame(const FrameOptions& options, bool read,
+                             const std::function<void(double)>& report) {
     const int samples = options.samples_per_side;
     add_targets(options.width * samples, options.height * samples, options.layers, graph_);
     atmosphere_.add_sky_view(options, graph_);
@@ -358,7 +358,7 @@ class GlRenderer final : public FrameDrawer {
   std::optional<ShadowPass> shadow_pass_;  // made when first used
   AtmospherePass atmosphere_;
   FrameScene current_;
-  std::optional<StartedFrame> before_;  // the last one of draw_unread()
+  std::optional<SubmittedFrame> before_;  // the last one of submit()
 };
 
 }  // namespace

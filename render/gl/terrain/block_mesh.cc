@@ -146,7 +146,7 @@ void add_triangle(std::array<int, 3> corners, int in_first, int in_second, Indic
   std::vector<int> outline = {a, b, c};
   if (in_second >= 0) outline.insert(outline.begin() + 2, in_second);
   if (in_first >= 0) outline.insert(outline.begin() + 1, in_first);
-  // A fan about a vertex in a side, so that no triangle is a line.
+  // A streams about a vertex in a side, so that no triangle is a line.
   const int middle = in_first >= 0 ? in_first : in_second >= 0 ? in_second : a;
   std::ranges::rotate(outline, std::ranges::find(outline, middle));
   for (std::size_t i = 1; i + 1 < outline.size(); ++i) {

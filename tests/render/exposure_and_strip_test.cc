@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames side by side keep their pixels; the exposure of a sequence follows the light without
 // jumps and does not depend on where it was interrupted.
-#include "render/sequence/film.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "render/sequence/exposure.h"
+#include "render/sequence/strip.h"
 
 namespace skyfit {
 namespace {

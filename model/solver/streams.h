@@ -2,17 +2,17 @@
 // The directions in which the diffuse field is known: straight rays through spherical shells, each
 // with one impact parameter. Rays to the ground have Gauss's cosines there and grow steeper with
 // height, as straight lines do; rays along the limb touch the shell of a level and exist above it.
-// On a very large planet the fan is the double-Gauss rule of plane-parallel discrete ordinates.
+// On a very large planet the streams is the double-Gauss rule of plane-parallel discrete ordinates.
 #pragma once
 
 #include <vector>
 
 namespace skyfit {
 
-class RayFan {
+class Streams {
  public:
   // `ground_rays` per hemisphere; heights ascend from 0.
-  RayFan(double bottom_radius, const std::vector<double>& heights, int ground_rays);
+  Streams(double bottom_radius, const std::vector<double>& heights, int ground_rays);
 
   int levels() const { return static_cast<int>(count_.size()); }
   // Rays at a level, in the order in which they come into being from the ground upward.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Weather over a sequence: tables are computed once per step, shared where nothing changes, and
+// Timeline over a sequence: tables are computed once per step, shared where nothing changes, and
 // interpolated in between.
-#include "render/sequence/weather.h"
+#include "render/sequence/timeline.h"
 
 #include <gmock/gmock.h>
 
@@ -20,13 +20,13 @@ constexpr TableSizes kTiny = {16, 16, 8, 4, 4, 4, 8, 8, 4, 8, 8, 4};
 
 Preset preset(double aerosol) {
   Preset preset = parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear");
-  preset.name = "weather";
+  preset.name = "timeline";
   preset.atmosphere.at("mie").amount = aerosol;
   return preset;
 }
 
-TEST(Weather, StepsAreAtMostAQuarter) {
-  const std::vector<WeatherStep> steps =
+TEST(Timeline, StepsAreAtMostAQuarter) {
+  const std::vector<TimelineStep> steps =
       refined({{0, preset(1e-5)}, {8, preset(4e-5)}, {9, preset(4e-5)}});
   ASSERT_EQ(steps.size(),
             9u);  // ln 4 / ln 1.25 = 6.2, so 7 steps, and the one that changes nothing
@@ -41,8 +41,8 @@ TEST(Weather, StepsAreAtMostAQuarter) {
               1e-12);
 }
 
-TEST(Weather, MomentsLieBetweenSteps) {
-  const std::vector<WeatherStep> steps = {{1, preset(1e-5)}, {3, preset(2e-5)}};
+TEST(Timeline, MomentsLieBetweenSteps) {
+  const std::vector<TimelineStep> steps = {{1, preset(1e-5)}, {3, preset(2e-5)}};
   EXPECT_EQ(moment_at(steps, 0).after, 0u);
   EXPECT_EQ(moment_at(steps, 1).after, 0u);
   EXPECT_EQ(moment_at(steps, 2).after, 1u);
@@ -51,41 +51,43 @@ TEST(Weather, MomentsLieBetweenSteps) {
   EXPECT_EQ(moment_at(steps, 30).before, 1u);
 }
 
-TEST(Weather, TablesAreMadeOncePerStep) {
+TEST(Timeline, TablesAreMadeOncePerStep) {
   std::atomic<int> calls = 0, running = 0;
-  Weather weather({{0, preset(1e-5)}, {1, preset(1.2e-5)}, {2, preset(1.2e-5)}, {3, preset(1e-5)}},
-                  [&](const Preset& p) {
-                    EXPECT_EQ(++running, 1);
-                    ++calls;
-                    const AtmosphereTables tables = compute_tables(
-                        p.atmosphere, color_rule(refs::standard_spectral_data()), kTiny, 1, {});
-                    --running;
-                    return tables;
-                  });
-  const Weather::Now start = weather.at(0), again = weather.at(0), half = weather.at(0.5);
+  Timeline timeline(
+      {{0, preset(1e-5)}, {1, preset(1.2e-5)}, {2, preset(1.2e-5)}, {3, preset(1e-5)}},
+      [&](const Preset& p) {
+        EXPECT_EQ(++running, 1);
+        ++calls;
+        const AtmosphereTables tables =
+            compute_tables(p.atmosphere, color_rule(refs::standard_spectral_data()), kTiny, 1, {});
+        --running;
+        return tables;
+      });
+  const Timeline::Now start = timeline.at(0), again = timeline.at(0), half = timeline.at(0.5);
   EXPECT_EQ(start.tables, again.tables);
   EXPECT_NE(start.tables, half.tables);
   EXPECT_NEAR(half.preset.atmosphere.at("mie").amount, 1.1e-5, 1e-15);
   const std::size_t texel = half.tables->optical_depth.rgba.size() / 2;
   EXPECT_GT(half.tables->optical_depth.rgba[texel], start.tables->optical_depth.rgba[texel]);
-  EXPECT_EQ(weather.at(1.2).tables, weather.at(1.9).tables);  // nothing changes
-  EXPECT_EQ(weather.at(3).preset.name, "weather");
+  EXPECT_EQ(timeline.at(1.2).tables, timeline.at(1.9).tables);  // nothing changes
+  EXPECT_EQ(timeline.at(3).preset.name, "timeline");
   EXPECT_EQ(calls, 3);  // of four steps two are the same
 }
 
-TEST(Weather, ErrorsOfTheTablesArrive) {
-  Weather weather({{0, preset(1e-5)}},
-                  [](const Preset&) -> AtmosphereTables { throw std::runtime_error("no tables"); });
-  EXPECT_THAT([&] { weather.at(0); }, ThrowsMessage<std::runtime_error>("no tables"));
+TEST(Timeline, ErrorsOfTheTablesArrive) {
+  Timeline timeline({{0, preset(1e-5)}}, [](const Preset&) -> AtmosphereTables {
+    throw std::runtime_error("no tables");
+  });
+  EXPECT_THAT([&] { timeline.at(0); }, ThrowsMessage<std::runtime_error>("no tables"));
 }
 
-TEST(Weather, BetweenTwoPlanetsThereIsNone) {
+TEST(Timeline, BetweenTwoPlanetsThereIsNone) {
   Preset mars = parse_preset(refs::shipped_preset_json("mars"), "mars");
   EXPECT_THAT(
       [&] {
         refined({{0, preset(1e-5)}, {2, mars}});
       },
-      ThrowsMessage<std::invalid_argument>(HasSubstr("presets weather and mars at 0 s")));
+      ThrowsMessage<std::invalid_argument>(HasSubstr("presets timeline and mars at 0 s")));
 }
 
 }  // namespace

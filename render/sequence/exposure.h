@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames together: side by side in one picture, or one after the other under an exposure that does
-// not flicker.
+// Automatic exposure of frames that follow one another, without flicker.
 #pragma once
 
-#include <span>
-
-#include "render/render.h"
-
 namespace skyfit {
-
-// From left to right with `gap` black pixels between them. All must have the same height, and
-// layers all or none; the metadata is the first's, statistics are not kept.
-Frame side_by_side(std::span<const Frame> frames, int gap);
 
 // Follows the metered exposures of the frames as an eye does: the logarithm approaches that of the
 // frame and is within 1/e of it after `adaptation_s`, 0 for at once. Depends on nothing but what it

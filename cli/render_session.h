@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the frames of `skyfit render` are drawn: the planet, the model that makes the tables, and
-// the weather.
+// the timeline.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 #include "cli/render_request.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
-#include "render/sequence/weather.h"
+#include "render/sequence/timeline.h"
 
 namespace skyfit::cli {
 
 // Progress in 0..1 and what is being done; may be called from several threads.
 using Report = std::function<void(double, std::string_view)>;
 
-class Studio {
+class RenderSession {
  public:
   // Opens the scene. `report` hears of the tables. Throws what Renderer and make_sky_model() throw.
-  Studio(const RenderRequest& request, std::vector<WeatherStep> weather, Report report);
+  RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline, Report report);
 
   Frame draw(const Shot& shot, double time_s, const std::function<void(double)>& progress);
 
@@ -31,8 +31,8 @@ class Studio {
   Report report_;
   std::unique_ptr<SkyModel> model_;
   Renderer renderer_;
-  Weather weather_;
-  Weather::Tables shown_;  // what renderer_ has
+  Timeline timeline_;
+  Timeline::Tables shown_;  // what renderer_ has
 };
 
 // Writes PNG or EXR, by the extension.
@@ -42,7 +42,7 @@ void write_frame(const Frame& frame, const std::filesystem::path& file, const To
 void write_frame_files(const Frame& frame, const std::vector<std::filesystem::path>& files,
                        const ToneOptions& tone);
 
-// The weather that the keyframes ask for.
-std::vector<WeatherStep> weather_of(const Sequence& sequence);
+// The timeline that the keyframes ask for.
+std::vector<TimelineStep> timeline_of(const Sequence& sequence);
 
 }  // namespace skyfit::cli

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coupling of suns and azimuth modes, see SunCoupling in model/solver/mode_pack.h.
-#include "model/solver/mode_pack.h"
+// The coupling of suns and azimuth modes, see HorizontalCoupling in model/solver/fourier_modes.h.
+#include "model/solver/fourier_modes.h"
 
 namespace skyfit {
 
 // P_m = df_m/dtheta - m cot f_m for the mode m + 1, Q_m = df_m/dtheta + m cot f_m for m - 1.
-void ModePack::set_neighbour(const SunCoupling& coupling, int layer, const Lanes& from_afar,
-                             std::size_t parameters, Lanes& to_next, Lanes& to_previous) const {
-  const std::size_t width = parameters * kLanes;
+void FourierModes::set_neighbour(const HorizontalCoupling& coupling, int layer,
+                                 const Batch& from_afar, std::size_t parameters, Batch& to_next,
+                                 Batch& to_previous) const {
+  const std::size_t width = parameters * kBatchWidth;
   to_next.assign(from_afar.size(), 0.0);
   to_previous.assign(from_afar.size(), 0.0);
   for (std::size_t r = 0; r < rays(layer); ++r) {
     for (std::size_t j = 0; j < suns(); ++j) {
       if (!coupling.coupled[j]) continue;
-      const SunCoupling::Sun& sun = coupling.suns[j];
+      const HorizontalCoupling::Sun& sun = coupling.suns[j];
       const double* const here = from_afar.data() + (r * suns() + j) * width;
       double* const next = to_next.data() + (r * suns() + j) * width;
       double* const previous = to_previous.data() + (r * suns() + j) * width;
@@ -21,12 +22,13 @@ void ModePack::set_neighbour(const SunCoupling& coupling, int layer, const Lanes
         const double* from =
             from_afar.data() + (r * suns() + static_cast<std::size_t>(sun.slope.index[k])) * width;
         for (std::size_t e = 0; e < width; ++e) {
-          const double weight = modes_[e % kLanes] % 2 == 0 ? sun.slope.even[k] : sun.slope.odd[k];
+          const double weight =
+              modes_[e % kBatchWidth] % 2 == 0 ? sun.slope.even[k] : sun.slope.odd[k];
           next[e] += weight * from[e];
         }
       }
       for (std::size_t e = 0; e < width; ++e) {
-        const double m = modes_[e % kLanes];
+        const double m = modes_[e % kBatchWidth];
         const double turn = m * (sun.at_zenith ? next[e] : sun.cotangent * here[e]);
         previous[e] = next[e] + turn;
         next[e] -= turn;
@@ -36,7 +38,7 @@ void ModePack::set_neighbour(const SunCoupling& coupling, int layer, const Lanes
 }
 
 // The light that enters a layer at its far end, as it is at the near end.
-void ModePack::prepare_coupling(const SunCoupling& coupling) {
+void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
   const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
   const Sources diffuse = sources_of(moments_);
   const Columns source = source_function(diffuse);
@@ -45,7 +47,7 @@ void ModePack::prepare_coupling(const SunCoupling& coupling) {
     std::vector<Parities> scattered_tangents = moment_tangents_;
     for (int i = 0; i < levels(); ++i) {
       for (std::size_t parity = 0; parity < 2; ++parity)
-        lanes::scale_rows(omega_[i][parity].data(), moment_tangents_[i][parity].data(),
+        batch::scale_rows(omega_[i][parity].data(), moment_tangents_[i][parity].data(),
                           scattered_tangents[i][parity].data(), rows_[parity], columns);
     }
     source_tangent = at_rays(scattered_tangents, columns);
@@ -61,14 +63,14 @@ void ModePack::prepare_coupling(const SunCoupling& coupling) {
       const auto of = [&](const Columns& c) {
         return (looks_up ? c.down : c.up)[static_cast<std::size_t>(far)].data();
       };
-      Lanes x((looks_up ? w.down : w.up).far);
+      Batch x((looks_up ? w.down : w.up).far);
       for (std::size_t k = 0; k < x.size(); ++k) x[k] *= of(beam_source_)[k];
-      lanes::add_blend(w.t.data(), of(values_), w.far.data(), of(source), x.data(), rays(i),
+      batch::add_blend(w.t.data(), of(values_), w.far.data(), of(source), x.data(), rays(i),
                        suns());
       set_neighbour(coupling, i, x, 1, to_next_[0][side][i], to_previous_[0][side][i]);
       if (p_count == 0) continue;
-      Lanes dx = layer_tangent(i, looks_up, diffuse, false);
-      lanes::add_blend(w.t.data(), of(tangents_), w.far.data(), of(source_tangent), dx.data(),
+      Batch dx = layer_tangent(i, looks_up, diffuse, false);
+      batch::add_blend(w.t.data(), of(tangents_), w.far.data(), of(source_tangent), dx.data(),
                        rays(i), columns);
       set_neighbour(coupling, i, dx, p_count, to_next_[1][side][i], to_previous_[1][side][i]);
     }
@@ -76,28 +78,29 @@ void ModePack::prepare_coupling(const SunCoupling& coupling) {
 }
 
 // Adds -psi / 2 (P_{m-1} + Q_{m+1}), in mode 0 -psi Q_1.
-void ModePack::add_coupling(const SunCoupling& coupling,
-                            const std::vector<std::optional<ModePack>>& packs, int at_once,
-                            int width, std::size_t columns, std::size_t kind) {
+void FourierModes::add_coupling(const HorizontalCoupling& coupling,
+                                const std::vector<std::optional<FourierModes>>& packs, int at_once,
+                                int width, std::size_t columns, std::size_t kind) {
   const int modes = static_cast<int>(packs.size()) * at_once;
-  for (int lane = 0; lane < static_cast<int>(kLanes); ++lane) {
+  for (int lane = 0; lane < static_cast<int>(kBatchWidth); ++lane) {
     const int m = modes_[lane];
     const auto add = [&](int neighbour, double factor, bool next) {
       if (neighbour >= modes) return;
-      const ModePack& pack = *packs[neighbour / at_once];
+      const FourierModes& pack = *packs[neighbour / at_once];
       const int from = neighbour % at_once * width + lane % width;
       if (pack.modes_[from] != neighbour) return;  // a lane that repeats the last mode
       const auto& light = (next ? pack.to_next_ : pack.to_previous_)[kind];
       for (std::size_t side = 0; side < 2; ++side) {
-        std::vector<Lanes>& source = side == 0 ? down_source_ : up_source_;
+        std::vector<Batch>& source = side == 0 ? down_source_ : up_source_;
         for (std::size_t i = 0; i < source.size(); ++i) {
           const std::size_t n = rays(static_cast<int>(i));
           for (std::size_t r = 0; r < n; ++r) {
             const double weight =
-                factor * coupling.step[i * static_cast<std::size_t>(fan_->most()) + r];
-            const double* x = light[side][i].data() + r * columns * kLanes + from;
-            double* y = source[i].data() + r * columns * kLanes + lane;
-            for (std::size_t c = 0; c < columns; ++c) y[c * kLanes] += weight * x[c * kLanes];
+                factor * coupling.step[i * static_cast<std::size_t>(streams_->most()) + r];
+            const double* x = light[side][i].data() + r * columns * kBatchWidth + from;
+            double* y = source[i].data() + r * columns * kBatchWidth + lane;
+            for (std::size_t c = 0; c < columns; ++c)
+              y[c * kBatchWidth] += weight * x[c * kBatchWidth];
           }
         }
       }
@@ -111,8 +114,9 @@ void ModePack::add_coupling(const SunCoupling& coupling,
   }
 }
 
-void ModePack::couple(const SunCoupling& coupling,
-                      const std::vector<std::optional<ModePack>>& packs, int at_once, int width) {
+void FourierModes::couple(const HorizontalCoupling& coupling,
+                          const std::vector<std::optional<FourierModes>>& packs, int at_once,
+                          int width) {
   beam_sources();
   add_coupling(coupling, packs, at_once, width, suns(), 0);
   solve_values();

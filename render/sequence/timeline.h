@@ -13,7 +13,7 @@
 
 namespace skyfit {
 
-struct WeatherStep {
+struct TimelineStep {
   double time_s = 0;
   Preset preset;
 };
@@ -21,23 +21,23 @@ struct WeatherStep {
 // Steps between the given ones where a parameter changes by more than a quarter: tables between two
 // steps are then within 1 % of those of the atmosphere there. Ascending in time. Throws what
 // interpolated_atmosphere() throws, with the times of the two.
-std::vector<WeatherStep> refined(const std::vector<WeatherStep>& steps);
+std::vector<TimelineStep> refined(const std::vector<TimelineStep>& steps);
 
 // The steps before and after a time, and the share of the way; the same step twice where nothing
 // changes.
-struct WeatherMoment {
+struct TimelineMoment {
   std::size_t before = 0, after = 0;
   double share = 0;
 };
-WeatherMoment moment_at(const std::vector<WeatherStep>& steps, double time_s);
+TimelineMoment moment_at(const std::vector<TimelineStep>& steps, double time_s);
 
-class Weather {
+class Timeline {
  public:
   using Compute = std::function<AtmosphereTables(const Preset&)>;
   using Tables = std::shared_ptr<const AtmosphereTables>;
 
   // `compute` is called from another thread, one call at a time.
-  Weather(std::vector<WeatherStep> steps, Compute compute);
+  Timeline(std::vector<TimelineStep> steps, Compute compute);
 
   struct Now {
     Preset preset;
@@ -55,7 +55,7 @@ class Weather {
   std::shared_future<Tables> tables_of(std::size_t step);
   void forget_all_but(std::size_t first, std::size_t last);
 
-  std::vector<WeatherStep> steps_;
+  std::vector<TimelineStep> steps_;
   Compute compute_;
   std::vector<Made> made_;
 };

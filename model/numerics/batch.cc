@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/numerics/lanes.h"
+#include "model/numerics/batch.h"
 
 #include "model/numerics/clones.h"
 
-namespace skyfit::lanes {
+namespace skyfit::batch {
 namespace {
 
-typedef double Vector __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
+typedef double Vector
+    __attribute__((vector_size(kBatchWidth * sizeof(double)), aligned(8), may_alias));
 
 }  // namespace
 
@@ -84,7 +85,7 @@ void solve(double* __restrict a, double* __restrict b, std::size_t n, std::size_
 
 SKYFIT_CLONES
 void butterfly(double* __restrict x, double* __restrict y, std::size_t count) {
-  for (std::size_t i = 0; i < count * kLanes; ++i) {
+  for (std::size_t i = 0; i < count * kBatchWidth; ++i) {
     const double sum = x[i] + y[i];
     y[i] = x[i] - y[i];
     x[i] = sum;
@@ -95,7 +96,8 @@ SKYFIT_CLONES
 void blend(const double* __restrict near, const double* __restrict q_near,
            const double* __restrict far, const double* __restrict q_far, double* __restrict out,
            std::size_t count) {
-  for (std::size_t i = 0; i < count * kLanes; ++i) out[i] = near[i] * q_near[i] + far[i] * q_far[i];
+  for (std::size_t i = 0; i < count * kBatchWidth; ++i)
+    out[i] = near[i] * q_near[i] + far[i] * q_far[i];
 }
 
 SKYFIT_CLONES
@@ -207,4 +209,4 @@ void scale_rows(const double* __restrict d, const double* __restrict x, double* 
   }
 }
 
-}  // namespace skyfit::lanes
+}  // namespace skyfit::batch

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linear algebra on eight problems of one size at a time: element (i, j) of an r x c matrix is the
-// kLanes doubles that begin at (i * c + j) * kLanes, one per problem. Compiled for several
-// instruction sets, the best of which is chosen when the program is loaded. No aliasing of outputs
-// with inputs unless stated.
+// kBatchWidth doubles that begin at (i * c + j) * kBatchWidth, one per problem. Compiled for
+// several instruction sets, the best of which is chosen when the program is loaded. No aliasing of
+// outputs with inputs unless stated.
 #pragma once
 
 #include <cstddef>
 
-namespace skyfit::lanes {
+namespace skyfit::batch {
 
-inline constexpr std::size_t kLanes = 8;
+inline constexpr std::size_t kBatchWidth = 8;
 
 // C = A B (+ D when D is not null): A rows x inner, B inner x columns, C and D rows x columns.
 void multiply(const double* a, const double* b, const double* d, double* c, std::size_t rows,
@@ -74,4 +74,4 @@ void add_phase_tangent(const PhaseTangent end[2], double* out, std::size_t rows,
 void scale_rows(const double* d, const double* x, double* out, std::size_t rows,
                 std::size_t columns);
 
-}  // namespace skyfit::lanes
+}  // namespace skyfit::batch

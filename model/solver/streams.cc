@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/solver/ray_fan.h"
+#include "model/solver/streams.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -30,7 +30,7 @@ Eigen::VectorXd legendre(double mu, int count) {
 
 }  // namespace
 
-RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int ground_rays) {
+Streams::Streams(double bottom_radius, const std::vector<double>& heights, int ground_rays) {
   const int levels = static_cast<int>(heights.size());
   std::vector<int> touched;
   for (const double share : kLimbLevels) {
@@ -82,7 +82,7 @@ RayFan::RayFan(double bottom_radius, const std::vector<double>& heights, int gro
 // Rays to the ground that do not resolve the band between them and the horizon stand for a part of
 // it already. The weights near the horizon are moved, as little as possible, so that 1, P_2, P_4
 // and mu integrate to 1, 0, 0 and 1/2: scattering loses nothing.
-void RayFan::correct_weights(int level) {
+void Streams::correct_weights(int level) {
   const int rays = count_[level];
   constexpr int kEven = 3;  // P_0, P_2 and P_4
   Eigen::MatrixXd constraint(kEven + 1, rays);

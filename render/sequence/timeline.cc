@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/sequence/weather.h"
+#include "render/sequence/timeline.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +39,7 @@ Preset preset_between(const Preset& a, const Preset& b, double share) {
 
 // The steps after a, up to b. The shares are such that the ratio of the parameter that changes most
 // is the same from step to step.
-void add_steps(const WeatherStep& a, const WeatherStep& b, std::vector<WeatherStep>& steps) {
+void add_steps(const TimelineStep& a, const TimelineStep& b, std::vector<TimelineStep>& steps) {
   if (preset_to_json(a.preset) != preset_to_json(b.preset)) {
     const double ratio = largest_ratio(a.preset.atmosphere, b.preset.atmosphere);
     const int count = static_cast<int>(
@@ -56,8 +56,8 @@ void add_steps(const WeatherStep& a, const WeatherStep& b, std::vector<WeatherSt
 
 }  // namespace
 
-std::vector<WeatherStep> refined(const std::vector<WeatherStep>& steps) {
-  std::vector<WeatherStep> result = {steps.at(0)};
+std::vector<TimelineStep> refined(const std::vector<TimelineStep>& steps) {
+  std::vector<TimelineStep> result = {steps.at(0)};
   for (std::size_t i = 1; i < steps.size(); ++i) {
     try {
       interpolated_atmosphere(steps[i - 1].preset.atmosphere, steps[i].preset.atmosphere, 0.5);
@@ -71,22 +71,22 @@ std::vector<WeatherStep> refined(const std::vector<WeatherStep>& steps) {
   return result;
 }
 
-WeatherMoment moment_at(const std::vector<WeatherStep>& steps, double time_s) {
-  const auto next = std::ranges::upper_bound(steps, time_s, {}, &WeatherStep::time_s);
+TimelineMoment moment_at(const std::vector<TimelineStep>& steps, double time_s) {
+  const auto next = std::ranges::upper_bound(steps, time_s, {}, &TimelineStep::time_s);
   if (next == steps.begin()) return {0, 0, 0};
   const auto after = static_cast<std::size_t>(next - steps.begin());
   if (next == steps.end()) return {after - 1, after - 1, 0};
-  const WeatherStep &a = steps[after - 1], &b = *next;
+  const TimelineStep &a = steps[after - 1], &b = *next;
   const double share = (time_s - a.time_s) / (b.time_s - a.time_s);
   if (share <= 0) return {after - 1, after - 1, 0};
   return {after - 1, after, share};
 }
 
-Weather::Weather(std::vector<WeatherStep> steps, Compute compute)
+Timeline::Timeline(std::vector<TimelineStep> steps, Compute compute)
     : steps_(std::move(steps)), compute_(std::move(compute)) {}
 
-Weather::Now Weather::at(double time_s) {
-  const WeatherMoment moment = moment_at(steps_, time_s);
+Timeline::Now Timeline::at(double time_s) {
+  const TimelineMoment moment = moment_at(steps_, time_s);
   forget_all_but(moment.before, moment.after + 1);
   const Tables before = tables_of(moment.before).get(), after = tables_of(moment.after).get();
   if (moment.after + 1 < steps_.size()) tables_of(moment.after + 1);  // in the background
@@ -96,7 +96,7 @@ Weather::Now Weather::at(double time_s) {
           std::make_shared<AtmosphereTables>(interpolated_tables(*before, *after, moment.share))};
 }
 
-std::shared_future<Weather::Tables> Weather::tables_of(std::size_t step) {
+std::shared_future<Timeline::Tables> Timeline::tables_of(std::size_t step) {
   const auto same = [&](const Made& made) {
     return made.step == step ||
            preset_to_json(steps_[made.step].preset) == preset_to_json(steps_[step].preset);
@@ -115,7 +115,7 @@ std::shared_future<Weather::Tables> Weather::tables_of(std::size_t step) {
   return made_.back().tables;
 }
 
-void Weather::forget_all_but(std::size_t first, std::size_t last) {
+void Timeline::forget_all_but(std::size_t first, std::size_t last) {
   std::erase_if(made_, [&](const Made& made) { return made.step < first || made.step > last; });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/studio.h"
+#include "cli/render_session.h"
 
 #include "data_refs/spectra.h"
 #include "model/registry.h"
@@ -8,22 +8,24 @@
 
 namespace skyfit::cli {
 
-Studio::Studio(const RenderRequest& request, std::vector<WeatherStep> weather, Report report)
+RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline,
+                             Report report)
     : request_(request),
       report_(std::move(report)),
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads)),
       renderer_(request.scene, request.device),
-      weather_(std::move(weather), [this](const Preset& preset) { return tables_of(preset); }) {}
+      timeline_(std::move(timeline), [this](const Preset& preset) { return tables_of(preset); }) {}
 
-AtmosphereTables Studio::tables_of(const Preset& preset) const {
+AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
   return compute_tables_of(*model_, preset.atmosphere,
                            color_rule(refs::spectral_data_of(preset.atmosphere)), TableSizes{},
                            request_.threads,
                            [this](double done) { report_(done, "tables of the atmosphere"); });
 }
 
-Frame Studio::draw(const Shot& shot, double time_s, const std::function<void(double)>& progress) {
-  const Weather::Now now = weather_.at(time_s);
+Frame RenderSession::draw(const Shot& shot, double time_s,
+                          const std::function<void(double)>& progress) {
+  const Timeline::Now now = timeline_.at(time_s);
   if (now.tables != shown_) {
     renderer_.set_atmosphere(now.preset, *now.tables);
     shown_ = now.tables;
@@ -50,8 +52,8 @@ void write_frame_files(const Frame& frame, const std::vector<std::filesystem::pa
   whole.commit();
 }
 
-std::vector<WeatherStep> weather_of(const Sequence& sequence) {
-  std::vector<WeatherStep> steps;
+std::vector<TimelineStep> timeline_of(const Sequence& sequence) {
+  std::vector<TimelineStep> steps;
   for (const Keyframe& keyframe : sequence.keyframes)
     steps.push_back({keyframe.time_s, keyframe.preset});
   return refined(steps);
