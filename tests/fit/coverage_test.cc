@@ -14,8 +14,6 @@
 namespace skyfit::fit {
 namespace {
 
-using enum Parameter;
-
 constexpr int kRepetitions = 200;
 constexpr double kLeast = 0.57, kMost = 0.79;
 
@@ -57,8 +55,9 @@ TEST(CoverageTest, TrueValuesLieWithinOneSigmaAsOftenAsTheyShould) {
   options.common.start = Preset{"truth", truth, {}};
   options.common.starts = 1;
   options.common.use_priors = false;
-  options.common.free = std::vector{kMieScattering, kMieAngstromExponent, kMiePhaseG,
-                                    kMieSingleScatteringAlbedo, kGroundAlbedo};
+  options.common.free =
+      std::vector{Parameter::kMieScattering, Parameter::kMieAngstromExponent, Parameter::kMiePhaseG,
+                  Parameter::kMieSingleScatteringAlbedo, Parameter::kGroundAlbedo};
   options.noise = {0.02, 0};
   options.noise_is_stated = true;
   for (const auto& [name, c] : coverage(truth, options)) {

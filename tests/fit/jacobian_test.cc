@@ -41,7 +41,7 @@ TEST_P(JacobianTest, EqualsCentralDifferences) {
         (2 * step);
     const Eigen::VectorXd exact = residuals_at(value, one).jacobian.col(0);
     const double size = std::max(1e-3 / value, exact.cwiseAbs().maxCoeff());
-    EXPECT_LT((exact - difference).cwiseAbs().maxCoeff(), kDifference * size) << info.name;
+    EXPECT_LT((exact - difference).cwiseAbs().maxCoeff(), kDifference * size) << id.name();
   }
 }
 

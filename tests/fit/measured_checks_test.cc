@@ -12,8 +12,6 @@
 namespace skyfit::fit {
 namespace {
 
-using enum Parameter;
-
 class ChecksTest : public testing::Test {
  protected:
   ChecksTest() {
@@ -22,9 +20,11 @@ class ChecksTest : public testing::Test {
     reference = synthetic_scans(model, true_atmosphere(1), how);
     options.common.lobes = 1;
     options.common.use_priors = false;
-    options.common.free = std::vector{kMieScattering, kMieAngstromExponent, kMiePhaseG};
-    options.common.fix = {
-        {kRayleighScattering, 1.25e-5}, {kMieSingleScatteringAlbedo, 0.93}, {kGroundAlbedo, 0.2}};
+    options.common.free = std::vector{Parameter::kMieScattering, Parameter::kMieAngstromExponent,
+                                      Parameter::kMiePhaseG};
+    options.common.fix = {{Parameter::kRayleighScattering, 1.25e-5},
+                          {Parameter::kMieSingleScatteringAlbedo, 0.93},
+                          {Parameter::kGroundAlbedo, 0.2}};
     options.noise = {0.02, 0};
     options.noise_is_stated = true;
     result = fit_measured(reference, spectra, model, options);

@@ -12,7 +12,6 @@
 namespace skyfit::fit {
 namespace {
 
-using enum Parameter;
 using testing::HasSubstr;
 
 // Noise-free residuals end at the solver's relative cost tolerance of 1e-5.
@@ -22,9 +21,10 @@ MeasuredOptions determined() {
   MeasuredOptions options;
   options.common.lobes = 1;
   options.common.use_priors = false;
-  options.common.free =
-      std::vector{kMieScattering, kMieAngstromExponent, kMiePhaseG, kGroundAlbedo};
-  options.common.fix = {{kRayleighScattering, 1.25e-5}, {kMieSingleScatteringAlbedo, 0.93}};
+  options.common.free = std::vector{Parameter::kMieScattering, Parameter::kMieAngstromExponent,
+                                    Parameter::kMiePhaseG, Parameter::kGroundAlbedo};
+  options.common.fix = {{Parameter::kRayleighScattering, 1.25e-5},
+                        {Parameter::kMieSingleScatteringAlbedo, 0.93}};
   options.noise_is_stated = true;
   options.noise = {0.01, 0};
   return options;
@@ -110,7 +110,7 @@ TEST(MeasuredFitTest, ParametersPerScan) {
     if (reference.samples[i].scan == 1) reference.samples[i] = later.samples[i];
   }
   MeasuredOptions options = determined();
-  options.per_scan = {kMieScattering};
+  options.per_scan = {Parameter::kMieScattering};
   const MeasuredResult result = fit_toy(reference, options);
   EXPECT_NEAR(row_of(result, "mie.scattering[1]").fitted / 1.2e-4, 1, kSolved);
   EXPECT_NEAR(row_of(result, "mie.scattering[2]").fitted / 2e-4, 1, kSolved);
@@ -215,7 +215,7 @@ std::string message_of(const refs::Reference& reference, const MeasuredOptions& 
 TEST(MeasuredFitTest, BadInputNamesOptionValueAndExpectation) {
   refs::Reference reference = synthetic_scans(ToySky(), true_atmosphere(1), {});
   MeasuredOptions options = determined();
-  options.per_scan = {kOzoneColumn};
+  options.per_scan = {Parameter::kOzoneColumn};
   EXPECT_THAT(message_of(reference, options),
               HasSubstr("fit.per_scan: ozone.column: must be a free parameter"));
   options = determined();

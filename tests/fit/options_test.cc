@@ -12,7 +12,6 @@
 namespace skyfit::fit {
 namespace {
 
-using enum Parameter;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -50,28 +49,28 @@ TEST(OptionsTest, CountsAreChecked) {
 
 TEST(OptionsTest, ParametersThatTheAtmosphereLacksAreRefused) {
   EXPECT_EQ(message([](FitOptions& o, refs::Reference&) {
-              o.free = std::vector<Parameter>{kMiePhaseG1};
+              o.free = std::vector<Parameter>{Parameter::kMiePhaseG1};
             }),
             "fit.free: mie.phase.g1: the atmosphere with one lobe has no such parameter");
   EXPECT_EQ(message([](FitOptions& o, refs::Reference&) {
               o.lobes = 2;
-              o.fix[kMiePhaseG] = 0.5;
+              o.fix[Parameter::kMiePhaseG] = 0.5;
             }),
             "fit.fix: mie.phase.g: the atmosphere with two lobes has no such parameter");
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
-                o.priors[kMiePhaseG2] = {0.2, 0.1};
+                o.priors[Parameter::kMiePhaseG2] = {0.2, 0.1};
               }),
               HasSubstr("fit.prior: mie.phase.g2"));
 }
 
 TEST(OptionsTest, ContradictionsAreRefused) {
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
-                o.free = std::vector<Parameter>{kMiePhaseG};
-                o.fix[kMiePhaseG] = 0.5;
+                o.free = std::vector<Parameter>{Parameter::kMiePhaseG};
+                o.fix[Parameter::kMiePhaseG] = 0.5;
               }),
               HasSubstr("fit.free: mie.phase.g: also fixed"));
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
-                o.priors[kOzoneColumn] = {300, 30};
+                o.priors[Parameter::kOzoneColumn] = {300, 30};
               }),
               HasSubstr("fit.prior: ozone.column: must be free"));
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) { o.free = std::vector<Parameter>{}; }),
@@ -79,10 +78,11 @@ TEST(OptionsTest, ContradictionsAreRefused) {
 }
 
 TEST(OptionsTest, ValuesAreChecked) {
-  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) { o.fix[kMieScattering] = -1; }),
-              AllOf(HasSubstr("fit.fix: "), HasSubstr("-1"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(
+      message([](FitOptions& o, refs::Reference&) { o.fix[Parameter::kMieScattering] = -1; }),
+      AllOf(HasSubstr("fit.fix: "), HasSubstr("-1"), Not(HasSubstr("\n"))));
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
-                o.priors[kMiePhaseG] = {0.5, 0};
+                o.priors[Parameter::kMiePhaseG] = {0.5, 0};
               }),
               HasSubstr("fit.prior: mie.phase.g = 0.5:0: must be a finite mean and a sigma > 0"));
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {

@@ -11,8 +11,6 @@
 namespace skyfit::fit {
 namespace {
 
-using enum Parameter;
-
 std::vector<FreeParameter> all_free(int lobes) {
   FitOptions options;
   options.lobes = lobes;
@@ -55,14 +53,15 @@ TEST(StartsTest, OwnAtmosphereComesFirst) {
 
 TEST(StartsTest, FixedParametersKeepTheirValues) {
   for (const Start& start :
-       choose_starts(true_atmosphere(2), {free_parameter(kMiePhaseG2)}, 4, false)) {
+       choose_starts(true_atmosphere(2), {free_parameter(Parameter::kMiePhaseG2)}, 4, false)) {
     EXPECT_EQ(start.atmosphere.at("mie").phase.g1, true_atmosphere(2).at("mie").phase.g1);
     EXPECT_EQ(start.atmosphere.at("mie").amount, true_atmosphere(2).at("mie").amount);
   }
 }
 
 TEST(StartsTest, OneWhenNoPhaseParameterIsFree) {
-  EXPECT_EQ(choose_starts(true_atmosphere(2), {free_parameter(kGroundAlbedo)}, 4, false).size(),
+  EXPECT_EQ(choose_starts(true_atmosphere(2), {free_parameter(Parameter::kGroundAlbedo)}, 4, false)
+                .size(),
             1u);
 }
 

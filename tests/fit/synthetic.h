@@ -9,6 +9,7 @@
 #include "data_refs/samples.h"
 #include "data_refs/spectra.h"
 #include "fit/problem/residuals.h"
+#include "tests/atmospheres.h"
 #include "tests/fit/toy_sky.h"
 
 namespace skyfit::fit {

@@ -9,8 +9,6 @@
 namespace skyfit::fit {
 namespace {
 
-using enum Parameter;
-
 const FittedParameter& row_of(const FitResult& result, Parameter id) {
   for (const FittedParameter& row : result.parameters) {
     if (row.id == id) return row;
@@ -27,7 +25,7 @@ FitOptions determined(int lobes) {
   FitOptions options;
   options.lobes = lobes;
   options.use_priors = false;
-  options.fix = {{kRayleighScaleHeight, 8000}, {kMieScaleHeight, 1200}};
+  options.fix = {{Parameter::kRayleighScaleHeight, 8000}, {Parameter::kMieScaleHeight, 1200}};
   return options;
 }
 
@@ -51,7 +49,8 @@ TEST_P(SyntheticFitTest, NoiseFreeSkyReturnsItsParameters) {
 TEST_P(SyntheticFitTest, NoisySkyReturnsItsParametersWithinThreeSigma) {
   const Atmosphere<double> truth = true_atmosphere(GetParam());
   FitOptions options = determined(GetParam());
-  options.fix[kMieSingleScatteringAlbedo] = 0.93;  // else at its bound, and the sigmas conditional
+  options.fix[Parameter::kMieSingleScatteringAlbedo] =
+      0.93;  // else at its bound, and the sigmas conditional
   const FitResult result = fit_toy(synthetic_reference(truth, 0.02), options);
   // 128 samples less 11 unknowns: 2 sqrt(117 / 128) = 1.91, known to 6 %.
   EXPECT_NEAR(result.rms_log_percent, 1.91, 3 * 0.12);
@@ -70,9 +69,10 @@ TEST_P(SyntheticFitTest, DefaultPriorsHoldWhatTheSkyCannotSay) {
   options.lobes = GetParam();
   const FitResult result = fit_toy(synthetic_reference(truth, 0.01), options);
   EXPECT_LT(result.rms_log_percent, 1.1);
-  EXPECT_FALSE(row_of(result, kMieScaleHeight).identifiable);
-  EXPECT_NEAR(row_of(result, kMieScaleHeight).sigma, 500, 50);
-  EXPECT_TRUE(row_of(result, GetParam() == 2 ? kMiePhaseG1 : kMiePhaseG).identifiable);
+  EXPECT_FALSE(row_of(result, Parameter::kMieScaleHeight).identifiable);
+  EXPECT_NEAR(row_of(result, Parameter::kMieScaleHeight).sigma, 500, 50);
+  EXPECT_TRUE(row_of(result, GetParam() == 2 ? Parameter::kMiePhaseG1 : Parameter::kMiePhaseG)
+                  .identifiable);
   for (const FittedParameter& row : result.parameters) {
     if (!row.free || row.at_bound) continue;
     EXPECT_NEAR(row.fitted, get_parameter(truth, row.id), 3 * row.sigma) << row.id.name();
@@ -91,10 +91,10 @@ TEST(LabelTest, ForwardLobeIsTheFirst) {
   std::swap(phase.g1, phase.g2);
   phase.weight = 1 - phase.weight;
   const FitResult result = fit_toy(synthetic_reference(truth, 0), options);
-  EXPECT_NEAR(row_of(result, kMiePhaseG1).fitted, 0.75, 1e-3);
-  EXPECT_NEAR(row_of(result, kMiePhaseG2).fitted, 0.3, 1e-3);
-  EXPECT_NEAR(row_of(result, kMiePhaseWeight).fitted, 0.4, 1e-3);
-  EXPECT_EQ(row_of(result, kMiePhaseG1).start, 0.3);
+  EXPECT_NEAR(row_of(result, Parameter::kMiePhaseG1).fitted, 0.75, 1e-3);
+  EXPECT_NEAR(row_of(result, Parameter::kMiePhaseG2).fitted, 0.3, 1e-3);
+  EXPECT_NEAR(row_of(result, Parameter::kMiePhaseWeight).fitted, 0.4, 1e-3);
+  EXPECT_EQ(row_of(result, Parameter::kMiePhaseG1).start, 0.3);
 }
 
 // An albedo below 0 would fit best: the fit stops at the bound, says so, and gives it no sigma.
@@ -108,16 +108,16 @@ TEST(BoundTest, FitStopsAtTheBound) {
     reference.samples[i].value = 1.5 * dark.samples[i].value - 0.5 * reference.samples[i].value;
   }
   FitOptions options = determined(1);
-  options.free = std::vector<Parameter>{kGroundAlbedo, kMiePhaseG};
-  options.fix[kMieScattering] = 1.2e-4;
-  options.fix[kRayleighScattering] = 1.25e-5;
+  options.free = std::vector<Parameter>{Parameter::kGroundAlbedo, Parameter::kMiePhaseG};
+  options.fix[Parameter::kMieScattering] = 1.2e-4;
+  options.fix[Parameter::kRayleighScattering] = 1.25e-5;
   const FitResult result = fit_toy(reference, options);
-  const FittedParameter& albedo = row_of(result, kGroundAlbedo);
+  const FittedParameter& albedo = row_of(result, Parameter::kGroundAlbedo);
   EXPECT_EQ(albedo.fitted, 0);
   EXPECT_TRUE(albedo.at_bound);
   EXPECT_TRUE(std::isnan(albedo.sigma));
-  EXPECT_THAT(result.covariance_parameters, testing::ElementsAre(kMiePhaseG));
-  EXPECT_GT(row_of(result, kMiePhaseG).sigma, 0);
+  EXPECT_THAT(result.covariance_parameters, testing::ElementsAre(Parameter::kMiePhaseG));
+  EXPECT_GT(row_of(result, Parameter::kMiePhaseG).sigma, 0);
 }
 
 // Derivatives are evaluated at most once per iteration and nothing is evaluated twice at one point.

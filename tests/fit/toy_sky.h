@@ -10,12 +10,14 @@
 
 #include <ceres/jet.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "model/atmosphere/parameter_field.h"
 #include "model/sky_model.h"
 
 namespace skyfit::fit {
@@ -50,42 +52,48 @@ class ToySky : public SkyModel {
                                     points[i / wavelengths.size()]);
       sky.value[i] = value.a;
       for (std::size_t p = 0; p < derivatives.size(); ++p) {
-        sky.derivative[p * sky.value.size() + i] = value.v[static_cast<int>(derivatives[p])];
+        sky.derivative[p * sky.value.size() + i] = value.v[place_of(derivatives[p])];
       }
     }
     return sky;
   }
 
  private:
+  // Among the standard parameters.
+  static int place_of(const Parameter& id) {
+    return static_cast<int>(std::ranges::find(standard_parameters(), id) -
+                            standard_parameters().begin());
+  }
+
   static Jet radiance_at(const Atmosphere<double>& atmosphere, const WavelengthNode& node,
                          const SkyPoint& point) {
-    const auto p = [&](Parameter id) {
-      return Jet(get_parameter(atmosphere, id), static_cast<int>(id));
-    };
-    using enum Parameter;
+    const auto p = [&](Parameter id) { return Jet(get_parameter(atmosphere, id), place_of(id)); };
     const double ratio = node.wavelength_nm / 550;
     const double nu = std::sin(point.sun_zenith) * std::sin(point.view_zenith) *
                           std::cos(point.relative_azimuth) +
                       std::cos(point.sun_zenith) * std::cos(point.view_zenith);
-    const Jet rayleigh = p(kRayleighScattering) * std::pow(ratio, -4.08) * p(kRayleighScaleHeight);
-    const Jet mie =
-        p(kMieScattering) * exp(-p(kMieAngstromExponent) * std::log(ratio)) * p(kMieScaleHeight);
+    const Jet rayleigh = p(Parameter::kRayleighScattering) * std::pow(ratio, -4.08) *
+                         p(Parameter::kRayleighScaleHeight);
+    const Jet mie = p(Parameter::kMieScattering) *
+                    exp(-p(Parameter::kMieAngstromExponent) * std::log(ratio)) *
+                    p(Parameter::kMieScaleHeight);
     Jet phase;
     if (atmosphere.at("mie").phase.type == PhaseType::kTwoLobe) {
-      phase = p(kMiePhaseWeight) * toy_cornette_shanks(p(kMiePhaseG1), nu) +
-              (1.0 - p(kMiePhaseWeight)) * toy_cornette_shanks(p(kMiePhaseG2), nu);
+      phase = p(Parameter::kMiePhaseWeight) * toy_cornette_shanks(p(Parameter::kMiePhaseG1), nu) +
+              (1.0 - p(Parameter::kMiePhaseWeight)) *
+                  toy_cornette_shanks(p(Parameter::kMiePhaseG2), nu);
     } else {
-      phase = toy_cornette_shanks(p(kMiePhaseG), nu);
+      phase = toy_cornette_shanks(p(Parameter::kMiePhaseG), nu);
     }
-    const Jet tau = rayleigh + mie / p(kMieSingleScatteringAlbedo);
+    const Jet tau = rayleigh + mie / p(Parameter::kMieSingleScatteringAlbedo);
     const double m = 1 / std::cos(point.view_zenith), m_s = 1 / std::cos(point.sun_zenith);
     const Jet d = tau * (m - m_s);
     const Jet slab = std::abs(d.a) < 1e-4 ? 1.0 - d * (0.5 - d / 6.0) : (1.0 - exp(-d)) / d;
     const Jet beam =
-        exp(-tau * m_s - p(kOzoneColumn) * 2.687e20 * node.ozone_cross_section_m2 * m_s);
+        exp(-tau * m_s - p(Parameter::kOzoneColumn) * 2.687e20 * node.ozone_cross_section_m2 * m_s);
     const Jet source = rayleigh * (3 / (16 * std::numbers::pi) * (1 + nu * nu)) + mie * phase;
-    return beam * (m * source * slab +
-                   p(kGroundAlbedo) / m_s * (1.0 - exp(-tau * m)) / (4 * std::numbers::pi));
+    return beam * (m * source * slab + p(Parameter::kGroundAlbedo) / m_s * (1.0 - exp(-tau * m)) /
+                                           (4 * std::numbers::pi));
   }
 };
 

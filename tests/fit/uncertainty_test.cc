@@ -13,14 +13,13 @@
 namespace skyfit::fit {
 namespace {
 
-using enum Parameter;
-
 Atmosphere<double> atmosphere() { return true_atmosphere(1); }
 
 // Two parameters with r = A p: the covariance is the inverse of A^T A + the prior's information.
 TEST(UncertaintyTest, EqualsTheInverseOfTheNormalMatrix) {
-  const std::vector<FreeParameter> parameters = {{{1e-7, 2e-3, true, std::nullopt}, kMieScattering},
-                                                 {{0, 1, false, Prior{0.15, 0.1}}, kGroundAlbedo}};
+  const std::vector<FreeParameter> parameters = {
+      {{1e-7, 2e-3, true, std::nullopt}, Parameter::kMieScattering},
+      {{0, 1, false, Prior{0.15, 0.1}}, Parameter::kGroundAlbedo}};
   Eigen::MatrixXd jacobian(3, 2);
   jacobian << 1e6, 20, -2e6, 10, 3e5, -7;
   Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
@@ -42,7 +41,8 @@ TEST(UncertaintyTest, EqualsTheInverseOfTheNormalMatrix) {
 // Data that say exactly as much as the prior leave sigma at 1 / sqrt(2) = 0.707 of it; just more
 // makes the parameter identifiable.
 TEST(UncertaintyTest, IdentifiableWhenTheDataSayMoreThanThePrior) {
-  const std::vector<FreeParameter> parameters = {{{0, 1, false, Prior{0.15, 0.1}}, kGroundAlbedo}};
+  const std::vector<FreeParameter> parameters = {
+      {{0, 1, false, Prior{0.15, 0.1}}, Parameter::kGroundAlbedo}};
   const Eigen::MatrixXd weak = Eigen::MatrixXd::Constant(1, 1, 0.95 / 0.1);
   const Eigen::MatrixXd strong = Eigen::MatrixXd::Constant(1, 1, 1.1 / 0.1);
   EXPECT_FALSE(uncertainty(parameters, atmosphere(), weak).identifiable[0]);
@@ -52,9 +52,9 @@ TEST(UncertaintyTest, IdentifiableWhenTheDataSayMoreThanThePrior) {
 // Two equal columns without prior: both open, the third parameter keeps its sigma, no matrix.
 TEST(UncertaintyTest, SingularDirectionIsReported) {
   const std::vector<FreeParameter> parameters = {
-      {{5000, 12000, true, std::nullopt}, kRayleighScaleHeight},
-      {{0, 1, false, std::nullopt}, kGroundAlbedo},
-      {{-0.6, 0.98, false, std::nullopt}, kMiePhaseG}};
+      {{5000, 12000, true, std::nullopt}, Parameter::kRayleighScaleHeight},
+      {{0, 1, false, std::nullopt}, Parameter::kGroundAlbedo},
+      {{-0.6, 0.98, false, std::nullopt}, Parameter::kMiePhaseG}};
   Eigen::MatrixXd jacobian(4, 3);
   jacobian << 1e-3, 2, 5, 2e-3, 4, -3, -1e-3, -2, 40, 0.5e-3, 1, 1;
   const Uncertainty result = uncertainty(parameters, atmosphere(), jacobian);
@@ -69,8 +69,9 @@ TEST(UncertaintyTest, SingularDirectionIsReported) {
 }
 
 TEST(UncertaintyTest, ParameterWithoutEffectIsReported) {
-  const std::vector<FreeParameter> parameters = {{{0, 1, false, std::nullopt}, kGroundAlbedo},
-                                                 {{-0.6, 0.98, false, std::nullopt}, kMiePhaseG}};
+  const std::vector<FreeParameter> parameters = {
+      {{0, 1, false, std::nullopt}, Parameter::kGroundAlbedo},
+      {{-0.6, 0.98, false, std::nullopt}, Parameter::kMiePhaseG}};
   Eigen::MatrixXd jacobian(2, 2);
   jacobian << 0, 30, 0, 10;
   const Uncertainty result = uncertainty(parameters, atmosphere(), jacobian);
@@ -100,12 +101,12 @@ TEST(UncertaintyTest, FitOfEverythingWithoutPriorsReportsTheSingularCovariance) 
 // A prior alone: the answer is the prior's, and the report says so.
 TEST(UncertaintyTest, PriorAloneIsNotIdentifiable) {
   FitOptions options;
-  options.free.emplace({kOzoneColumn, kMiePhaseG1});
-  options.priors = {{kOzoneColumn, {280, 30}}};
+  options.free.emplace({Parameter::kOzoneColumn, Parameter::kMiePhaseG1});
+  options.priors = {{Parameter::kOzoneColumn, {280, 30}}};
   const FitResult result = fit_atmosphere(synthetic_reference(true_atmosphere(2), 0.02),
                                           refs::standard_spectral_data(), ToySky(), options);
   for (const FittedParameter& row : result.parameters) {
-    if (row.id != kOzoneColumn) continue;
+    if (row.id != Parameter::kOzoneColumn) continue;
     EXPECT_FALSE(row.identifiable);
     EXPECT_NEAR(row.sigma, 30, 3);
   }

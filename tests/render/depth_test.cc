@@ -21,7 +21,8 @@ class Altitudes : public ::testing::TestWithParam<double> {};
 TEST_P(Altitudes, DepthLeadsBackToTheGround) {
   const double above = GetParam();
   const double bottom = earth_clear().atmosphere.bottom_radius_m;
-  const Relief ground(bottom, earth_clear().atmosphere.ground_albedo);
+  const double albedo = earth_clear().atmosphere.ground_albedo;
+  const Relief ground(bottom, {albedo, albedo, albedo, albedo}, true);
   const double altitude = std::max(renderer().ground_height_m({}), 0.0) + above;
   // The planet from afar fills the picture.
   const double fov = std::min(0.9, 2 * std::asin(bottom / (bottom + altitude)));

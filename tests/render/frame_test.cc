@@ -64,7 +64,8 @@ TEST_P(EveryPlace, DepthLeadsBackToTheTerrain) {
   options.samples_per_quad = 1;
   const Frame frame = renderer().draw(options);
   const double bottom = preset().atmosphere.bottom_radius_m;
-  const Relief relief(bottom, preset().atmosphere.ground_albedo);
+  const double albedo = preset().atmosphere.ground_albedo;
+  const Relief relief(bottom, {albedo, albedo, albedo, albedo}, true);
   const SiteAxes axes = options.site ? site_axes(*options.site) : relief.coast();
   int checked = 0, good = 0;
   for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {

@@ -57,7 +57,7 @@ TEST(Noise, ChangesLittleWhenTheFinestDetailFadesIn) {
 }
 
 TEST(Relief, IsContinuousAndNeverBelowTheBottomRadius) {
-  const Relief relief(kEarth, 0.15);
+  const Relief relief(kEarth, {0.15, 0.15, 0.15, 0.15}, true);
   constexpr double kStep = 1;  // m
   for (int i = 0; i < 3000; ++i) {
     const glm::dvec3 here = direction(i, 3000);
@@ -73,14 +73,14 @@ TEST(Relief, IsContinuousAndNeverBelowTheBottomRadius) {
 
 TEST(Relief, LeavesRoomForACameraOneMetreUp) {
   for (const double radius : {kEarth, 3390e3, 1e9, 1e4}) {
-    const Relief relief(radius, 0.2);
+    const Relief relief(radius, {0.2, 0.2, 0.2, 0.2}, true);
     EXPECT_LT(relief.height_m(relief.coast().z, 0.1), 0.7) << "radius " << radius;
   }
 }
 
 TEST(Relief, ReflectsTheGroundAlbedoOnAverage) {
   for (const double albedo : {0.0, 0.1, 0.5, 0.95, 1.0}) {
-    const Relief relief(kEarth, albedo);
+    const Relief relief(kEarth, {albedo, albedo, albedo, albedo}, true);
     NodeValues sum{};
     constexpr int kCount = 5003;  // other directions than the relief's own balance
     for (int i = 0; i < kCount; ++i) {

@@ -20,7 +20,7 @@ inline constexpr double kEarth = 6360e3;
 inline constexpr int kBlockSide = kBlockQuads + 1;
 
 inline const Relief& relief() {
-  static const Relief made(kEarth, 0.15);
+  static const Relief made(kEarth, {0.15, 0.15, 0.15, 0.15}, true);
   return made;
 }
 
