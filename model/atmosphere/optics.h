@@ -13,8 +13,8 @@
 
 #include "model/atmosphere/phase_moments.h"
 #include "model/atmosphere/shells.h"
+#include "model/atmosphere/wavelength_node.h"
 #include "model/numerics/dual.h"
-#include "model/photometry/photometry.h"
 
 namespace skyfit {
 

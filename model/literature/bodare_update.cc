@@ -86,7 +86,7 @@ std::vector<double> BodareUpdate::radiance(const SkyPoint& point) const {
   check_point("bodare", point);
   std::vector<double> light(wavelengths_.size());
   const auto add = [&](const BodareSet& set, double weight) {
-    const literature::View view = literature::view_of(set.atmosphere(), point);
+    const View view = literature::view_of(set.atmosphere(), point);
     for (std::size_t w = 0; w < light.size(); ++w)
       light[w] += weight * set.tables()[w]->light(view).sum().v;
   };

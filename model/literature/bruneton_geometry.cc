@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tbb/parallel_for.h>
 
+#include "model/geometry/sun_disc.h"
 #include "model/literature/bruneton_tables.h"
 #include "model/literature/slab_kernels.h"
 #include "model/shared/shared.h"
-#include "model/tables/tables.h"
 
 namespace skyfit::literature {
 namespace {

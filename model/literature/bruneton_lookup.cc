@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "model/atmosphere/phase_moments.h"
+#include "model/geometry/sun_disc.h"
 #include "model/literature/bruneton_tables.h"
 #include "model/shared/shared.h"
-#include "model/tables/table_lookup.h"
 
 namespace skyfit::literature {
 namespace {

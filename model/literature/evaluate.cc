@@ -8,19 +8,6 @@
 
 namespace skyfit::literature {
 
-View view_of(const Atmosphere<double>& atmosphere, const SkyPoint& point) {
-  const double bottom = atmosphere.bottom_radius_m;
-  const double mu = std::cos(point.view_zenith), mu_s = std::cos(point.sun_zenith);
-  const double nu =
-      std::clamp(mu * mu_s + std::sin(point.view_zenith) * std::sin(point.sun_zenith) *
-                                 std::cos(point.relative_azimuth),
-                 -1.0, 1.0);
-  const ViewRay ray = view_ray(bottom, atmosphere.top_radius_m - bottom, point.altitude_m, mu);
-  const double entry_mu_s =
-      ((bottom + point.altitude_m) * mu_s + ray.entry_distance * nu) / (bottom + ray.entry_height);
-  return {ray, std::clamp(entry_mu_s, -1.0, 1.0), nu};
-}
-
 void check_request(std::string_view model, const Atmosphere<double>& atmosphere,
                    std::span<const SkyPoint> points, std::span<const Parameter> derivatives) {
   validate(atmosphere);

@@ -12,17 +12,14 @@
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/geometry/ray.h"
+#include "model/geometry/view.h"
 #include "model/sky_model.h"
 
 namespace skyfit::literature {
 
-// Where the view ray of a point runs, and the sun at its beginning inside the atmosphere. Cosines.
-struct View {
-  ViewRay ray;
-  double mu_s = 0;  // of the sun's zenith angle where the ray begins
-  double nu = 0;    // of the angle between ray and sun
-};
-View view_of(const Atmosphere<double>& atmosphere, const SkyPoint& point);
+inline View view_of(const Atmosphere<double>& a, const SkyPoint& point) {
+  return skyfit::view_of(a.bottom_radius_m, a.top_radius_m - a.bottom_radius_m, point);
+}
 
 // Checks atmosphere, points and derivatives for a model; throws std::invalid_argument.
 void check_request(std::string_view model, const Atmosphere<double>& atmosphere,

@@ -30,8 +30,7 @@ Dual<N> transmittance(const literature::ClearAir<N>& air, const Depths<N>& depth
 }
 
 template <int N>
-Dual<N> radiance_of(const literature::ClearAir<N>& air, const SkyPoint& point,
-                    const literature::View& view) {
+Dual<N> radiance_of(const literature::ClearAir<N>& air, const SkyPoint& point, const View& view) {
   Shared<Dual<N>> shared;
   const double mu_s = std::cos(point.sun_zenith);
   const Dual<N> sun = transmittance(air, to_sky(air, mu_s));

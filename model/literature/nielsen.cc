@@ -52,7 +52,7 @@ Aerosol<N> aerosol_of(const literature::ClearAir<N>& green) {
 
 template <int N>
 Dual<N> radiance_of(const literature::ClearAir<N>& air, const Aerosol<N>& aerosol,
-                    const SkyPoint& point, const literature::View& view, NielsenMean mean) {
+                    const SkyPoint& point, const View& view, NielsenMean mean) {
   Shared<Dual<N>> shared;
   Shared<double> numbers;
   const double height = point.altitude_m, mu_s = std::cos(point.sun_zenith);

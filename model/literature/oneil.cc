@@ -66,7 +66,7 @@ struct Sample {
   PathColumns columns;  // from the eye and on to the sun
 };
 struct Path {
-  literature::View view;
+  View view;
   double step = 0;
   std::vector<Sample> lit;  // by the sun
   bool ground_lit = false;

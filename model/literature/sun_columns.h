@@ -6,8 +6,8 @@
 #include <tbb/parallel_for.h>
 
 #include "model/atmosphere/shells.h"
+#include "model/geometry/sun_disc.h"
 #include "model/literature/grid.h"
-#include "model/tables/table_lookup.h"
 
 namespace skyfit::literature {
 
@@ -25,7 +25,8 @@ class SunColumns {
         const double visible = visible_sun(shells.bottom_radius, height, mu_s, shells.sun_radius);
         if (visible <= 0) continue;
         light_.at({i, k}) =
-            visible * exp(-optical_depth(height, std::max(mu_s, horizon_cosine(shells.bottom_radius, height))));
+            visible * exp(-optical_depth(
+                          height, std::max(mu_s, horizon_cosine(shells.bottom_radius, height))));
       }
     });
   }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "model/geometry/sun_disc.h"
 #include "model/shared/shared.h"
-#include "model/tables/table_lookup.h"
 
 namespace skyfit::literature {
 

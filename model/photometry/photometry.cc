@@ -8,7 +8,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "model/solver/sun_grid.h"
+#include "model/numerics/lagrange.h"
 
 namespace skyfit {
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/atmosphere/star.h"
+#include "model/atmosphere/wavelength_node.h"
 
 namespace skyfit {
 
@@ -33,13 +34,6 @@ SpectralData under(const SpectralData& data, const Star& star);
 
 // Whether a sky model knows sun and ozone at the wavelength.
 bool has_spectra_at(const SpectralData& data, double wavelength_nm);
-
-// One wavelength at which the model is solved.
-struct WavelengthNode {
-  double wavelength_nm;
-  double ozone_cross_section_m2;
-  bool operator==(const WavelengthNode&) const = default;
-};
 
 // Nodes that read the tabulated ozone cross section as it is: for spectral radiances.
 std::vector<WavelengthNode> spectral_nodes(const SpectralData& data,

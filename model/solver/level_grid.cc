@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/numerics/lagrange.h"
 #include "model/solver/sun_grid.h"
 
 namespace skyfit {

@@ -7,15 +7,6 @@
 
 namespace skyfit {
 
-void lagrange_weights(const double* nodes, int count, double x, double* weights) {
-  for (int i = 0; i < count; ++i) {
-    weights[i] = 1;
-    for (int k = 0; k < count; ++k) {
-      if (k != i) weights[i] *= (x - nodes[k]) / (nodes[i] - nodes[k]);
-    }
-  }
-}
-
 SunGrid::SunGrid() {
   // Steps in degrees up to each end: the field changes fastest near the horizon and is dark below
   // 108.

@@ -46,7 +46,4 @@ class SunGrid {
   std::vector<Four> fours_;
 };
 
-// Lagrange's weights at x for the four (or fewer) nodes.
-void lagrange_weights(const double* nodes, int count, double x, double* weights);
-
 }  // namespace skyfit

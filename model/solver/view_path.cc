@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/atmosphere/parameter_field.h"
+#include "model/numerics/lagrange.h"
 #include "model/shared/shared.h"
 #include "model/solver/sun_grid.h"
 

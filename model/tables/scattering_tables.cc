@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "model/shared/shared.h"
-#include "model/solver/level_path.h"
+#include "model/tables/level_path.h"
 #include "model/tables/table_kernels.h"
 #include "model/tables/table_lookup.h"
 #include "model/tables/texel_rays.h"

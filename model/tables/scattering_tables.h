@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "model/solver/diffuse_source.h"
+#include "model/tables/diffuse_source.h"
 #include "model/tables/tables.h"
 
 namespace skyfit {

@@ -4,6 +4,7 @@
 // lie inside the atmosphere.
 #pragma once
 
+#include "model/geometry/sun_disc.h"
 #include "model/tables/tables.h"
 
 namespace skyfit {
@@ -19,15 +20,6 @@ TablePlace place_along(const AtmosphereTables& tables, const TablePlace& from, d
 // as upward rays, so that neither look-up meets the ground.
 NodeValues lookup_transmittance(const AtmosphereTables& tables, const TablePlace& from,
                                 const TablePlace& to, bool downward);
-
-// Cosine of the zenith angle of the horizon.
-double horizon_cosine(double bottom, double height);
-
-// Share of the sun's disc, of that angular radius, that stands above the horizon.
-double visible_sun(double bottom, double height, double mu_s, double angular_radius);
-
-// Below the lowest sun of a table its light falls by e per degree of the sun's height or cosine.
-double deep_twilight(double sun, double lowest);
 
 // From a point to the top along a ray that misses the ground.
 NodeValues lookup_optical_depth(const AtmosphereTables& tables, double height, double mu);

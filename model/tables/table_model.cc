@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "model/literature/evaluate.h"
+#include "model/geometry/view.h"
 #include "model/shared/shared.h"
 #include "model/tables/table_lookup.h"
 
@@ -25,7 +25,7 @@ void refuse_derivatives(std::span<const Parameter> derivatives) {
     throw std::invalid_argument("tables model: has no derivatives; the reference model has");
 }
 
-NodeValues radiance_of(const AtmosphereTables& tables, const literature::View& view, double eye_m) {
+NodeValues radiance_of(const AtmosphereTables& tables, const View& view, double eye_m) {
   const TablePlace place{view.ray.entry_height, view.ray.entry_mu, view.mu_s};
   NodeValues sum{};
   if (view.ray.length > 0) {
@@ -66,7 +66,8 @@ SkyValues TableModel::radiance(const Atmosphere<double>& atmosphere,
   const std::shared_ptr<const Kept> kept = tables_for(atmosphere, wavelengths);
   tbb::task_arena(threads_).execute([&] {
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-      const literature::View view = literature::view_of(atmosphere, points[i]);
+      const View view = view_of(atmosphere.bottom_radius_m,
+                                atmosphere.top_radius_m - atmosphere.bottom_radius_m, points[i]);
       for (std::size_t four = 0; four < kept->tables.size(); ++four) {
         const NodeValues l = radiance_of(kept->tables[four], view, points[i].altitude_m);
         std::copy_n(l.begin(), std::min<std::size_t>(4, wavelengths.size() - 4 * four),

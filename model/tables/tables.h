@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "model/atmosphere/atmosphere.h"
+#include "model/geometry/sun_disc.h"
 #include "model/photometry/photometry.h"
-#include "model/solver/diffuse_source.h"
+#include "model/tables/diffuse_source.h"
 #include "model/tables/phase_classes.h"
 #include "model/tables/sky_rays.h"
 
@@ -35,11 +36,6 @@ struct TableSizes {
   }
   RayTexels outside() const { return {0, outside_sky, outside_mu_s, outside_azimuth}; }
 };
-
-// The lowest sun that the tables hold, by sun_height() of model/shared/mapping.glsl: on the ground
-// the cosine of 102 degrees from the zenith. Below it no light reaches the air that can be seen
-// from a table's point.
-inline constexpr double kTableLowestSun = -0.2079;
 
 // The least value in the scattering tables, as the argument of the logarithm, 1/km: about
 // 2e-4 cd/m^2 over 100 km, as dark as a night without moon.

@@ -16,6 +16,11 @@ const std::vector<std::string> kMath = {"Eigen", "nlohmann", "fmt", "tbb", "onea
 const std::vector<std::string> kMathLibraries = {
     "Eigen3::", "nlohmann_json::", "fmt::", "TBB::", "hwy", "Threads::"};
 
+// Every one below the top floor of model/.
+const std::vector<std::string> kModelRooms = {
+    "model/shared",     "model/base",   "model/numerics", "model/geometry",  "model/atmosphere",
+    "model/photometry", "model/solver", "model/tables",   "model/literature"};
+
 std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -52,6 +57,8 @@ bool is_system_header(const std::string& name) {
 
 bool may_include(const std::string& included, bool quoted, const fs::path& top,
                  const fs::path& includer, const RoomRule& rule, std::span<const RoomRule> rules) {
+  // A rule may allow one file of a room.
+  if (std::ranges::count(rule.rooms, included) > 0) return true;
   const std::string room = room_of(included, rules);
   if (!room.empty()) return room == rule.room || std::ranges::count(rule.rooms, room) > 0;
   if (fs::exists(includer.parent_path() / included)) {
@@ -71,21 +78,40 @@ bool may_include(const std::string& included, bool quoted, const fs::path& top,
 std::span<const RoomRule> room_rules() {
   static const std::vector<RoomRule> rules = {
       {"model/shared", {}, {}, {}},
-      {"model", {"model/shared"}, kMath, kMathLibraries + std::vector<std::string>{"dl"}},
-      {"data_refs",
-       {"model", "data_refs/image"},
+      {"model/base", {}, kMath, {}},
+      {"model/numerics", {}, kMath, {}},
+      {"model/geometry", {"model/shared", "model/numerics"}, kMath, {}},
+      {"model/atmosphere",
+       {"model/shared", "model/base", "model/numerics", "model/geometry"},
        kMath,
+       {}},
+      {"model/photometry", {"model/numerics", "model/atmosphere", "model/sky_model.h"}, kMath, {}},
+      {"model/solver",
+       {"model/shared", "model/numerics", "model/geometry", "model/atmosphere",
+        "model/sky_model.h"},
+       kMath,
+       {}},
+      {"model/tables",
+       {"model/shared", "model/numerics", "model/geometry", "model/atmosphere", "model/photometry",
+        "model/solver", "model/sky_model.h"},
+       kMath,
+       {}},
+      {"model/literature",
+       {"model/shared", "model/numerics", "model/geometry", "model/atmosphere",
+        "model/sky_model.h"},
+       kMath,
+       {}},
+      {"model", kModelRooms, kMath, kMathLibraries + std::vector<std::string>{"dl"}},
+      {"data_refs", kModelRooms + std::vector<std::string>{"model", "data_refs/image"}, kMath,
        kMathLibraries + std::vector<std::string>{"skyfit::model"}},
       {"data_refs/image",
        {},
        kMath + std::vector<std::string>{"OpenImageIO"},
        kMathLibraries + std::vector<std::string>{"OpenImageIO::"}},
-      {"fit",
-       {"model", "model/shared", "data_refs"},
+      {"fit", kModelRooms + std::vector<std::string>{"model", "data_refs"},
        kMath + std::vector<std::string>{"ceres", "glog"},
        kMathLibraries + std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::"}},
-      {"render",
-       {"model", "model/shared"},
+      {"render", kModelRooms + std::vector<std::string>{"model"},
        kMath + std::vector<std::string>{"glm", "glad", "GL", "EGL", "KHR", "OpenImageIO", "OpenEXR",
                                         "Imath", "Imf*", "tiny_obj_loader.h"},
        kMathLibraries + std::vector<std::string>{"skyfit::model", "skyfit::render", "skyfit_render",
@@ -93,10 +119,12 @@ std::span<const RoomRule> room_rules() {
                                                  "glm::", "OpenImageIO::", "OpenEXR::", "Imath::",
                                                  "tinyobjloader::", "PkgConfig::OSMesa",
                                                  "PkgConfig::EGL", "OpenGL::"}},
-      {"render/plot",
-       {"model", "data_refs"},
-       kMath,
+      {"render/plot", kModelRooms + std::vector<std::string>{"model", "data_refs"}, kMath,
        kMathLibraries + std::vector<std::string>{"skyfit::model", "skyfit::refs"}},
+      {"cli",
+       kModelRooms + std::vector<std::string>{"model", "data_refs", "fit", "render", "render/plot"},
+       kMath + std::vector<std::string>{"CLI"},
+       kMathLibraries + std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli"}},
   };
   return rules;
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/geometry/ray.h"
-#include "model/solver/diffuse_source.h"
+#include "model/tables/diffuse_source.h"
 
 namespace skyfit {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/solver/level_path.h"
+#include "model/tables/level_path.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "model/numerics/lagrange.h"
 #include "model/shared/shared.h"
 #include "model/solver/sun_grid.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/solver/diffuse_source.h"
+#include "model/tables/diffuse_source.h"
 
 #include <tbb/parallel_for.h>
 
