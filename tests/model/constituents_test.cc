@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An atmosphere is a list: a constituent split into two of half the amount and the order of the list
-// change nothing, a constituent that only a preset knows has exact derivatives, and a homogeneous
-// layer is as bright as adding-doubling says.
+// An atmosphere is a list: a constituent split into two of half the amount and the order of the
+// list change nothing, a constituent that only a preset knows has exact derivatives, and a
+// homogeneous layer is as bright as adding-doubling says.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -97,7 +97,8 @@ TEST(Constituents, SplitInTwoTheirDerivativesAddUp) {
   constexpr double kRounding = 1e-9;
   const Parameter depth("dust", Quantity::kOpticalDepth);
   const std::vector<Parameter> both = {depth, {"dust_too", Quantity::kOpticalDepth}};
-  const SkyValues whole = sky_of(dusty(), {&depth, 1}), halves = sky_of(split(dusty(), "dust"), both);
+  const SkyValues whole = sky_of(dusty(), {&depth, 1}),
+                  halves = sky_of(split(dusty(), "dust"), both);
   for (std::size_t i = 0; i < whole.value.size(); ++i) {
     const double mean = 0.5 * (halves.derivative[i] + halves.derivative[whole.value.size() + i]);
     EXPECT_NEAR(mean, whole.derivative[i], kRounding * (std::abs(mean) + whole.value[i])) << i;
@@ -140,15 +141,75 @@ TEST(Constituents, EveryDerivativeIsThatOfADifference) {
     for (std::size_t i = 0; i < high.value.size(); ++i) {
       const double difference = (high.value[i] - low.value[i]) / (2 * step);
       const double scale = std::max(std::abs(difference), exact.value[i] / std::abs(middle));
-      worst = std::max(worst, std::abs(exact.derivative_at(static_cast<int>(p),
-                                                           static_cast<int>(i / 2),
-                                                           static_cast<int>(i % 2)) -
-                                       difference) /
-                                  scale);
+      worst =
+          std::max(worst, std::abs(exact.derivative_at(static_cast<int>(p), static_cast<int>(i / 2),
+                                                       static_cast<int>(i % 2)) -
+                                   difference) /
+                              scale);
     }
     std::printf("[derivative] %-32s %.1e\n", parameters[p].name().c_str(), worst);
     EXPECT_LT(worst, kDifference) << parameters[p].name();
   }
+}
+
+// Rows of tests/model/data/cloud_layer.csv with one layer.
+struct Layer {
+  double optical_depth, base_m, top_m;
+};
+struct LayerRow {
+  SkyPoint point;
+  double radiance;
+};
+std::vector<LayerRow> rows_of(const Layer& layer) {
+  std::ifstream in(SKYFIT_TEST_DATA "/cloud_layer.csv");
+  std::vector<LayerRow> rows;
+  for (std::string line; std::getline(in, line);) {
+    double depth, base, top, sun, view, azimuth, radiance;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &depth, &base, &top, &sun, &view,
+                    &azimuth, &radiance) != 7)
+      continue;
+    if (depth != layer.optical_depth || base != layer.base_m || top != layer.top_m) continue;
+    rows.push_back({{0, sun * kDegree, view * kDegree, azimuth * kDegree}, radiance});
+  }
+  return rows;
+}
+
+void expect_within(const Layer& layer, double rms_limit) {
+  Atmosphere<double> a;
+  a.bottom_radius_m = 9e8;  // plane-parallel
+  a.top_radius_m = 9e8 + 100e3;
+  a.ground_albedo = 0.2;
+  Constituent<double> air = standard_rayleigh<double>(), cloud = standard_mie<double>();
+  air.amount = 0.0973 / 8000;
+  cloud.name = "cloud";
+  cloud.amount_type = AmountType::kOpticalDepth;
+  cloud.amount = layer.optical_depth;
+  cloud.single_scattering_albedo = 1;
+  cloud.phase.g = 0.85;
+  cloud.profile.type = ProfileType::kLayer;
+  cloud.profile.base_m = layer.base_m;
+  cloud.profile.top_m = layer.top_m;
+  a.constituents = {air, cloud};
+  std::vector<SkyPoint> list;
+  const std::vector<LayerRow> rows = rows_of(layer);
+  ASSERT_GT(rows.size(), 50u);
+  for (const LayerRow& row : rows) list.push_back(row.point);
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  const WavelengthNode green{550, 0};
+  const SkyValues sky = model->radiance(a, {&green, 1}, list, {});
+  double sum = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    sum += std::pow(sky.value[i] / rows[i].radiance - 1, 2);
+  const double rms = std::sqrt(sum / static_cast<double>(rows.size()));
+  std::printf("[layer] optical depth %g, %g to %g m: rms %.2f %%\n", layer.optical_depth,
+              layer.base_m, layer.top_m, 100 * rms);
+  EXPECT_LT(rms, rms_limit);
+}
+
+TEST(Layers, OfCloudAndCirrusAreAsAddingDoublingHasThem) {
+  expect_within({2, 500, 2000}, 0.006);
+  expect_within({10, 500, 700}, 0.007);
+  expect_within({0.5, 8000, 9000}, 0.008);
 }
 
 }  // namespace
