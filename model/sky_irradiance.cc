@@ -20,6 +20,7 @@ struct Hemisphere {
   std::vector<double> weights;
 };
 
+// docs/theory (8.7).
 // Gauss's rule in zenith angle, above and below the sun (or the horizon, where the sun is down),
 // and in azimuth, both gathered where the aureole is by the cube of the variable. Rings share a
 // zenith angle, which is what a solution costs most for.

@@ -6,7 +6,7 @@
 // into Legendre moments and the azimuth into Fourier modes. This notebook turns each of these knobs
 // alone, compares with a solution that is fine in all of them, and then takes the light apart by
 // how often it met air or ground. What is measured here is the error of the discretisation, not
-// that of the physics: README.md, Accuracy, has the comparison with Monte Carlo.
+// that of the physics: docs/accuracy.md has the comparison with Monte Carlo.
 
 // %%
 #include <fmt/format.h>

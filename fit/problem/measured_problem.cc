@@ -159,6 +159,7 @@ SkyState MeasuredProblem::state(const Eigen::VectorXd& scaled) const {
   return with_unknowns(start, unknowns, scaled);
 }
 
+// docs/theory (11.4).
 Whitened MeasuredProblem::whitened(const ScanData& data, const RowValues& values,
                                    double factor) const {
   Whitened result{values.value, values.derivative};

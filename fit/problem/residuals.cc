@@ -63,6 +63,7 @@ Luminance select(const Luminance& luminance, const Observations& observations) {
   return result;
 }
 
+// docs/theory (11.2) and (11.3).
 LogResiduals log_residuals(const Observations& observations, const Luminance& luminance) {
   check_positive(luminance, observations.points);
   const Eigen::VectorXd whitening =

@@ -5,6 +5,7 @@
 
 namespace skyfit::fit {
 
+// docs/theory (11.1).
 double Variable::scaled(double value) const {
   return logarithmic ? std::log(value / lower) / std::log(upper / lower)
                      : (value - lower) / (upper - lower);

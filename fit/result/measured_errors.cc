@@ -20,6 +20,7 @@ double percent_of_norm(double difference2, double measured2) {
 
 }  // namespace
 
+// docs/theory (12.9).
 MeasuredErrors measured_errors(const refs::Reference& reference, const std::vector<double>& model,
                                const SpectralData& spectra, int scan) {
   constexpr double kShortestNm = 400, kLongestNm = 700;

@@ -26,6 +26,7 @@ Selection selection(const refs::Reference& reference, const Luminance& luminance
   return result;
 }
 
+// docs/theory (12.9).
 double rms_percent(const Selection& selected) {
   if (selected.observations.count() == 0) return std::numeric_limits<double>::quiet_NaN();
   return 100 *

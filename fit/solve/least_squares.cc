@@ -124,6 +124,7 @@ class PriorCost : public ceres::CostFunction {
   std::vector<int> held_;
 };
 
+// docs/theory (11.5) and (11.6).
 // Null: plain squares. Of a block of n residuals with squares s: n rho(s / n).
 std::unique_ptr<ceres::LossFunction> block_loss(const LeastSquares& problem, int count) {
   const double width = problem.loss_width * std::sqrt(count);

@@ -74,7 +74,7 @@ std::size_t index_of(const MeasuredResult& result, std::string_view name) {
                   name, fmt::join(known, ", ")));
 }
 
-// Three sigmas on both sides in eight steps; of an unknown without sigma the range of its bounds.
+// Three sigmas on both sides in eight steps; without a sigma, 15 % of the range of its bounds.
 std::vector<double> scaled_grid(const UnknownRow& row, double scaled) {
   constexpr int kSteps = 4;
   constexpr double kSigmas = 3;
@@ -185,6 +185,7 @@ HoldOut held_out(const SpectralData& spectra, const SkyModel& model, const Measu
 
 }  // namespace
 
+// docs/theory (12.8).
 Profile profile_likelihood(const SpectralData& spectra, const SkyModel& model,
                            const MeasuredOptions& options, const MeasuredResult& result,
                            std::string_view name) {

@@ -43,7 +43,7 @@ Bootstrap bootstrap(const SpectralData& spectra, const SkyModel& model,
 
 // Errors of what was left out of a fit of the rest.
 struct HoldOut {
-  std::string name;          // of the scan, or "a fifth of the directions, 1"
+  std::string name;          // of the scan, or "directions, part 1 of 5"
   MeasuredErrors predicted;  // the instrument of a scan left out is the mean of the others'
   MeasuredErrors pointed;    // and with its own pointing fitted; the atmosphere stays
 };

@@ -47,6 +47,7 @@ std::vector<Scan> split(const Observations& observations, const Eigen::VectorXd&
   return result;
 }
 
+// docs/theory (12.2).
 // exp(-angle / length) from the products of nearest neighbours; 0 when they do not agree.
 double length_of(const std::vector<Scan>& scans) {
   double products = 0, squares = 0, angles = 0;
@@ -67,6 +68,7 @@ double length_of(const std::vector<Scan>& scans) {
   return -(angles / pairs) / std::log(correlation);
 }
 
+// docs/theory (12.3).
 double effective_count(const std::vector<Scan>& scans, double length) {
   double result = 0;
   for (const Scan& scan : scans) {
@@ -92,6 +94,7 @@ Eigen::MatrixXd angular_correlation(const std::vector<SkyPoint>& points, double 
   return (angles_between(points).array() / -length).exp();
 }
 
+// docs/theory (12.1).
 Noise estimate_noise(const Observations& observations, const Eigen::VectorXd& residual,
                      int free_parameters) {
   const double count = observations.count();

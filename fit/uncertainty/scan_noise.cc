@@ -77,6 +77,7 @@ double share_of_wavelengths(const ScanData& data, double correlation) {
 
 }  // namespace
 
+// docs/theory (12.4).
 ScanNoise scan_noise(const ScanData& data, const Eigen::VectorXd& residual, int unknowns) {
   const auto rows = static_cast<double>(data.rows.size());
   ScanNoise noise;

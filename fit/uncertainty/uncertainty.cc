@@ -46,6 +46,7 @@ double sigma_without_data(const Variable& variable, double value_per_scaled) {
 
 }  // namespace
 
+// docs/theory (12.5) and (12.7).
 Uncertainty uncertainty(const std::vector<Variable>& variables, const Eigen::VectorXd& scaled,
                         const Eigen::MatrixXd& jacobian) {
   Uncertainty result;
@@ -91,6 +92,7 @@ Uncertainty uncertainty(const std::vector<Variable>& variables, const Eigen::Vec
   return result;
 }
 
+// docs/theory (12.6).
 Uncertainty with_correlated_residuals(const Uncertainty& independent,
                                       const std::vector<Variable>& variables,
                                       const Eigen::VectorXd& scaled, const Eigen::MatrixXd& m) {

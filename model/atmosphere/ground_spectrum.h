@@ -24,6 +24,7 @@ class GroundSpectrum {
   TwoColumns table_;
 };
 
+// docs/theory (2.16).
 // A is Atmosphere of any scalar. The albedo at a wavelength: a shape that would exceed 1 stays
 // there.
 template <class A>

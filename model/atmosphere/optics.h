@@ -70,6 +70,7 @@ struct Optics {
     return result;
   }
 
+  // docs/theory (2.3) and (2.4).
   Dual<N> depth_by(const std::vector<Dual<N>>& coefficient, const PathColumns& c) const {
     Dual<N> tau;
     for (std::size_t i = 0; i < c.size(); ++i) {
@@ -84,6 +85,7 @@ struct Optics {
   }
 };
 
+// docs/theory (2.1) and the table below it.
 // The extinction of a constituent where its density is 1, 1/m, and how much of it is scattering.
 template <int N>
 struct Coefficients {
@@ -144,6 +146,7 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
   return o;
 }
 
+// docs/theory (2.14).
 template <int N>
 Optics<N> optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a, const WavelengthNode& node,
                     int moment_count) {

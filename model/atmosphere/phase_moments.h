@@ -60,6 +60,7 @@ std::vector<T> moments_times_cosine(const std::vector<T>& chi) {
   return r;
 }
 
+// docs/theory (2.13).
 // Cornette-Shanks is Henyey-Greenstein times 3/2 (1 + nu^2) / (2 + g^2).
 template <class T>
 std::vector<T> cornette_shanks_moments(const T& g, int count) {
@@ -77,6 +78,7 @@ std::vector<T> lobe_moments(PhaseType type, const T& g, int count) {
                                               : cornette_shanks_moments(g, count);
 }
 
+// docs/theory (2.12).
 // Of Rayleigh's phase function: chi_0 .. chi_2, the others are 0.
 inline std::array<double, 3> rayleigh_moments(double depolarisation) {
   return {1.0, 0.0, Shared<double>{}.rayleigh_second_moment(depolarisation)};

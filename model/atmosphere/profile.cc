@@ -19,6 +19,7 @@ struct Corner {
   std::array<double, 2> by;
 };
 
+// docs/theory (2.5).
 std::vector<Corner> layer_corners(double base, double top) {
   constexpr double kHalf = 0.5 * kLayerEdge;
   const double half = kHalf * (top - base);
@@ -45,6 +46,7 @@ TabulatedProfile layer_table(const std::vector<Corner>& corners) {
   return std::make_shared<const LinearProfile>(std::move(table));
 }
 
+// docs/theory (2.6).
 // On a line whose ends move: d rho / dp = -slope times the speed there, linear between them.
 TabulatedProfile layer_by_shape(const std::vector<Corner>& corners, std::size_t shape) {
   TwoColumns table{{0, corners.front().height}, {0, 0}};
@@ -106,6 +108,7 @@ Density Profile::density(double height) const {
   return {value, {value * height / (scale_height_ * scale_height_)}};
 }
 
+// docs/theory (2.7).
 Density Profile::density_at_level(double low, double height, double high) const {
   if (!table_) return density(height);
   const auto mean = [&](const LinearProfile& t) { return t.mean_density(low, height, high); };
@@ -120,6 +123,7 @@ Column Profile::column_to_top(double bottom_radius, double height, double mu, do
   return {column(*table_), shapes_of(by_shape_, column)};
 }
 
+// docs/theory (2.2).
 Column Profile::vertical_column() const {
   if (!table_) return {scale_height_, {1}};
   const auto column = [](const LinearProfile& t) { return t.vertical_column(); };

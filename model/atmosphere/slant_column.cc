@@ -32,6 +32,7 @@ double scaled_erfc(double z) {
 struct Chapman {
   double value, by_x;
 };
+// docs/theory (1.11) and (1.12).
 Chapman chapman(double x, double mu) {
   const double a = 0.5 * x;
   const double mu2 = mu * mu;
@@ -57,6 +58,7 @@ Chapman chapman(double x, double mu) {
   return {x * sum, sum + x * slope};
 }
 
+// docs/theory (1.9) and (1.13).
 // Untruncated column to infinity, mu >= 0: rho(h) H Ch(x, mu).
 Column column_to_infinity(double bottom_radius, double height, double mu, double scale_height) {
   const double x = (bottom_radius + height) / scale_height;
@@ -66,6 +68,7 @@ Column column_to_infinity(double bottom_radius, double height, double mu, double
           {density * (c.value * (1 + height / scale_height) - x * c.by_x)}};
 }
 
+// docs/theory (1.15).
 // The profile between two heights of its piece number `piece`, along a ray that leaves `height`
 // upward t0 metres beyond its tangent point. t metres beyond that point (r^2 = r_t^2 + t^2) the
 // height is h0 + (t^2 - t0^2) / (r + r0), which is analytic but for t = +-i r_t.
@@ -117,6 +120,7 @@ double tangent_height(double bottom_radius, double height, double mu) {
 
 }  // namespace
 
+// docs/theory (1.14).
 Column exponential_column(double bottom_radius, double height, double mu, double top,
                           double scale_height) {
   auto to_infinity = [&](double h, double m) {

@@ -55,6 +55,7 @@ void validate(const Star& star) {
     throw std::invalid_argument("star.spectrum = tabulated: expected a table");
 }
 
+// docs/theory (10.2).
 double black_body_irradiance(double wavelength_nm, double temperature_k,
                              double angular_radius_rad) {
   constexpr double kPlanck = 6.62607015e-34, kLight = 299792458, kBoltzmann = 1.380649e-23;

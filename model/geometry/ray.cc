@@ -12,6 +12,7 @@ namespace {
 Shared<double> shared;  // stateless
 }
 
+// docs/theory (1.4) to (1.7).
 ViewRay view_ray(double bottom_radius, double top, double altitude, double mu) {
   ViewRay ray;
   double height = altitude, cosine = mu;
@@ -37,6 +38,7 @@ ViewRay view_ray(double bottom_radius, double top, double altitude, double mu) {
   return ray;
 }
 
+// docs/theory (1.1) and (1.2).
 RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s) {
   const double h =
       std::max(shared.height_after(bottom_radius, ray.entry_height, ray.entry_mu, s), 0.0);

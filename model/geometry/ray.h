@@ -29,6 +29,7 @@ struct RayPoint {
 };
 RayPoint ray_point(const ViewRay& ray, double bottom_radius, double s);
 
+// docs/theory (1.16).
 // Columns from the ray's entry to the point, of any type with +=, unary - and {} for none:
 // to_top(height, mu), mu >= 0, is that from a point upward.
 template <class ToTop>
@@ -59,10 +60,11 @@ auto columns_along(const ToTop& to_top, double bottom_radius, const ViewRay& ray
 std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
                                     const std::vector<double>& heights);
 
+// docs/theory (1.17).
 // The pieces of a quadrature from `begin` to `end` along a ray: in thick air, where two shells lie
-// many mean free paths apart along the horizon, the light comes from the nearest of them. No piece
-// is longer than its distance from the eye, or than 500 m, over which the thickest aerosol of the
-// parameters' table has an optical depth of 2.3. Calls piece(begin, end) in order.
+// many mean free paths apart along the horizon, the light comes from the nearest of them. A piece is
+// at most as long as its distance from the eye, or 500 m where that is more: over 500 m the standard
+// aerosol at its bounds has an optical depth of 1.7. Calls piece(begin, end) in order.
 template <class Piece>
 void for_pieces(double begin, double end, Piece&& piece) {
   constexpr double kNearest = 500;  // m

@@ -8,6 +8,7 @@
 
 namespace skyfit {
 
+// docs/theory (1.3) and (1.7).
 SunAlongRay::SunAlongRay(double bottom_radius, const ViewRay& ray, const SkyPoint& point)
     : bottom_radius_(bottom_radius), ray_(ray) {
   const double mu = std::cos(point.view_zenith), mu_s = std::cos(point.sun_zenith);
@@ -33,6 +34,7 @@ bool SunAlongRay::lit(const RayPoint& p, double mu_s) const {
   return mu_s >= 0 || shared.sphere_discriminant(bottom_radius_, p.height, mu_s, 0) < 0;
 }
 
+// docs/theory (1.8).
 // The shadow is the cylinder |p|^2 - (p . sun)^2 = R^2 behind the planet:
 // (r0^2 - a^2 - R^2) + 2 s (r0 mu0 - a nu) + s^2 (1 - nu^2) = 0 with a = r0 mu_s0.
 std::vector<double> SunAlongRay::shadow_edges() const {

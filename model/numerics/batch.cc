@@ -130,6 +130,7 @@ inline __attribute__((always_inline)) const Vector* vectors(const double* p) {
   return reinterpret_cast<const Vector*>(p);
 }
 
+// docs/theory (6.2) and (6.3).
 // K: how many scatterers, known to the compiler where there are few.
 template <std::size_t K>
 inline __attribute__((always_inline)) void layer_tangent_of(const LayerTangent& in, double* out,

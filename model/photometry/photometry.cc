@@ -25,6 +25,7 @@ std::vector<double> wavelengths_5nm() {
   return nm;
 }
 
+// docs/theory (10.1).
 // lx that each wavelength contributes per unit of radiance per irradiance: lm/W * colour matching *
 // irradiance * 5 nm.
 std::vector<double> photometric_weights(const SpectralData& data, const Spectrum& matching) {
@@ -66,6 +67,7 @@ std::vector<WavelengthNode> nodes_of(const SpectralData& data, std::span<const C
   return nodes;
 }
 
+// docs/theory (10.3).
 // The weights with which the nodes reproduce the 5 nm sum of every polynomial in wavelength that
 // they determine.
 std::vector<double> interpolatory_weights(const SpectralData& data, const Spectrum& matching,

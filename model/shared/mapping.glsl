@@ -27,6 +27,7 @@ bool ray_hits_ground(Number h, Number mu, Number bottom) {
 // Texture coordinate of x in [0, 1] in a table of `size` texels: half a texel, so that 0 and 1 hit texel centres.
 Number texture_from_unit(Number x, Number size) { return 0.5 / size + x * (1.0 - 1.0 / size); }
 
+// docs/theory (9.1).
 // Heights: about the logarithm of sqrt(h). Dense near the ground, where a ray along the ground changes with sqrt(h);
 // higher up the texels of 32 are 0.1 to 0.2 of their height apart. Deviation: Bruneton 2017 takes sqrt(h), which is coarse
 // within the aerosol.
@@ -39,6 +40,7 @@ Number height_from_unit(Number x_r, Number thickness) {
   return 0.03 * thickness * root * root;
 }
 
+// docs/theory (9.2).
 // Rays that leave through the top; this is the whole mapping of the transmittance table and the upper half of the
 // scattering table.
 Number unit_from_upward_ray(Number h, Number mu, Number bottom, Number thickness) {
@@ -72,6 +74,7 @@ Number mu_from_ground_unit(Number x_mu, Number h, Number bottom) {
   return d > Number(0.0) ? clamp(mu, Number(-1.0), Number(1.0)) : Number(-1.0);
 }
 
+// docs/theory (9.4).
 // The dip by which the sun's height is counted at a point above the ground. Seven tenths of the horizon's: the beam that
 // grazes the ground is dark, and what dims or lights the air is one that passes higher.
 Number sun_dip(Number h, Number bottom) { return 0.7 * horizon_distance(h, bottom) / (bottom + h); }
@@ -88,6 +91,7 @@ Number mu_s_from_sun_height(Number h, Number height, Number bottom) {
   return clamp(height * (1.0 + dip) - dip, Number(-1.0), Number(1.0));
 }
 
+// docs/theory (9.5).
 // Coordinate of the sun's height, by t = sqrt(1 - height), which is nearly the zenith angle; finest, 0.3
 // degrees with 64 texels, at the edge of the shadow, on which the 22nd of them lies when the lowest sun is -0.2079: the
 // light has a kink there. Deviation: Bruneton 2017 takes distances to the top, which leaves 3 of 48 texels for suns
@@ -110,6 +114,7 @@ Number sun_from_unit(Number x, Number lowest) {
   return clamp(1.0 - t * t, lowest, Number(1.0));
 }
 
+// docs/theory (9.7).
 // The sun's height and azimuth in the scattering table are those at a point of the ray about which most of the light is
 // scattered: along a limb they change by many degrees, and with the azimuth. It is the ground where the ray ends there,
 // otherwise three quarters of the way to the ray's lowest point, rounded off over a hundredth of the radius, so that rays
@@ -138,6 +143,7 @@ Number unit_from_azimuth(Number cosine) { return acos(cosine) * 0.31830988618379
 Number sky_from_root(Number s) { return 0.625 * (1.8 - sqrt(max(3.24 - 3.2 * s, Number(0.0)))); }
 Number root_from_sky(Number x) { return x * (1.8 - 0.8 * x); }
 
+// docs/theory (9.3).
 // Texture coordinate of the view zenith in the scattering table, from the nadir to the zenith: rays to the ground have
 // the first ground_size texels, rays to the sky the other sky_size; the two meet at the horizon and share no texel.
 // Deviation: powers of Bruneton's distances, which spread the texels over the sky instead of one over the 30 degrees

@@ -13,6 +13,7 @@
 
 namespace skyfit {
 
+// docs/theory (4.4).
 void normalised_legendre(int m, int count, double mu, double* out) {
   const double sine = std::sqrt(std::max(1 - mu * mu, 0.0));
   double diagonal = std::sqrt(0.25 / std::numbers::pi);
@@ -48,6 +49,7 @@ ModeBasis mode_basis(const Streams& streams, const std::vector<double>& sun_mu, 
   return basis;
 }
 
+// docs/theory (4.11).
 // Modes that matter to the field of one wavelength: the moments of order m and above of light that
 // has been scattered once, scattered again, as a share of all light.
 template <int N>

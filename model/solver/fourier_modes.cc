@@ -67,6 +67,7 @@ void FourierModes::set_basis(const std::vector<ModeBasis>& bases) {
   }
 }
 
+// docs/theory (4.10).
 // Matrices of the source that radiance makes: of rays that look the same way, and the other way.
 void FourierModes::scattering(int level, Batch& same, Batch& other) const {
   const std::size_t n = rays(level);
@@ -108,6 +109,7 @@ void FourierModes::eliminate() {
   }
 }
 
+// docs/theory (5.5) to (5.9).
 // From R_i to R_{i+1}, and the matrices of both sweeps. A limb ray that begins at level i + 1 has
 // U = D there.
 void FourierModes::eliminate_layer(int layer, const Batch& same, const Batch& other,
@@ -168,6 +170,7 @@ void FourierModes::eliminate_layer(int layer, const Batch& same, const Batch& ot
   forward_[layer] = columns_of(upward, width, above, n, 3 * n);
 }
 
+// docs/theory (4.9).
 // Values at the rays from moments: first those of the rays that look up.
 FourierModes::Columns FourierModes::at_rays(const std::vector<Parities>& moments,
                                             std::size_t columns) const {
@@ -236,6 +239,7 @@ FourierModes::Columns FourierModes::source_function(const Sources& sources) cons
   return r;
 }
 
+// docs/theory (5.2).
 // What the beam's light, scattered once in a layer, adds to the rays that leave it.
 void FourierModes::beam_sources() {
   if (beam_source_.count == 0) {

@@ -4,6 +4,7 @@
 
 namespace skyfit {
 
+// docs/theory (7.3).
 // P_m = df_m/dtheta - m cot f_m for the mode m + 1, Q_m = df_m/dtheta + m cot f_m for m - 1.
 void FourierModes::set_neighbour(const HorizontalCoupling& coupling, int layer,
                                  const Batch& from_afar, std::size_t parameters, Batch& to_next,
@@ -37,6 +38,7 @@ void FourierModes::set_neighbour(const HorizontalCoupling& coupling, int layer,
   }
 }
 
+// docs/theory (7.5).
 // The light that enters a layer at its far end, as it is at the near end.
 void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
   const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
@@ -77,6 +79,7 @@ void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
   }
 }
 
+// docs/theory (7.4).
 // Adds -psi / 2 (P_{m-1} + Q_{m+1}), in mode 0 -psi Q_1.
 void FourierModes::add_coupling(const HorizontalCoupling& coupling,
                                 const std::vector<std::optional<FourierModes>>& packs, int at_once,

@@ -21,6 +21,7 @@ double derivative(const Dual<N>& x, std::size_t p) {
   return x.d[p];
 }
 
+// docs/theory (3.10) and (3.11).
 // I = t I_far + near J_near + far J_far and the derivatives of near and far by x.
 struct DiffuseWeights {
   double t, near, far, near_slope, far_slope;
@@ -37,6 +38,7 @@ DiffuseWeights diffuse_weights(double x) {
   return {t, 1 - mean, mean - t, -mean_slope, mean_slope + t};
 }
 
+// docs/theory (3.13).
 // Integrals over u = 0 .. 1 of exp(-y u) times 1 - u, u and u^2.
 struct BeamIntegrals {
   double a, b, c;
@@ -55,6 +57,7 @@ BeamIntegrals beam_integrals(double y) {
   return {i0 - i1, i1, i2};
 }
 
+// docs/theory (3.12) and (3.14).
 // Values and slopes by x, the near end's and the far end's depth of the sun.
 struct BeamWeight {
   double near, far;
@@ -191,6 +194,7 @@ class LaneFiller {
       tangent[(index * medium_.parameters + p) * kBatchWidth + lane_] = derivative(x, p);
   }
 
+  // docs/theory (4.6): the share of each scatterer.
   void set_level(std::size_t level, const Densities<N>& rho) {
     Dual<N> extinction;
     for (std::size_t k = 0; k < optics_.profiles.size(); ++k)

@@ -9,6 +9,7 @@
 
 namespace skyfit {
 
+// docs/theory (3.1).
 LevelGrid::LevelGrid(const Shells& shells, int count) {
   for (int i = 0; i < count; ++i) {
     const double x = static_cast<double>(i) / (count - 1);

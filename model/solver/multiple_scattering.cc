@@ -106,6 +106,7 @@ const double* MultipleScattering<N>::block_at(const Group& group, const DiffuseF
   return scratch.data();
 }
 
+// docs/theory (8.5).
 template <int N>
 void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights<N>> weights,
                                      int wave, int m) const {

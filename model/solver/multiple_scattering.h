@@ -25,8 +25,8 @@ struct PathWithSuns {
   std::vector<SunOfPath> suns;
 };
 
-// A few paths at a time share the work at each level. `stencil` maps a cosine of the local sun to
-// the solved suns of the fields, one field and optics per wavelength.
+// A few paths at a time share the work at each level. `solved` maps nodes of the sun grid to the
+// solved suns of the fields; one field and optics per wavelength.
 template <int N>
 class MultipleScattering {
  public:

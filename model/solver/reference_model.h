@@ -2,8 +2,8 @@
 // `reference`: the yardstick. Single scattering by quadrature in spherical geometry with the true
 // phase function; multiple scattering from the diffuse field (model/solver/diffuse_field.h), solved
 // in spherical shells, its source integrated along the spherical view ray at the local sun; Lambert
-// ground, ozone. Unpolarised, no refraction. README.md, Accuracy, states the error against Monte
-// Carlo.
+// ground, ozone. Unpolarised, no refraction. docs/theory/ derives it, docs/accuracy.md states the
+// error against Monte Carlo.
 #pragma once
 
 #include "model/sky_model.h"

@@ -185,6 +185,7 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
   std::vector<Dual<N>> light;
   for (const Scatterer<N>& scatterer : optics.scatterers) {
     const std::vector<std::vector<double>>& density = nodes.density[scatterer.profile];
+    // docs/theory (8.2) and (8.3).
     // Sum over the ray of rho T ds; d T = -T d tau, tau = sum of extinction times column.
     Dual<N> sum(
         kernels::product_and_sum(count, through.data(), density[0].data(), scattered.data()));

@@ -37,6 +37,7 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
       {options.moments, options.tolerance, std::max(options.order - 1, 0)});
 }
 
+// docs/theory (8.6).
 template <int N>
 Dual<N> SkySolution<N>::ground(const ViewPath& path, const SunAlongRay& sun, int wavelength,
                                bool beam, bool diffuse) const {

@@ -79,6 +79,7 @@ Streams::Streams(double bottom_radius, const std::vector<double>& heights, int g
   }
 }
 
+// docs/theory (3.7) and (3.8).
 // Rays to the ground that do not resolve the band between them and the horizon stand for a part of
 // it already. The weights near the horizon are moved, as little as possible, so that 1, P_2, P_4
 // and mu integrate to 1, 0, 0 and 1/2: scattering loses nothing.

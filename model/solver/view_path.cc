@@ -88,6 +88,7 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
   return path;
 }
 
+// docs/theory (8.5).
 template <int N>
 NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path) {
   NodeWeights<N> weights(optics.scatterers.size(), std::vector<Dual<N>>(path.nodes.size()));

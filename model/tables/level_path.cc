@@ -165,6 +165,7 @@ void for_parts(double begin, double end, const std::vector<double>& edges, const
 
 }  // namespace
 
+// docs/theory (9.11).
 std::vector<LevelNode> level_path(const Shells& shells, const NodeOptics& optics,
                                   const std::vector<double>& heights, const ViewRay& ray,
                                   int level) {

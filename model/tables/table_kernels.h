@@ -49,6 +49,7 @@ struct TableNode {
 void add_node(const TableNode& node, const float* mu_s, const float* nu, std::size_t cells,
               float* single, float* multiple);
 
+// docs/theory (9.8).
 // The texels of a ray: logarithms of scale * (single of kind 0 + multiple / phase) and of scale *
 // single of each other kind, at least `darkest` before the logarithm. out[kind]:
 // [cell][wavelength].

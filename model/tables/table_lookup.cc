@@ -84,6 +84,7 @@ struct TableRay {
             texels.rows()};
   }
 
+  // docs/theory (9.9).
   // From the logarithms of the amplitudes.
   NodeValues radiance(const NodeValues& rayleigh_like, std::span<const NodeValues> single) const {
     const double rayleigh_phase = shared.rayleigh_phase(tables.phases.depolarisation, nu);
@@ -122,6 +123,7 @@ TablePlace place_along(const AtmosphereTables& tables, const TablePlace& from, d
           std::clamp((r0 * from.mu_s + distance * nu) / r, -1.0, 1.0)};
 }
 
+// docs/theory (9.10).
 NodeValues lookup_transmittance(const AtmosphereTables& tables, const TablePlace& from,
                                 const TablePlace& to, bool downward) {
   const double sign = downward ? -1 : 1;
