@@ -62,9 +62,9 @@ std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
 
 // docs/theory (1.17).
 // The pieces of a quadrature from `begin` to `end` along a ray: in thick air, where two shells lie
-// many mean free paths apart along the horizon, the light comes from the nearest of them. A piece is
-// at most as long as its distance from the eye, or 500 m where that is more: over 500 m the standard
-// aerosol at its bounds has an optical depth of 1.7. Calls piece(begin, end) in order.
+// many mean free paths apart along the horizon, the light comes from the nearest of them. A piece
+// is at most as long as its distance from the eye, or 500 m where that is more: over 500 m the
+// standard aerosol at its bounds has an optical depth of 1.7. Calls piece(begin, end) in order.
 template <class Piece>
 void for_pieces(double begin, double end, Piece&& piece) {
   constexpr double kNearest = 500;  // m

@@ -66,8 +66,8 @@ TEST(Truth, PlaneParallelLimit) {
 TEST(Truth, MonteCarlo) {
   std::map<std::string, std::vector<Row>> cases;
   for (const Row& row : read_rows("monte_carlo.csv")) cases[row.field[0]].push_back(row);
-  // The limits that the regions of docs/accuracy.md are held to. Two carry the noise of their rows besides:
-  // Mars 1 % and 0.86 % of noise, deep twilight 3.5 % and 1.4 %.
+  // The limits that the regions of docs/accuracy.md are held to. Two carry the noise of their rows
+  // besides: Mars 1 % and 0.86 % of noise, deep twilight 3.5 % and 1.4 %.
   const std::map<std::string, Limits> limits = {{"clear-400nm", {0.01, 0.03}},
                                                 {"haze-650nm", {0.01, 0.03}},
                                                 {"peaked-haze", {0.01, 0.03}},
