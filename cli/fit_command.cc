@@ -139,12 +139,12 @@ void add_problem_options(CLI::App& command, FitCommandOptions& options) {
       ->capture_default_str();
   command
       .add_option("--free", options.free,
-                  "The free parameters, exactly these; none evaluates measured skies")
+                  "Fit exactly these parameters; none evaluates measured skies")
       ->type_name("NAME,NAME");
   command.add_option("--fix", options.fix, "Hold parameters at a value")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--prior", options.prior, "Gaussian prior, in the place of the default one")
+  command.add_option("--prior", options.prior, "Gaussian prior, which replaces the default one")
       ->type_name("NAME=MEAN:SIGMA")
       ->allow_extra_args(false);
   command.add_flag("--no-priors", options.no_priors, "Drop the default priors");
@@ -188,8 +188,9 @@ void add_fit_command(CLI::App& app) {
   command->footer(
       "Leaves preset.json, report.txt, report.json, samples.csv, comparison.svg and "
       "comparison.png\n"
-      "in the directory; of measured skies measured.csv and the figures maps, spectra, residuals,\n"
-      "corner and series in the place of the last three. A figure that cannot be drawn is missing "
+      "in the directory; for measured skies measured.csv and the figures maps, spectra, "
+      "residuals,\n"
+      "corner and series replace the last three. A figure that cannot be drawn is missing "
       "from\n"
       "the result and makes the exit status 1. A LIST is a,b,c or start:stop:step, stop "
       "included.\n"

@@ -157,7 +157,7 @@ void add_check_options(CLI::App& command, MeasuredArguments& arguments) {
                   "the directions")
       ->type_name("scans|N")
       ->group(std::string(kGroup));
-  command.add_option("--seed", arguments.seed, "Of --bootstrap and --hold-out N")
+  command.add_option("--seed", arguments.seed, "Seed of --bootstrap and --hold-out N")
       ->check(CLI::Range(0, 2147483647).description(""))
       ->group(std::string(kGroup))
       ->capture_default_str();
@@ -176,15 +176,16 @@ void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
   add("--per-scan", arguments.per_scan, "Free parameters of which every scan has its own",
       "NAME,NAME");
   add("--scale", arguments.scale,
-      "absolute, or an unknown scale, shared or per-scan (prior 1+-0.05)", "NAME");
+      "Calibration: absolute, or an unknown scale, shared or per-scan (prior 1+-0.05)", "NAME");
   add("--pointing", arguments.pointing,
-      "stated, or an unknown azimuth offset per scan (azimuth), or two tilts as well (tilt)",
+      "Pointing: stated, an unknown azimuth offset per scan (azimuth), or two tilts as well (tilt)",
       "NAME");
   add("--noise", arguments.noise,
-      "Noise to be taken at its word, relative and absolute; by default 0.05 times a factor that "
-      "the residuals show",
+      "Known noise, relative and absolute, which the residuals do not rescale; by default 0.05 "
+      "times a factor that the residuals show",
       "RELATIVE[:FLOOR]");
-  add("--loss", arguments.loss, "Of a direction's mean square: none, huber or cauchy", "NAME");
+  add("--loss", arguments.loss,
+      "Robust loss of a direction's mean square residual: none, huber or cauchy", "NAME");
   add("--ground", arguments.ground,
       fmt::format(
           "How the ground's albedo depends on wavelength: {}; by default as the preset says",
@@ -192,7 +193,7 @@ void add_measured_options(CLI::App& command, MeasuredArguments& arguments) {
       "NAME|FILE");
   command
       .add_flag("--keep-absorption-bands", arguments.keep_absorption_bands,
-                "Fit 686-694, 715-735 and 758-772 nm too, where oxygen and water vapour absorb")
+                "Fit the bands too where oxygen, water vapour, carbon dioxide and methane absorb")
       ->group(std::string(kGroup));
   add_check_options(command, arguments);
 }

@@ -50,7 +50,7 @@ void add_render_command(CLI::App& app) {
       "  skyfit render --preset earth-clear --sun-zenith-deg 60 --size 1280x720\n"
       "         --out frame.png --out frame.exr\n"
       "  skyfit render --preset earth-clear --latitude-deg 47 --longitude-deg 8 --heading-deg 60\n"
-      "         --date 2026-06-21 --time 03:00..20:00 --out-dir film\n"
+      "         --date 2026-06-21 --time 03:00..20:00 --out-dir day\n"
       "  skyfit render --preset earth-clear --strip mie.scattering=1e-6..8e-5:4 --size 320x240\n"
       "         --out strip.png");
   command->callback([options, command] { run_render(*options, *command); });

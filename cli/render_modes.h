@@ -11,7 +11,7 @@ void render_picture(const RenderRequest& request);
 // Frames side by side in which one parameter varies.
 void render_strip(const RenderRequest& request);
 
-// Numbered frames and a film; what is there already is kept.
+// Numbered frames and a video; what is there already is kept.
 void render_sequence(const RenderRequest& request);
 
 }  // namespace skyfit::cli

@@ -36,30 +36,33 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
   group.option("--latitude-deg", options.latitude, "ANGLE", "Place of the camera, north > 0");
   group.option("--longitude-deg", options.longitude, "ANGLE", "Place of the camera, east > 0");
   group.option("--altitude-m", options.altitude, "LENGTH",
-               "Height above the bottom of the atmosphere, which is sea level");
-  group.option("--above-ground-m", options.above_ground, "LENGTH", "Height above the ground");
+               "Height of the camera above sea level, the bottom of the atmosphere");
+  group.option("--above-ground-m", options.above_ground, "LENGTH",
+               "Height of the camera above the ground");
   group.option("--heading-deg", options.heading, "ANGLE",
-               "Of the picture's centre, from north over east; at a place");
+               "Direction of the picture's centre, from north over east; needs a place");
   group.option("--azimuth-deg", options.azimuth, "ANGLE",
-               "Of the picture's centre, 0 = toward the sun");
-  group.option("--pitch-deg", options.pitch, "ANGLE", "Of the picture's centre, above the horizon");
+               "Direction of the picture's centre, 0 = toward the sun");
+  group.option("--pitch-deg", options.pitch, "ANGLE",
+               "Angle of the picture's centre above the horizon");
   group.option("--view-zenith-deg", options.view_zenith, "ANGLE",
-               "Of the picture's centre, 90 = the horizon");
+               "Zenith angle of the picture's centre, 90 = the horizon");
   group.option("--look-at", options.look_at, "LAT,LON,ALT",
-               "A point (degrees, metres above sea level) in the picture's centre; at a place");
-  group.option("--field-of-view-deg", options.field_of_view, "ANGLE", "From bottom to top");
+               "Point (degrees, metres above sea level) in the picture's centre; needs a place");
+  group.option("--field-of-view-deg", options.field_of_view, "ANGLE", "Angle from bottom to top");
 }
 
 void add_sun_options(CLI::App& command, RenderOptions& options) {
   Group group(command, "Sun");
   group.option("--sun-zenith-deg", options.sun_zenith, "ANGLE",
-               "Zenith angle, 0 to 180; by default one that suits the view");
+               "Zenith angle of the sun, 0 to 180; by default one that suits the view");
   group.option("--sun-azimuth-deg", options.sun_azimuth, "ANGLE",
-               "From north over east; at a place");
-  group.option("--date", options.date, "YYYY-MM-DD", "The sun of a day over the place");
+               "Azimuth of the sun, from north over east; needs a place");
+  group.option("--date", options.date, "YYYY-MM-DD", "Day of the sun over the place");
   group.option("--time", options.time, "HH:MM[..HH:MM]",
-               "Time of that day, or a sequence from one to another");
-  group.option("--utc-offset-h", options.utc_offset, "HOURS", "How far the clock is ahead of UTC")
+               "Time of that day, or two times for a sequence of frames");
+  group
+      .option("--utc-offset-h", options.utc_offset, "HOURS", "Hours that the clock is ahead of UTC")
       ->capture_default_str();
 }
 
@@ -69,14 +72,14 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
                "Picture of the planet's heights, 2:1 from pole to pole or six cube faces 6:1");
   group
       .option("--height-range-m", options.height_range, "LOW..HIGH",
-              "Heights of its darkest and its brightest value")
+              "Heights of the map's darkest and brightest value")
       ->capture_default_str();
   group.option("--color-map", options.color_map, "FILE",
-               "Colours of the ground, laid out the same");
-  group.option("--water-level-m", options.water_level, "LENGTH", "Of the sea")
+               "Colours of the ground, with the layout of a height map");
+  group.option("--water-level-m", options.water_level, "LENGTH", "Height of the sea")
       ->capture_default_str();
   group.option("--textures", options.textures, "DIR",
-               "Textures of the ground's materials; those that are missing are made there");
+               "Textures of the ground's materials; missing ones are made and kept there");
   group
       .option("--mesh", options.meshes, "FILE@LAT,LON,ALT[,HEADING[,SCALE]]",
               "A Wavefront OBJ at a place (degrees, metres above sea level); may be repeated")
@@ -86,7 +89,7 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
   group.option("--second-sun", options.second_sun, "ZENITH,AZIMUTH,SHARE",
                "Another sun (degrees, from the first) and its share of the first's light");
   group.option("--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
-               "A sheet of clouds: share of the sky, metres, opacity");
+               "A sheet of clouds: fraction of the sky, altitude in metres, opacity");
   group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
 }
 
@@ -95,14 +98,14 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   group.option("--size", options.size, "WxH", "Size in pixels")->capture_default_str();
   group
       .option("--samples-per-side", options.samples_per_side, "INT",
-              "A pixel is the mean of the square of this, 1 to 4")
+              "Samples of a pixel along each side, 1 to 4")
       ->capture_default_str();
   group
       .option(
           "--aerial", options.aerial, "pixel|volume",
-          "The air before the ground, by pixel or, faster, from a volume of 32 x 32 x 16; by pixel "
-          "with meshes, a moon or a second sun, from above 12 km and where ground may rise above "
-          "the air")
+          "Light of the air before the ground: by pixel, or faster from a volume of 32 x 32 x 16. "
+          "It is by pixel with meshes, a moon or a second sun, above 12 km, and where the ground "
+          "may rise above the air")
       ->capture_default_str();
   group.flag("--gpu", options.gpu, "Draw through EGL, on a GPU where there is one");
   group.option("--exposure", options.exposure, "K",
@@ -113,17 +116,18 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
   group
       .option("--tone", options.tone, "filmic|exponential",
-              "Tone curve of the PNG: of film, or 1 - exp(-K L)")
+              "Tone curve of the PNG: a fit of the ACES curve, or 1 - exp(-K L)")
       ->capture_default_str();
   group
       .option("--primaries", options.primaries, "rec709|rec2020|xyz",
-              "Of the EXR's colours, all with the white D65; light outside their gamut is less "
-              "saturated, of the same luminance and hue")
+              "Primaries of the EXR's colours, all with the white D65; light outside their gamut "
+              "becomes less saturated at the same luminance and hue")
       ->capture_default_str();
   group
-      .option("--adaptation-s", options.adaptation, "SECONDS",
-              "How fast the automatic exposure of a sequence follows the light; time of the scene, "
-              "of which much may pass between two frames of a day")
+      .option(
+          "--adaptation-s", options.adaptation, "SECONDS",
+          "Time in which the automatic exposure of a sequence follows the light, in the scene's "
+          "time; minutes of it may pass between two frames of a day")
       ->capture_default_str();
 }
 
@@ -132,14 +136,16 @@ void add_sequence_options(CLI::App& command, RenderOptions& options) {
   group.option("--sequence", options.sequence, "FILE",
                "Keyframes of camera, sun and preset as JSON");
   group.option("--step-min", options.step_min, "MINUTES",
-               "Between frames of --time; by default a film of 10 s");
+               "Minutes between frames of --time; by default the sequence lasts 10 s");
   group.option("--frames", options.frames, "N", "Number of frames of --time");
-  group.option("--frames-per-second", options.frames_per_second, "N", "Of the film of --time")
+  group
+      .option("--frames-per-second", options.frames_per_second, "N",
+              "Frames per second of the video of --time")
       ->capture_default_str();
   group.option("--out-dir", options.out_dir, "DIR",
-               "For frame_00000.png .. and, with ffmpeg, sequence.mp4; what is there already "
-               "is kept");
-  group.option("--format", options.format, "png|exr|png,exr", "Of the frames in --out-dir")
+               "Directory of frame_00000.png .. and, with ffmpeg, sequence.mp4; frames that are "
+               "there already are kept");
+  group.option("--format", options.format, "png|exr|png,exr", "Format of the frames in --out-dir")
       ->capture_default_str();
   group.option("--strip", options.strip, "PARAMETER=LOW..HIGH[:N]",
                "N frames (5) side by side in which a parameter of the preset varies");
@@ -198,9 +204,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--out", options.out, "frame.png or frame.exr; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_flag("--layers", options.layers,
-                   "Also in the EXR: light of the air and of the ground, transmittance, normal, "
-                   "albedo");
+  command.add_flag(
+      "--layers", options.layers,
+      "Add to the EXR: light of the air and of the ground, transmittance, normal, albedo");
   command.add_flag("--stats", options.stats, "Print triangles, blocks and the time of every pass");
   add_threads_option(command, options.threads);
   add_camera_options(command, options);

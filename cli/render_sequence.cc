@@ -84,7 +84,7 @@ class Shooting {
   int drawn_ = 0;
 };
 
-// The film, or how to make it: a clause for the summary.
+// The video, or how to make it: a clause for the summary.
 std::string film(const RenderRequest& request, FrameStore& store) {
   if (std::ranges::count(request.extensions, ".png") == 0) return {};
   const std::filesystem::path directory = request.out_dir;
@@ -92,7 +92,7 @@ std::string film(const RenderRequest& request, FrameStore& store) {
   const double rate = request.sequence.frames_per_second;
   const auto ffmpeg = program_in_path("ffmpeg");
   if (!ffmpeg) {
-    fmt::print(stderr, "skyfit: no ffmpeg in PATH, so no film; to make it: {}\n",
+    fmt::print(stderr, "skyfit: no ffmpeg in PATH, so no video is made; to make it: {}\n",
                video_command(directory, frames, rate));
     return {};
   }
@@ -101,7 +101,7 @@ std::string film(const RenderRequest& request, FrameStore& store) {
     make_video(*ffmpeg, directory, frames, rate);
     store.note_video(frames, rate);
   }
-  return fmt::format(", film {}", video.string());
+  return fmt::format(", video {}", video.string());
 }
 
 }  // namespace

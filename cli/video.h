@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of numbered pictures, by ffmpeg.
+// A video of numbered pictures, by ffmpeg.
 #pragma once
 
 #include <filesystem>

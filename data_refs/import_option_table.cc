@@ -63,14 +63,16 @@ Rows time_and_place() {
           [](const std::string& value) { return instant(value, 0).has_value(); },
           "Date and time of the scan on the clock of the site"),
       number("utc_offset_h", &Options::utc_offset_h, -14, 14,
-             "Hours that this clock is ahead of UTC"),
-      number("latitude_deg", &Options::latitude_deg, -90, 90, "Of the site, north > 0"),
-      number("longitude_deg", &Options::longitude_deg, -180, 360, "Of the site, east > 0"),
-      number("elevation_m", &Options::elevation_m, -500, 9000, "Of the site above the sea"),
+             "Hours that the clock of local_time is ahead of UTC"),
+      number("latitude_deg", &Options::latitude_deg, -90, 90, "Latitude of the site, north > 0"),
+      number("longitude_deg", &Options::longitude_deg, -180, 360,
+             "Longitude of the site, east > 0"),
+      number("elevation_m", &Options::elevation_m, -500, 9000,
+             "Elevation of the site above the sea"),
       number("sun_zenith_deg", &Options::sun_zenith_deg, 0, 180,
-             "Of the sun, where time and site are not known"),
+             "Zenith angle of the sun, where time and site are not known"),
       number("sun_azimuth_deg", &Options::sun_azimuth_deg, -360, 360,
-             "Of the sun, clockwise from north")};
+             "Azimuth of the sun, clockwise from north")};
   // On the command line a sun is one of analytic references.
   for (ImportOptionRow& row : rows) row.on_command_line = !row.name.starts_with("sun_");
   return rows;
@@ -82,58 +84,61 @@ Rows samples() {
               [](const std::string& value) { return find_unit(value).has_value(); },
               "Unit of the values"),
           number("saturation", &Options::saturation, kSmallest, kInfinity,
-                 "Values from here on, in the unit of the file, are not used"),
+                 "Values from this one on, in the unit of the file, are not used"),
           number("near_sun_deg", &Options::near_sun_deg, 0, 180,
                  "Samples closer to the sun are not used")};
 }
 
 Rows azimuths() {
   return {choice("azimuth_zero", &Options::azimuth_zero, {"north", "south"},
-                 "Where the azimuths of the file start"),
+                 "Direction of azimuth 0 in the file"),
           choice("azimuth_turns", &Options::azimuth_turns, {"clockwise", "counter-clockwise"},
-                 "Seen from above")};
+                 "Sense of the azimuths, seen from above")};
 }
 
 Rows patches() {
   return {choice("patch_order", &Options::patch_order, {"boustrophedon", "rows"},
-                 "Of a scan of 145 patches: to and fro, or every row from azimuth zero on")};
+                 "Order of a scan of 145 patches: rows in alternating or in one direction")};
 }
 
 Rows bands() {
   return {number("band_nm", &Options::band_nm, 1, 100,
-                 "Width of the bands over which a folder of spectra is averaged, else 5")};
+                 "Width of the bands over which a folder of spectra is averaged, by default 5")};
 }
 
 Rows images() {
   constexpr double kMostPixels = 1e6;
   return {choice("projection", &Options::projection,
-                 {"equidistant", "equisolid", "orthographic", "polynomial"}, "Of a fisheye image"),
+                 {"equidistant", "equisolid", "orthographic", "polynomial"},
+                 "Projection of a fisheye image"),
           text(
               "lens_polynomial", &Options::lens_polynomial, "C1,C2,..",
               [](const std::string& value) { return !number_list(value).empty(); },
               "Radius over radius_px = C1 s + C2 s^2 + .., s the zenith angle over 90 deg"),
           number("centre_x_px", &Options::centre_x_px, -kMostPixels, kMostPixels,
-                 "Of the zenith, from the left edge, else the middle"),
+                 "Zenith in an image, from the left edge; by default the middle"),
           number("centre_y_px", &Options::centre_y_px, -kMostPixels, kMostPixels,
-                 "Of the zenith, from the upper edge, else the middle"),
+                 "Zenith in an image, from the upper edge; by default the middle"),
           number("radius_px", &Options::radius_px, 1, kMostPixels,
-                 "Of the horizon, else half the shorter side"),
+                 "Radius of the horizon; by default half the shorter side"),
           number("north_deg", &Options::north_deg, -360, 360,
-                 "Where north lies in the image, clockwise from its upper edge, else 0"),
+                 "Direction of north in the image, clockwise from its upper edge, by default 0"),
           choice("east", &Options::east, {"left", "right"},
-                 "Of north in the image; left, as one looks up, unless it was flipped"),
+                 "Side of east where north is up; left, unless the image was flipped"),
           number("lumen_per_watt", &Options::lumen_per_watt, kSmallest, kInfinity,
-                 "179 or 683: makes luminances of pixels in W m-2 sr-1, in the place of unit"),
+                 "Luminance per radiance (179 or 683) of pixels in W m-2 sr-1; replaces the unit"),
           number("calibration", &Options::calibration, kSmallest, kInfinity,
                  "Factor on the pixels of an image"),
           choice("primaries", &Options::primaries, {"srgb", "radiance"},
-                 "Of the pixels' red, green and blue, else srgb in EXR and radiance in HDR"),
+                 "Primaries of the pixels, by default srgb in EXR and radiance in HDR"),
           text(
               "mask", &Options::mask, "an image of the same size",
               [](const std::string& value) { return !value.empty(); },
-              "Its dark pixels are not used; a sidecar names it from its own folder"),
+              "Pixels that are dark in this image are not used; a sidecar names it from its own "
+              "folder"),
           number("bin_deg", &Options::bin_deg, 1, 30,
-                 "Height of the bins over which pixels are averaged, else 6; 12: the 145 patches")};
+                 "Height of the bins over which pixels are averaged, by default 6; 12 gives the "
+                 "145 patches")};
 }
 
 Rows make_table() {

@@ -54,7 +54,7 @@ struct MeasuredOptions {
   Pointing pointing = Pointing::kAzimuth;
   std::map<Instrument, Prior> instrument_priors;  // in place of the table's, in its units
   NoiseModel noise;
-  bool noise_is_stated = false;  // true: sigma is taken at its word
+  bool noise_is_stated = false;  // true: known noise, sigma is not rescaled
   Loss loss = Loss::kNone;
   double loss_width = 3;  // sigmas
   std::optional<std::shared_ptr<const GroundSpectrum>>

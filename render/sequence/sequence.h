@@ -79,7 +79,7 @@ struct Shot {
 };
 
 // How long it takes in the scene from one frame to another, s: by the clock where the sun has one,
-// so that minutes may pass between two frames of a day; by the film where it has none.
+// so that minutes may pass between two frames of a day; by the sequence where it has none.
 double scene_seconds(const Sequence& sequence, int from, int to);
 
 // Before the first keyframe and after the last, theirs.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Driving the renderer: strips, sequences that are kept, continued and redrawn, films, and what is
+// Driving the renderer: strips, sequences that are kept, continued and redrawn, videos, and what is
 // refused before anything is drawn.
 #include <nlohmann/json.hpp>
 
@@ -76,7 +76,7 @@ TEST_F(RenderTest, ASequenceIsKeptContinuedAndRedrawn) {
   const Outcome second = run(command, {programs});
   ASSERT_EQ(second.status, 0) << second.err;
   EXPECT_EQ(second.err, "");
-  EXPECT_THAT(second.out, HasSubstr("0 drawn, 3 kept, film film/sequence.mp4"));
+  EXPECT_THAT(second.out, HasSubstr("0 drawn, 3 kept, video film/sequence.mp4"));
   EXPECT_EQ(time_of("film/frame_00001.png"), drawn);
   EXPECT_THAT(read("film/sequence.mp4"), HasSubstr("-framerate 10"));
   EXPECT_THAT(read("film/sequence.mp4"), HasSubstr("yuv420p"));
