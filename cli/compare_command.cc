@@ -225,9 +225,10 @@ void add_compare_command(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("compare", "Compares sky models with a reference, side by side.");
   command
-      ->add_option("--reference", options->reference,
-                   "Shipped reference (skyfit references), perez:EPSILON,DELTA, a CSV of\n"
-                   "samples, or model:reference, which is our own solver with --preset")
+      ->add_option(
+          "--reference", options->reference,
+          "Shipped reference (skyfit references), perez:EPSILON,DELTA, a CSV of\n"
+          "samples, or model:reference, the reference model with the atmosphere of --preset")
       ->required()
       ->type_name("NAME|FILE");
   add_sampling_options(*command, options->sampling, options->sun_zenith);

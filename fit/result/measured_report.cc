@@ -93,13 +93,12 @@ std::string unknowns_text(const MeasuredResult& result) {
         remark(row)));
   }
   text += fmt::format(
-      "Residuals weigh with {:.3g} times the assumed sigma; correlated as they are, {} samples "
-      "count as "
-      "{:.3g}\nindependent ones, and one sigma allows for it. chi^2 per degree of freedom under "
-      "the "
-      "assumed noise: {:.4g}.\n"
+      "Residuals are weighted with {:.3g} times the assumed sigma. They are correlated: {} samples "
+      "count as {:.3g}\nindependent ones, and one sigma includes this. chi^2 per degree of freedom "
+      "under the assumed noise: {:.4g}.\n"
       "\"not identifiable\": the data say less about the unknown than its prior (without one: than "
-      "its bounds).\nUnknowns at a bound have no sigma; those of the others hold with it there.\n",
+      "its bounds).\nAn unknown at a bound has no sigma; the sigmas of the others hold for it at "
+      "that bound.\n",
       result.sigma_factor, result.samples, result.effective_samples, result.chi_square_per_dof);
   return text + "\n";
 }

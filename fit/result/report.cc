@@ -76,7 +76,7 @@ std::string sigma_text(const FitResult& result) {
         result.sigma_log_percent);
     if (result.effective_samples < 0.95 * result.samples) {
       text += fmt::format(
-          "Neighbouring residuals agree, so that {} samples count as {:.3g} independent ones.\n",
+          "Neighbouring residuals are correlated: {} samples count as {:.3g} independent ones.\n",
           result.samples, result.effective_samples);
     }
   } else {
@@ -89,8 +89,9 @@ std::string sigma_text(const FitResult& result) {
   text +=
       "\"not identifiable\": the data say less about the parameter than its prior (without a "
       "prior: "
-      "than its\nbounds). Parameters at a bound have no sigma; those of the others hold with it "
-      "there.\n";
+      "than its\nbounds). A parameter at a bound has no sigma; the sigmas of the others hold for "
+      "it "
+      "at that bound.\n";
   return text + "\n";
 }
 
