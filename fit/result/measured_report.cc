@@ -93,8 +93,9 @@ std::string unknowns_text(const MeasuredResult& result) {
         remark(row)));
   }
   text += fmt::format(
-      "Residuals are weighted with {:.3g} times the assumed sigma. They are correlated: {} samples "
-      "count as {:.3g}\nindependent ones, and one sigma includes this. chi^2 per degree of freedom "
+      "Residuals are weighted with {:.3g} times the assumed sigma. They are correlated: {} "
+      "samples\n"
+      "count as {:.3g} independent ones, and one sigma includes this. chi^2 per degree of freedom\n"
       "under the assumed noise: {:.4g}.\n"
       "\"not identifiable\": the data say less about the unknown than its prior (without one: than "
       "its bounds).\nAn unknown at a bound has no sigma; the sigmas of the others hold for it at "
