@@ -20,8 +20,8 @@ namespace skyfit {
 using NodeOptics = std::array<Optics<0>, 4>;
 using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blue to red
 
-// Streams and moments are those of the reference model, so that the two agree; optics_at() wants to
-// know the moments.
+// Streams and moments are the defaults of the reference model, so that the two agree unless that
+// doubles them for a narrow lobe; optics_at() needs the moments.
 inline constexpr ReferenceOptions kSourceOptions{};
 
 class DiffuseSource {

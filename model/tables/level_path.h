@@ -33,7 +33,7 @@ struct LevelNode {
 };
 
 // `heights` ascend from 0 to the top, which has a source; the ray begins at `level`, which has one
-// too, or within a hair of it. The extinction is the cut one of model/atmosphere/optics.h.
+// too, or within a hair of it. The extinction is the delta-M-scaled one.
 std::vector<LevelNode> level_path(const Shells& shells, const NodeOptics& optics,
                                   const std::vector<double>& heights, const ViewRay& ray,
                                   int level);

@@ -82,7 +82,7 @@ class ScatteringBuilder {
     }
   }
 
-  // Single scattering keeps the true phase function under the cut extinction (TMS, see
+  // Single scattering keeps the true phase function under the delta-M-scaled extinction (TMS, see
   // model/atmosphere/optics.h).
   void set_beam(int level) {
     constexpr int kSteps = 1024;
