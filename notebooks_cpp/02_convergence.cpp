@@ -2,9 +2,9 @@
 // %% [markdown]
 // # How the reference model converges
 //
-// The model `reference` cuts the air into levels, the sky into rays, the aerosol's phase function
-// into Legendre moments and the azimuth into Fourier modes. This notebook turns each of these knobs
-// alone, compares with a solution that is fine in all of them, and then takes the light apart by
+// The model `reference` divides the air into levels, the zenith angle into streams, the phase
+// function into Legendre moments and the azimuth into Fourier modes. This notebook varies each of
+// these numbers alone, compares with a solution that is fine in all of them, and then takes the light apart by
 // how often it met air or ground. What is measured here is the error of the discretisation, not
 // that of the physics: docs/accuracy.md has the comparison with Monte Carlo.
 
@@ -124,8 +124,8 @@ void run_notebook(notebook::Page& page) {
   // ## Three atmospheres, many directions
   //
   // Air of the Earth with an aerosol of three optical depths, over ground of albedo 0.2. The
-  // directions take in what is hard: a sun at 88 degrees, where neighbouring places have another
-  // sun, and views one degree above the horizon.
+  // directions include what is hard: a sun zenith angle of 88 degrees, where horizontal coupling
+  // matters, and lines of sight one degree above the horizon.
 
   // %%
   page.cell();
@@ -151,7 +151,7 @@ void run_notebook(notebook::Page& page) {
   // %% [markdown]
   // ## The fine solution
   //
-  // It has three times the default's rays and moments, more than three times its levels, and every
+  // It has three times the default's streams and moments, more than three times its levels, and every
   // azimuth mode. The error of the default against it:
 
   // %%
@@ -189,11 +189,12 @@ void run_notebook(notebook::Page& page) {
   }
 
   // %% [markdown]
-  // ## One knob at a time
+  // ## One number at a time
   //
-  // A solver of $n$ rays per hemisphere carries at most $2n$ moments. Where a knob would break
-  // that, its partner follows: fewer rays take moments with them, and more moments bring rays.
-  // Every curve ends where the error of the other knobs, which stay at their defaults, takes over.
+  // A solver of $n$ streams per hemisphere carries at most $2n$ moments. Where a number would
+  // violate that, its partner follows: fewer streams mean fewer moments, more moments mean more
+  // streams.
+  // Every curve ends where the error of the other numbers, which stay at their defaults, takes over.
 
   // %%
   page.cell();
@@ -206,7 +207,7 @@ void run_notebook(notebook::Page& page) {
   std::vector<Knob> knobs = {
       {"levels", "levels", {}, [](const auto& o) { return 1.0 * o.levels; }, {10, 90}},
       {"streams",
-       "rays per hemisphere",
+       "streams per hemisphere",
        {},
        [](const auto& o) { return 1.0 * o.streams; },
        {3, 25}},
