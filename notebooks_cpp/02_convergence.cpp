@@ -4,9 +4,9 @@
 //
 // The model `reference` divides the air into levels, the zenith angle into streams, the phase
 // function into Legendre moments and the azimuth into Fourier modes. This notebook varies each of
-// these numbers alone, compares with a solution that is fine in all of them, and then takes the light apart by
-// how often it met air or ground. What is measured here is the error of the discretisation, not
-// that of the physics: docs/accuracy.md has the comparison with Monte Carlo.
+// these numbers alone, compares with a solution that is fine in all of them, and then takes the
+// light apart by how often it met air or ground. What is measured here is the error of the
+// discretisation, not that of the physics: docs/accuracy.md has the comparison with Monte Carlo.
 
 // %%
 #include <fmt/format.h>
@@ -151,8 +151,8 @@ void run_notebook(notebook::Page& page) {
   // %% [markdown]
   // ## The fine solution
   //
-  // It has three times the default's streams and moments, more than three times its levels, and every
-  // azimuth mode. The error of the default against it:
+  // It has three times the default's streams and moments, more than three times its levels, and
+  // every azimuth mode. The error of the default against it:
 
   // %%
   page.cell();
@@ -194,7 +194,8 @@ void run_notebook(notebook::Page& page) {
   // A solver of $n$ streams per hemisphere carries at most $2n$ moments. Where a number would
   // violate that, its partner follows: fewer streams mean fewer moments, more moments mean more
   // streams.
-  // Every curve ends where the error of the other numbers, which stay at their defaults, takes over.
+  // Every curve ends where the error of the other numbers, which stay at their defaults, takes
+  // over.
 
   // %%
   page.cell();
