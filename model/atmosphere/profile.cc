@@ -153,6 +153,7 @@ std::vector<double> Profile::quadrature_heights() const {
   return heights;
 }
 
+// docs/theory (3.2).
 std::vector<double> Profile::level_heights(double optical_depth) const {
   if (!is_layer()) return {};
   // The source of a level to the next is linear in optical depth: near both ends, where light falls

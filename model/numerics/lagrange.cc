@@ -3,6 +3,7 @@
 
 namespace skyfit {
 
+// docs/theory (3.3).
 void lagrange_weights(const double* nodes, int count, double x, double* weights) {
   for (int i = 0; i < count; ++i) {
     weights[i] = 1;

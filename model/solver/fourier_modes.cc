@@ -85,6 +85,7 @@ void FourierModes::scattering(int level, Batch& same, Batch& other) const {
   batch::butterfly(same.data(), other.data(), n * n);
 }
 
+// docs/theory (5.3): the ground.
 void FourierModes::eliminate() {
   reflection_.resize(levels());
   forward_.resize(levels() - 1);
@@ -272,6 +273,7 @@ void FourierModes::add_diffuse_sources(const Columns& source, std::size_t column
   }
 }
 
+// docs/theory (5.8) and (5.9).
 FourierModes::Columns FourierModes::substitute(const Batch& ground, std::size_t columns) const {
   const std::size_t width = columns * kBatchWidth;
   std::vector<Batch> s(levels());
@@ -309,6 +311,7 @@ FourierModes::Columns FourierModes::substitute(const Batch& ground, std::size_t 
   return result;
 }
 
+// docs/theory (4.8).
 std::vector<FourierModes::Parities> FourierModes::analyse(const Columns& columns) const {
   std::vector<Parities> moments(levels());
   for (int i = 0; i < levels(); ++i) {
@@ -324,6 +327,7 @@ std::vector<FourierModes::Parities> FourierModes::analyse(const Columns& columns
   return moments;
 }
 
+// docs/theory (5.10).
 Batch FourierModes::irradiance(const Batch& down, std::size_t columns) const {
   Batch sum(columns * kBatchWidth, 0.0);
   for (int k = 0; k < streams_->count(0); ++k) {
@@ -368,6 +372,7 @@ void FourierModes::set_tangent_sources() {
   }
 }
 
+// docs/theory (6.2) and (6.3).
 Batch FourierModes::layer_tangent(int layer, bool looks_up, const Sources& diffuse,
                                   bool near) const {
   const LayerMedium::Layer& w = medium_->layers[layer];
@@ -419,6 +424,7 @@ Batch FourierModes::layer_tangent(int layer, bool looks_up, const Sources& diffu
   return out;
 }
 
+// docs/theory (6.4), then (5.8) and (5.9).
 void FourierModes::solve_tangents() {
   const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
   Batch on_ground(columns * kBatchWidth);

@@ -30,6 +30,7 @@ Eigen::VectorXd legendre(double mu, int count) {
 
 }  // namespace
 
+// docs/theory (3.4) to (3.6).
 Streams::Streams(double bottom_radius, const std::vector<double>& heights, int ground_rays) {
   const int levels = static_cast<int>(heights.size());
   std::vector<int> touched;

@@ -2,7 +2,7 @@
 // The directions in which the diffuse field is known: straight rays through spherical shells, each
 // with one impact parameter. Rays to the ground have Gauss's cosines there and grow steeper with
 // height, as straight lines do; rays along the limb touch the shell of a level and exist above it.
-// On a very large planet the streams is the double-Gauss rule of plane-parallel discrete ordinates.
+// On a very large planet these are the double-Gauss rule of plane-parallel discrete ordinates.
 #pragma once
 
 #include <vector>
