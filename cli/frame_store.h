@@ -48,7 +48,7 @@ class FrameStore {
   // Writes the files and notes the entry; both or neither.
   void write(int frame, const Entry& entry, const Frame& picture, ToneOptions tone);
 
-  // Whether the film that was noted last was of these frames as they are now.
+  // Whether the video that was noted last was of these frames as they are now.
   bool has_video(int frames, double frames_per_second) const;
   void note_video(int frames, double frames_per_second);
 

@@ -13,7 +13,7 @@
 namespace skyfit::cli {
 namespace {
 
-constexpr double kFilmSeconds = 10;  // of a film of a day, when nothing else is said
+constexpr double kFilmSeconds = 10;  // of a sequence over a day, unless an option says otherwise
 
 void parse_camera_place(const RenderOptions& options, const CLI::App& command, CameraPose& pose) {
   if (command.count("--latitude-deg") > 0) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diffuse field of the atmosphere for a list of local sun angles, in spherical shells: rays are
 // straight lines through them, the horizon dips with height, the sun's beam is that of each level.
-// Azimuth is a Fourier series, zenith a streams of rays (model/solver/streams.h), each mode is
+// Azimuth is a Fourier series, zenith a set of streams (model/solver/streams.h), each mode is
 // solved directly (model/solver/fourier_modes.h). At first the sun turns with the local zenith, as
-// if the sky were the same everywhere on the planet; what neighbouring places lend each other by
-// having another sun then couples modes and suns, in two steps of an iteration, for the suns for
-// which it matters. The field's Legendre moments are the source of multiple scattering; the caller
-// integrates it along view rays at the local sun.
+// if the sky were the same everywhere on the planet; horizontal coupling then adds the light of
+// columns under another sun, which couples modes and suns, in two steps of an iteration, for the
+// suns for which it matters (docs/theory, chapter 7). The field's Legendre moments are the source
+// of multiple scattering; the caller integrates it along view rays at the local sun.
 #pragma once
 
 #include <span>
