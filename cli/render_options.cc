@@ -58,7 +58,7 @@ void add_sun_options(CLI::App& command, RenderOptions& options) {
                "Zenith angle of the sun, 0 to 180; by default one that suits the view");
   group.option("--sun-azimuth-deg", options.sun_azimuth, "ANGLE",
                "Azimuth of the sun, from north over east; needs a place");
-  group.option("--date", options.date, "YYYY-MM-DD", "Day of the sun over the place");
+  group.option("--date", options.date, "YYYY-MM-DD", "Date that gives the sun over the place");
   group.option("--time", options.time, "HH:MM[..HH:MM]",
                "Time of that day, or two times for a sequence of frames");
   group
