@@ -30,7 +30,7 @@ struct Planet {
     renderer.set_atmosphere(preset, tables);
   }
   static Preset with_aerosol(Preset preset, double per_m) {
-    if (per_m > 0) preset.atmosphere.mie.scattering_per_m.value = per_m;
+    if (per_m > 0) preset.atmosphere.at("mie").amount = per_m;
     return preset;
   }
   Preset preset;
