@@ -14,6 +14,7 @@
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
+#include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "render/plot/evaluate.h"
 #include "render/plot/results.h"
@@ -62,9 +63,9 @@ fit::FitOptions fit_options(const FitCommandOptions& options, const SkyModel& mo
 void write_result(const std::filesystem::path& directory, const refs::Reference& reference,
                   const SkyModel& model, const fit::FitOptions& options,
                   const fit::FitResult& result) {
-  write_text(directory / kPresetFile, preset_to_json(result.preset));
-  write_text(directory / kReportFile, fit::report_json(result).dump(2) + "\n");
-  write_text(directory / kReportTextFile, fit::full_report(result));
+  write_file(directory / kPresetFile, preset_to_json(result.preset));
+  write_file(directory / kReportFile, json_text(fit::report_json(result)));
+  write_file(directory / kReportTextFile, fit::full_report(result));
   const auto samples =
       plot::compared_samples(reference, {result.fitted_model, result.scale},
                              {result.start_model, result.start_scale}, options.exclude_sun);
@@ -92,7 +93,7 @@ std::vector<std::string> result_files() {
 }
 
 void run_fit(FitCommandOptions options, const CLI::App& command) {
-  const ResultDirectory out(options.out, result_files(), options.force);
+  const WholeDirectory out(options.out, result_files(), options.force);
   const std::map<fit::Instrument, Prior> instrument_priors = take_instrument_priors(options.prior);
   const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
   const fit::FitOptions how = fit_options(options, *model, command);
@@ -115,10 +116,9 @@ void run_fit(FitCommandOptions options, const CLI::App& command) {
     write_result(staging, reference, *model, how, result);
   });
   if (!result.converged) {
-    fmt::print(stderr, "skyfit: warning: the fit stopped before it converged: {}\n",
-               result.termination);
+    warn(fmt::format("the fit stopped before it converged: {}", result.termination));
   }
-  print(options.json ? fit::report_json(result).dump(2) + "\n" : fit::brief_report(result) + "\n");
+  print(options.json ? json_text(fit::report_json(result)) : fit::brief_report(result) + "\n");
 }
 
 void add_problem_options(CLI::App& command, FitCommandOptions& options) {

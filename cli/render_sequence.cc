@@ -14,6 +14,7 @@
 #include "cli/render_modes.h"
 #include "cli/studio.h"
 #include "cli/video.h"
+#include "model/base/process.h"
 #include "render/sequence/film.h"
 
 namespace skyfit::cli {

@@ -18,7 +18,9 @@
 #include "data_refs/fisheye.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/sky_bins.h"
+#include "model/base/input_file.h"
 #include "model/base/module_file.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 namespace {
@@ -50,8 +52,8 @@ LuminanceWeights luminance_weights(const Image& image, bool is_radiance_hdr,
   if (const auto y = channel(image, "Y")) return {{*y}, {1}, "channel Y"};
   const auto red = channel(image, "R"), green = channel(image, "G"), blue = channel(image, "B");
   if (!red || !green || !blue)
-    fail(source,
-         fmt::format("channels {}: expected R, G and B, or Y", fmt::join(image.channels, ", ")));
+    fail(source, fmt::format("channels {}: expected R, G and B, or Y",
+                             excerpt(fmt::format("{}", fmt::join(image.channels, ", ")))));
   if (facts.primaries.value_or(is_radiance_hdr ? "radiance" : "srgb") == "radiance")
     return {{*red, *green, *blue}, {0.265, 0.670, 0.065}, "Radiance's primaries"};
   return {{*red, *green, *blue}, {0.2126, 0.7152, 0.0722}, "sRGB primaries"};
@@ -166,7 +168,7 @@ double radiance_exposure(const std::filesystem::path& file) {
     const std::size_t begin = line.find_first_not_of(' ', kName.size());
     const auto value = csv_number(begin == line.npos ? "" : std::string_view(line).substr(begin));
     if (!value || !(*value > 0) || !std::isfinite(*value))
-      fail(file.string(), fmt::format("\"{}\": expected a number > 0", line));
+      fail(file.string(), in_quotes(line) + ": expected a number > 0");
     product *= *value;
   }
   return product;
@@ -219,7 +221,10 @@ Reference load_sky_image(const std::filesystem::path& file, const ImportOptions&
   if (is_radiance_hdr) facts.calibration = facts.calibration.value_or(1) / radiance_exposure(file);
   const Image image = module.read(file);
   std::optional<Image> mask;
-  if (facts.mask) mask = module.read(*facts.mask);
+  if (facts.mask) {
+    require_regular_file(*facts.mask, "an image", kMostImageBytes);
+    mask = module.read(*facts.mask);
+  }
   return sky_image_reference(image, mask ? &*mask : nullptr, is_radiance_hdr, file.string(), facts);
 }
 

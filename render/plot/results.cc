@@ -11,6 +11,8 @@
 #include "data_refs/perez_sky.h"
 #include "data_refs/references.h"
 #include "model/atmosphere/derived.h"
+#include "model/base/preset_reader.h"
+#include "model/base/text.h"
 #include "render/plot/evaluate.h"
 
 namespace skyfit::plot {
@@ -33,7 +35,7 @@ T field(const FitOutcome& fit, const char* pointer, const char* expected) {
     if (record.contains(place)) return record.at(place).get<T>();
   } catch (const json::exception&) {
     throw std::invalid_argument(fmt::format("{}: fit{} = {}: expected {}", fit.folder, pointer,
-                                            record.at(place).dump(), expected));
+                                            json_excerpt(record.at(place)), expected));
   }
   throw std::invalid_argument(
       fmt::format("{}: fit{}: missing, expected {}", fit.folder, pointer, expected));
@@ -44,8 +46,8 @@ FitRecord record_of(const FitOutcome& fit) {
       field<std::string>(fit, "/reference/quantity", "luminance_cd_m2 or relative_luminance");
   if (quantity != "luminance_cd_m2" && quantity != "relative_luminance")
     throw std::invalid_argument(fmt::format(
-        "{}: fit/reference/quantity = \"{}\": expected luminance_cd_m2 or relative_luminance",
-        fit.folder, quantity));
+        "{}: fit/reference/quantity = {}: expected luminance_cd_m2 or relative_luminance",
+        fit.folder, in_quotes(quantity)));
   return {field<std::string>(fit, "/reference/name", "the reference's name"),
           field<std::string>(fit, "/reference/description", "one line of text"),
           field<std::string>(fit, "/model", "the name of a sky model"),
