@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,11 +20,11 @@
 #include "model/base/input_file.h"
 #include "model/base/module_file.h"
 #include "model/base/text.h"
+#include "model/base/units.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 constexpr double kDefaultBin_deg = 6;
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01",
                            kHdrMagic = "#?R";  // #?RADIANCE or #?RGBE
@@ -115,7 +114,7 @@ class PixelReader {
     sample.sun_zenith = sun_.zenith;
     sample.view_zenith = view.zenith;
     sample.relative_azimuth = view.azimuth - sun_.azimuth.value_or(0);
-    if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kDegree)
+    if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kRadiansPerDegree)
       return "near the sun";
     return {};
   }
@@ -147,7 +146,7 @@ void add_notes(const SkyBins& bins, const LuminanceWeights& weights, const ScanS
   sample.view_zenith = brightest.direction.view_zenith;
   sample.relative_azimuth = brightest.direction.relative_azimuth - sun.azimuth.value_or(0);
   sky.note(fmt::format("luminance from {}; the brightest bin is {:.0f} deg from the sun",
-                       weights.name, scattering_angle(sample) / kDegree));
+                       weights.name, scattering_angle(sample) * kDegreesPerRadian));
 }
 
 // Its first bytes.
@@ -204,8 +203,8 @@ Reference sky_image_reference(const Image& image, const Image* mask, bool is_rad
   for (const SkyBin& bin : bins.result()) {
     Reading reading;
     reading.number = bin.number;
-    reading.view_zenith_deg = bin.direction.view_zenith / kDegree;
-    reading.view_azimuth_deg = bin.direction.relative_azimuth / kDegree;
+    reading.view_zenith_deg = bin.direction.view_zenith * kDegreesPerRadian;
+    reading.view_azimuth_deg = bin.direction.relative_azimuth * kDegreesPerRadian;
     reading.value = bin.luminance;
     reading.flaw = bin.flaw;
     sky.add(reading);

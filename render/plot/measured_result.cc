@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
@@ -15,11 +14,11 @@
 #include "data_refs/spectra.h"
 #include "model/base/input_file.h"
 #include "model/base/preset_reader.h"
+#include "model/base/units.h"
 
 namespace skyfit::plot {
 namespace {
 
-constexpr double kRadian = std::numbers::pi / 180;
 constexpr std::string_view kMeasuredFile = "measured.csv", kReportFile = "report.json";
 
 // Where gnuplot reads a time, no other text may stand.
@@ -56,9 +55,19 @@ void read_covariance(const PresetReader& report, MeasuredOutcome& outcome) {
   const auto has_side = [&](const std::vector<double>& row) { return row.size() == side; };
   if (outcome.covariance.size() != side || !std::ranges::all_of(outcome.covariance, has_side))
     report.fail_value("covariance", fmt::format("{0} rows of {0} numbers", side));
-  for (std::size_t i = 0; i < side; ++i)
-    if (!(outcome.covariance[i][i] >= 0))
-      report.fail_value("covariance", "variances >= 0 on its diagonal");
+  constexpr double kRounding = 1 + 1e-9;  // of correlations
+  for (std::size_t i = 0; i < side; ++i) {
+    for (std::size_t j = 0; j < side; ++j) {
+      const double product = outcome.covariance[i][i] * outcome.covariance[j][j];
+      const double covariance = outcome.covariance[i][j];
+      if (!(product > 0 && outcome.covariance[i][i] > 0 &&
+            covariance * covariance <= kRounding * product))
+        report.fail_value("covariance",
+                          fmt::format("variances > 0 and correlations from -1 to 1, not so in row "
+                                      "{}, column {}",
+                                      i, j));
+    }
+  }
 }
 
 void read_report(const std::filesystem::path& file, MeasuredOutcome& outcome) {
@@ -122,14 +131,14 @@ std::vector<MeasuredDirection> directions_of(const MeasuredOutcome& outcome) {
     MeasuredDirection& look = at->second;
     if (is_new) {
       refs::Sample angles;
-      angles.sun_zenith = s.sun_zenith_deg * kRadian;
-      angles.view_zenith = s.view_zenith_deg * kRadian;
-      angles.relative_azimuth = s.relative_azimuth_deg * kRadian;
+      angles.sun_zenith = s.sun_zenith_deg * kRadiansPerDegree;
+      angles.view_zenith = s.view_zenith_deg * kRadiansPerDegree;
+      angles.relative_azimuth = s.relative_azimuth_deg * kRadiansPerDegree;
       look = {s.scan,
               s.sun_zenith_deg,
               s.view_zenith_deg,
               s.relative_azimuth_deg,
-              refs::scattering_angle(angles) / kRadian,
+              refs::scattering_angle(angles) * kDegreesPerRadian,
               0,
               0,
               false};

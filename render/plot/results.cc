@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -13,6 +12,7 @@
 #include "model/atmosphere/derived.h"
 #include "model/base/preset_reader.h"
 #include "model/base/text.h"
+#include "model/base/units.h"
 #include "render/plot/evaluate.h"
 
 namespace skyfit::plot {
@@ -66,13 +66,12 @@ bool is_analytic(const std::string& reference) {
 std::vector<ComparedSample> hemisphere_samples(const FitOutcome& fit, const FitRecord& record,
                                                const SpectralData& spectra, const SkyModel& model) {
   if (!is_analytic(record.reference)) return fit.samples;
-  constexpr double kRadian = std::numbers::pi / 180;
   std::set<double> suns;
-  for (const auto& sample : fit.samples) suns.insert(sample.sun_zenith_deg * kRadian);
+  for (const auto& sample : fit.samples) suns.insert(sample.sun_zenith_deg * kRadiansPerDegree);
   const auto reference =
       refs::load_reference(record.reference, {suns.begin(), suns.end()}, refs::Sampling::kTregenza);
   return evaluated_samples(reference, fit.preset.atmosphere, spectra, model,
-                           record.exclude_sun_deg * kRadian);
+                           record.exclude_sun_deg * kRadiansPerDegree);
 }
 
 std::string label_of(std::span<const FitOutcome> fits, std::size_t index) {

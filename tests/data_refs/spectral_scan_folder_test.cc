@@ -84,7 +84,7 @@ TEST_F(SpectralScanFolder, FaultsNameTheFile) {
   const std::string good = "2013-05-27___09.30.00_-_0____000___12.1151.asd.rad.txt";
   const std::string path = (folder_ / good).string();
   write(good, "Wavelength\tvalue\n400\t0.1\n401\tdark\n");
-  EXPECT_EQ(complaint(), path + ":3: \"401?dark\": expected a wavelength in nm and a radiance");
+  EXPECT_EQ(complaint(), path + ":3: \"401 dark\": expected a wavelength in nm and a radiance");
   write(good, "Wavelength\tvalue\n400\t0.1\n400\t0.1\n");
   EXPECT_EQ(complaint(), path + ":3: wavelength = 400: expected ascending wavelengths");
   write(good, "Wavelength\tvalue\n");
