@@ -82,7 +82,6 @@ json summary_of_samples(const std::string& file, const refs::ImportOptions& opti
       refs::load_reference(file, {}, refs::Sampling::kPrincipalPlane, options);
   std::set<double> suns, wavelengths;
   std::set<std::tuple<int, double, double>> directions;  // numbered, or at the same place
-  std::map<std::string, std::size_t> not_used;
   std::size_t weighted = 0;
   const bool is_numbered = std::ranges::any_of(
       reference.samples, [](const refs::Sample& sample) { return sample.direction != 0; });
@@ -93,10 +92,7 @@ json summary_of_samples(const std::string& file, const refs::ImportOptions& opti
     else
       directions.emplace(0, sample.view_zenith, sample.relative_azimuth);
     if (sample.wavelength_nm > 0) wavelengths.insert(sample.wavelength_nm);
-    if (sample.weight > 0)
-      ++weighted;
-    else
-      ++not_used[sample.zero_weight_reason];
+    if (sample.weight > 0) ++weighted;
   }
   const json scans = scans_of(reference);
   return {{"file", file},
@@ -104,7 +100,7 @@ json summary_of_samples(const std::string& file, const refs::ImportOptions& opti
           {"quantity", refs::quantity_name(reference.quantity)},
           {"samples", reference.samples.size()},
           {"samples_with_weight", weighted},
-          {"samples_not_used", not_used},
+          {"samples_not_used", refs::samples_left_out(reference)},
           {"directions", directions.size()},
           {"wavelengths_nm", wavelengths},
           {"scans", scans.size()},

@@ -62,7 +62,7 @@ fit::FitOptions fit_options(const FitCommandOptions& options, const SkyModel& mo
 
 void write_result(const std::filesystem::path& directory, const refs::Reference& reference,
                   const SkyModel& model, const fit::FitOptions& options,
-                  const fit::FitResult& result) {
+                  const fit::FitResult& result, Figures& figures) {
   write_file(directory / kPresetFile, preset_to_json(result.preset));
   write_file(directory / kReportFile, json_text(fit::report_json(result)));
   write_file(directory / kReportTextFile, fit::full_report(result));
@@ -72,9 +72,11 @@ void write_result(const std::filesystem::path& directory, const refs::Reference&
   plot::write_samples_csv(directory / kSamplesFile, samples);
   const plot::FitOutcome outcome{directory.string(), result.preset, samples};
   const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
-  plot::write_comparison(
-      plot::comparison_of({&outcome, 1}, refs::standard_spectral_data(), model_named),
-      {directory / kFigureFiles[0], directory / kFigureFiles[1]});
+  figures.draw(directory, "comparison", [&] {
+    plot::write_comparison(
+        plot::comparison_of({&outcome, 1}, refs::standard_spectral_data(), model_named),
+        {directory / kFigureFiles[0], directory / kFigureFiles[1]});
+  });
 }
 
 fit::FitResult fit_with_progress(const refs::Reference& reference, const SkyModel& model,
@@ -112,13 +114,15 @@ void run_fit(FitCommandOptions options, const CLI::App& command) {
                      "expected an absolute or spectral reference with an instrument's prior");
   }
   const fit::FitResult result = fit_with_progress(reference, *model, how);
+  Figures figures;
   out.publish([&](const std::filesystem::path& staging) {
-    write_result(staging, reference, *model, how, result);
+    write_result(staging, reference, *model, how, result, figures);
   });
   if (!result.converged) {
     warn(fmt::format("the fit stopped before it converged: {}", result.termination));
   }
   print(options.json ? json_text(fit::report_json(result)) : fit::brief_report(result) + "\n");
+  figures.expect_all(options.out);
 }
 
 void add_problem_options(CLI::App& command, FitCommandOptions& options) {
@@ -182,7 +186,9 @@ void add_fit_command(CLI::App& app) {
       "Leaves preset.json, report.txt, report.json, samples.csv, comparison.svg and "
       "comparison.png\n"
       "in the directory; of measured skies measured.csv and the figures maps, spectra, residuals,\n"
-      "corner and series in the place of the last three. A LIST is a,b,c or start:stop:step, stop "
+      "corner and series in the place of the last three. A figure that cannot be drawn is missing "
+      "from\n"
+      "the result and makes the exit status 1. A LIST is a,b,c or start:stop:step, stop "
       "included.\n"
       "\n" +
       parameter_list() +

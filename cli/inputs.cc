@@ -12,6 +12,7 @@
 #include "cli/arguments.h"
 #include "cli/output.h"
 #include "data_refs/joint_reference.h"
+#include "data_refs/measured_sky.h"
 #include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
 
@@ -154,14 +155,25 @@ refs::Reference load_references(const std::string& names, const std::string& sun
   const refs::Sampling how = parse_sampling(sampling);
   const refs::ImportOptions options = parse_import_options(import);
   std::vector<refs::Reference> references;
+  const bool are_several = names.find(',') != names.npos;
+  refs::LeftOut left_out("sky");
   for (std::size_t begin = 0; begin <= names.size();) {
     const std::size_t end = std::min(names.find(',', begin), names.size());
     const std::string name = names.substr(begin, end - begin);
-    references.push_back(refs::load_reference(name, suns, how, options));
+    const auto load = [&] { references.push_back(refs::load_reference(name, suns, how, options)); };
+    // What a file holds may be bad among others; a name that is wrong is the caller's mistake.
+    if (are_several && std::filesystem::exists(name)) {
+      left_out.attempt(load);
+    } else {
+      load();
+    }
     warn_of_unused_options(command, name);
     begin = end + 1;
   }
-  return refs::joint_reference(references);
+  const std::vector<std::string> notes = left_out.notes();  // throws when nothing was read
+  refs::Reference joint = refs::joint_reference(references);
+  joint.notes.insert(joint.notes.end(), notes.begin(), notes.end());
+  return joint;
 }
 
 bool is_shipped_reference(const std::string& name) {

@@ -111,10 +111,12 @@ std::vector<plot::MeasuredSample> measured_samples(const fit::MeasuredResult& re
   std::vector<plot::MeasuredSample> samples;
   for (std::size_t i = 0; i < result.reference.samples.size(); ++i) {
     const refs::Sample& s = result.reference.samples[i];
+    if (!std::isfinite(result.model[i])) continue;  // outside the model's spectra
     const auto scan = std::ranges::find(
         result.scans, s.scan, [](const fit::ScanOutcome& outcome) { return outcome.info.number; });
-    const SkyPoint point = fit::pointed({0, s.sun_zenith, s.view_zenith, s.relative_azimuth},
-                                        scan->info, scan->instrument);
+    const SkyPoint point =
+        fit::pointed({0, s.sun_zenith, s.view_zenith, s.relative_azimuth},
+                     scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
     const bool fitted = std::isfinite(result.sigma[i]);
     samples.push_back({static_cast<int>(scan - result.scans.begin()) + 1, degrees(s.sun_zenith),
                        degrees(point.view_zenith), degrees(point.relative_azimuth), s.wavelength_nm,
@@ -124,7 +126,7 @@ std::vector<plot::MeasuredSample> measured_samples(const fit::MeasuredResult& re
   return samples;
 }
 
-void write_figures(const std::filesystem::path& directory) {
+void write_figures(const std::filesystem::path& directory, Figures& figures) {
   const plot::MeasuredOutcome outcome = plot::read_measured_outcome(directory);
   for (const std::string_view name : plot::measured_figure_names()) {
     const plot::MeasuredFigure figure = plot::measured_figure_from_name(name);
@@ -132,7 +134,9 @@ void write_figures(const std::filesystem::path& directory) {
     std::vector<std::filesystem::path> files;
     for (const char* extension : kFigureExtensions)
       files.push_back(directory / fmt::format("{}{}", name, extension));
-    plot::write_figure(plot::measured_figure(figure, {&outcome, 1}), files);
+    figures.draw(directory, name, [&, &shown = outcome] {
+      plot::write_figure(plot::measured_figure(figure, {&shown, 1}), files);
+    });
   }
 }
 
@@ -255,17 +259,19 @@ void run_measured_fit(const MeasuredArguments& arguments, refs::Reference refere
     checks = checks_of(arguments, model, options, result);
   }
   const std::string report = json_text(fit::report_json(result, checks));
+  Figures figures;
   out.publish([&](const std::filesystem::path& staging) {
     write_file(staging / kPresetFile, preset_to_json(result.preset));
     write_file(staging / kReportFile, report);
     write_file(staging / kReportTextFile, fit::full_report(result, checks));
     write_file(staging / kMeasuredFile, plot::measured_to_csv(measured_samples(result)));
-    write_figures(staging);
+    write_figures(staging, figures);
   });
   if (!result.converged) {
     warn(fmt::format("the fit stopped before it converged: {}", result.termination));
   }
   print(json ? report : fit::brief_report(result) + "\n");
+  figures.expect_all(reference.name);
 }
 
 }  // namespace skyfit::cli

@@ -2,6 +2,7 @@
 #include "cli/output.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -56,6 +57,26 @@ void print(std::string_view text) {
     text = shown;
   }
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_stdout();
+}
+
+void Figures::draw(const fs::path& directory, std::string_view name,
+                   const std::function<void()>& draw) {
+  try {
+    draw();
+  } catch (const std::exception& error) {
+    std::string reason = error.what();
+    const std::string staging = directory.string() + '/';
+    if (reason.starts_with(staging)) reason.erase(0, staging.size());
+    failures_.push_back(fmt::format("{} ({})", name, reason));
+  }
+}
+
+void Figures::expect_all(const std::string& directory) const {
+  if (failures_.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{}: the result is complete but for figures that could not be "
+                  "drawn: {}",
+                  directory, fmt::join(failures_, ", ")));
 }
 
 void finish_stdout() {

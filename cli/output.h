@@ -2,6 +2,8 @@
 // What the program says and where its results go.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -14,6 +16,21 @@ namespace skyfit::cli {
 // result goes there.
 void require_output_files(const std::vector<std::string>& files,
                           const std::vector<std::string>& extensions);
+
+// Figures of a result, which is published without those that cannot be drawn.
+class Figures {
+ public:
+  // Calls `draw`, which writes into the directory; what it throws is kept, without the directory,
+  // whose name is a temporary one.
+  void draw(const std::filesystem::path& directory, std::string_view name,
+            const std::function<void()>& draw);
+  // Throws std::runtime_error with one line that names the figures that are missing and why, so
+  // that the exit status tells.
+  void expect_all(const std::string& directory) const;
+
+ private:
+  std::vector<std::string> failures_;
+};
 
 // Writes text to stdout; on a terminal without the control characters of file names and the like.
 // Throws std::runtime_error when stdout takes no more; finish_stdout() does where not all of it

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <system_error>
 #include <vector>
 
-#include "model/base/input_file.h"
 #include "model/base/process.h"
 #include "model/base/text.h"
 #include "model/base/whole_file.h"
@@ -42,24 +45,29 @@ std::vector<std::string> arguments(const fs::path& directory, int frames, double
           video.string()};
 }
 
-// The boxes of an MP4 file fill it, and one says where the frames are.
-bool is_complete(const std::string& video) {
+// The boxes of an MP4 file, of big-endian sizes, fill it, and one says where the frames are.
+bool is_complete(const fs::path& video) {
+  std::error_code none;
+  const std::uintmax_t end = fs::file_size(video, none);
+  std::ifstream in(video, std::ios::binary);
+  const auto big_endian = [&](int bytes) {
+    std::uintmax_t number = 0;
+    while (bytes-- > 0) number = number << 8 | static_cast<unsigned char>(in.get());
+    return number;
+  };
   bool has_index = false;
-  std::size_t at = 0;
-  while (at + 8 <= video.size()) {
-    std::size_t size = 0, header = 4;
-    const auto read = [&](std::size_t begin, std::size_t bytes) {
-      size = 0;
-      for (std::size_t i = begin; i < begin + bytes; ++i)
-        size = size << 8 | static_cast<unsigned char>(video[i]);
-    };
-    read(at, header);
-    if (size == 1 && at + 16 <= video.size()) read(at + 8, 8);
-    has_index |= video.compare(at + 4, 4, "moov") == 0;
-    if (size < 8 || size > video.size() - at) return false;
+  for (std::uintmax_t at = 0; in.seekg(static_cast<std::streamoff>(at));) {
+    if (at == end) return has_index;
+    constexpr std::uintmax_t kLarge = 1;  // the size follows, in 8 bytes
+    std::uintmax_t size = big_endian(4);
+    std::string kind(4, '\0');
+    in.read(kind.data(), 4);
+    if (size == kLarge) size = big_endian(8);
+    if (!in || size < 8 || size > end - at) return false;
+    has_index |= kind == "moov";
     at += size;
   }
-  return has_index && at == video.size();
+  return false;
 }
 
 }  // namespace
@@ -79,18 +87,22 @@ fs::path make_video(const fs::path& ffmpeg, const fs::path& directory, int frame
     whole.fail(0, fmt::format("ffmpeg: {}: {}", outcome.ending(),
                               words.empty() ? "no message" : excerpt(split(words, '\n').front())));
   }
-  if (!is_complete(read_file(drawn, "a film", kMostImageBytes)))
-    whole.fail(0, "ffmpeg left half a film, as on a full disk");
+  if (!is_complete(drawn)) whole.fail(0, "ffmpeg left half a film, as on a full disk");
   whole.publish();
   return video;
 }
 
 std::string video_command(const fs::path& directory, int frames, double frames_per_second) {
+  constexpr std::string_view kPlain =
+      "+,-./:=_%0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
   std::string command = "ffmpeg";
   for (const std::string& text :
        arguments(directory, frames, frames_per_second, directory / kVideo)) {
-    const bool plain = text.find_first_of(" ()*'\"\\$&;") == std::string::npos;
-    command += plain ? " " + text : fmt::format(" \"{}\"", text);
+    const bool plain = text.find_first_not_of(kPlain) == std::string::npos;
+    command += plain ? " " + text : " '";
+    if (plain) continue;
+    for (const char c : text) command += c == '\'' ? "'\\''" : std::string(1, c);
+    command += '\'';
   }
   return command;
 }

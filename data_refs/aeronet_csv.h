@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Almucantars of AERONET (sky radiances, version 3). After free header lines comes the line of the
-// columns: Date(dd:mm:yyyy), Time(hh:mm:ss) in UTC, Nominal_Wavelength(nm),
-// Solar_Zenith_Angle(Degrees), Sky_Scan_Type, where the file has them Exact_Wavelength(um),
-// Latitude(Degrees), Longitude(Degrees) and Elevation(m), and a column for every azimuth from the
-// sun: `-6.000000` or `Radiance_for_Azimuth_Angle_in_Degrees(uW/cm^2/sr/nm)_-6.000`, some of them
-// twice. The view zenith angle is the sun's. -999 stands for a missing value. Every line is one
-// wavelength with its own time; lines that follow each other within 15 min without repeating a
-// wavelength are a scan.
+// Sky radiances of AERONET (aeronet_table.h): almucantars, whose view zenith angle is the sun's,
+// and principal planes, whose angles count from the sun, upward > 0. A hybrid scan does not say
+// where it looks and is left out. -999 stands for a missing value; a line that has one value
+// throughout holds no measurement. Every line is one wavelength with its own time and sun; lines of
+// one type that follow each other within 15 min without repeating a wavelength are a scan. A line
+// that cannot be used is left out, and a note says why.
 #pragma once
 
 #include <string_view>
@@ -18,7 +16,7 @@ namespace skyfit::refs {
 
 bool is_aeronet_csv(std::string_view text);
 
-// Throws std::invalid_argument `source:line: column = value: expected ...`.
+// Throws std::invalid_argument `source:line: column = value: expected ...` when no line is of use.
 Reference parse_aeronet_csv(std::string_view text, std::string_view source,
                             const ImportOptions& options);
 

@@ -9,6 +9,26 @@
 namespace skyfit::refs {
 namespace chr = std::chrono;
 
+namespace {
+
+// After a clock time, so that the last part of a date is no offset.
+const std::regex& offset_pattern() {
+  static const std::regex pattern(R"(\s*(?:[Zz]|UTC|([+-])(\d{2}):?(\d{2})?)$)");
+  return pattern;
+}
+
+}  // namespace
+
+std::optional<double> stated_utc_offset_h(std::string_view date_and_clock) {
+  std::cmatch match;
+  if (date_and_clock.find(':') == date_and_clock.npos ||
+      !std::regex_search(date_and_clock.begin(), date_and_clock.end(), match, offset_pattern()))
+    return {};
+  if (!match[1].matched) return 0;
+  const double hours = std::stod(match[2]) + (match[3].matched ? std::stod(match[3]) / 60 : 0.0);
+  return match[1] == "-" ? -hours : hours;
+}
+
 std::optional<Instant> instant(std::string_view date, std::string_view clock, double utc_offset_h) {
   static const std::regex kDate(R"((\d{4})[-/.](\d{1,2})[-/.](\d{1,2}))"),
       kClock(R"((\d{1,2})[:.](\d{2})(?:[:.](\d{2}(?:\.\d{1,9})?))?)");
@@ -26,6 +46,9 @@ std::optional<Instant> instant(std::string_view date, std::string_view clock, do
 }
 
 std::optional<Instant> instant(std::string_view date_and_clock, double utc_offset_h) {
+  std::cmatch offset;
+  if (std::regex_search(date_and_clock.begin(), date_and_clock.end(), offset, offset_pattern()))
+    date_and_clock.remove_suffix(static_cast<std::size_t>(offset.length()));
   const std::size_t gap = date_and_clock.find_first_of("T ");
   if (gap == std::string_view::npos) return {};
   return instant(date_and_clock.substr(0, gap), date_and_clock.substr(gap + 1), utc_offset_h);

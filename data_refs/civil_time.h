@@ -16,8 +16,12 @@ using Instant = std::chrono::sys_time<std::chrono::milliseconds>;
 // instant, such as 2013-02-30.
 std::optional<Instant> instant(std::string_view date, std::string_view clock, double utc_offset_h);
 
-// The same from "2013-05-27T09:30:00", or with a space for the T.
+// The same from "2013-05-27T09:30:00", or with a space for the T; an offset that follows, such as
+// Z, +02:00 or -0530, is passed over.
 std::optional<Instant> instant(std::string_view date_and_clock, double utc_offset_h);
+
+// The hours ahead of UTC that "2013-05-27T09:30:00+02:00" states; nothing where it states none.
+std::optional<double> stated_utc_offset_h(std::string_view date_and_clock);
 
 // "2013-05-27T13:30:00Z", to the second.
 std::string iso_text(Instant time);

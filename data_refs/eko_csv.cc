@@ -41,8 +41,8 @@ class EkoReader {
     EkoHeader result;
     result.date = matched(3, R"(Date\s*,\s*(\d{4}[/-]\d{1,2}[/-]\d{1,2}).*)", "Date,YYYY/MM/DD")[1];
     ImportOptions& facts = result.header.facts;
-    facts.longitude_deg = angle(5, R"(Lon[a-z]*)", "Lon140 d 8.0 m");
-    facts.latitude_deg = angle(6, R"(La[a-z]*)", "La36 d 3.0 m");
+    facts.longitude_deg = angle(5, R"(Lon(?:g(?:itude)?)?)", "Lon140 d 8.0 m");
+    facts.latitude_deg = angle(6, R"(Lat?(?:itude)?)", "La36 d 3.0 m");
     const std::smatch zone = matched(
         7, R"(Time\s?zone\s*,\s*UTC\s*([+-]?)(\d{1,2})(?::(\d{2}))?.*)", "Timezone,UTC +9:00");
     const double hours = std::stod(zone[2]) + (zone[3].matched ? std::stod(zone[3]) / 60 : 0.0);
@@ -53,7 +53,8 @@ class EkoReader {
     return result;
   }
 
-  std::vector<PatchScan> scans(const ImportOptions& facts, const std::string& date) const {
+  std::vector<PatchScan> scans(const ImportOptions& facts, const std::string& date,
+                               LeftOut& left_out) const {
     std::vector<PatchScan> scans;
     for (std::size_t i = kHeaderLines; i < lines_.size(); ++i) {
       const int line = static_cast<int>(i) + 1;
@@ -61,14 +62,15 @@ class EkoReader {
       const std::vector<std::string> fields = csv_fields(lines_[i], source_, line);
       if (fields[0] != "L" && fields[0] != "R")
         fail_at(source_, line, fmt::format("\"{}\": expected a row L or R", fields[0]));
-      if (fields[0] == "L") scans.push_back(scan(fields, facts, date, line));
+      if (fields[0] == "L")
+        left_out.attempt([&] { scans.push_back(scan(fields, facts, date, line)); });
     }
     return scans;
   }
 
  private:
   static constexpr std::size_t kStart = 1, kEnd = 2, kFirstPatch = 3,
-                               kAltitude = kFirstPatch + kPatches + 1;
+                               kSunAzimuth = kFirstPatch + kPatches, kAltitude = kSunAzimuth + 1;
 
   const std::string& content(std::size_t line) const {
     if (line <= lines_.size()) return lines_[line - 1];
@@ -88,11 +90,14 @@ class EkoReader {
 
   double angle(std::size_t line, const std::string& name, std::string_view expectation) const {
     const std::smatch match =
-        matched(line, name + R"(\s*,?\s*([EWNS]?)\s*([+-]?)(\d{1,3})\s*d\s*,?\s*(\d+\.?\d*)\s*m.*)",
+        matched(line,
+                name + R"(\s*,?\s*([EWNS]?)\s*([+-]?)(\d{1,3})\s*d\s*,?\s*(\d+\.?\d*)\s*m)"
+                       R"(\s*,?\s*([EWNS]?)\s*,*)",
                 expectation);
     const double degrees = std::stod(match[3]) + std::stod(match[4]) / 60;
-    const std::string side = match[1];
-    return match[2] == "-" || side == "W" || side == "S" ? -degrees : degrees;
+    const std::string side = match[1].length() > 0 ? match[1].str() : match[5].str();
+    const bool is_west_or_south = side.find_first_of("WSws") != side.npos;
+    return match[2] == "-" || is_west_or_south ? -degrees : degrees;
   }
 
   void expect_channels() const {
@@ -134,6 +139,7 @@ class EkoReader {
     facts.utc_offset_h = 0;
     scan.sun = sun_of_scan(facts, fmt::format("{}:{}", source_, line));
     expect_altitude(number(fields, kAltitude, "altitude of the sun", line), scan.sun, line);
+    scan.stated_sun_azimuth = kDegree * number(fields, kSunAzimuth, "azimuth of the sun", line);
     for (std::size_t i = 0; i < kPatches; ++i)
       scan.values.push_back(
           number(fields, kFirstPatch + i, fmt::format("channel {}", i + 1), line));
@@ -165,12 +171,14 @@ Reference parse_eko_csv(std::string_view text, std::string_view source,
   const EkoReader reader(text, source);
   const EkoHeader eko = reader.header();
   const ImportOptions facts = overlaid(options, eko.header.facts);
-  const std::vector<PatchScan> scans = reader.scans(facts, eko.date);
+  LeftOut left_out("scan");
+  const std::vector<PatchScan> scans = reader.scans(facts, eko.date, left_out);
+  const std::vector<std::string> notes = left_out.notes();
   if (scans.empty())
     throw std::invalid_argument(fmt::format("{}: 0 rows L: expected at least 1", source));
   return patch_reference(std::string(source),
                          stated_unit(eko.header, options, source, {Quantity::kLuminance}), facts,
-                         scans);
+                         scans, notes);
 }
 
 }  // namespace skyfit::refs

@@ -6,9 +6,11 @@
 #include <string_view>
 #include <utility>
 
+#include "data_refs/absorption_bands.h"
 #include "data_refs/aeronet_csv.h"
 #include "data_refs/csv.h"
 #include "data_refs/eko_csv.h"
+#include "data_refs/other_formats.h"
 #include "data_refs/patch_csv.h"
 #include "data_refs/sample_csv.h"
 #include "data_refs/scan_header.h"
@@ -35,6 +37,9 @@ LoadedSky load_text(const std::string& text, const std::string& name, const Impo
   if (is_aeronet_csv(text)) return {parse_aeronet_csv(text, name, facts), kAlmucantar};
   if (is_spectral_scan(line)) return {parse_spectral_scan(text, name, facts), kSpectralScan};
   if (is_patch_csv(line)) return {parse_patch_csv(text, name, facts), kPatchScan};
+  if (line.find("_zenith_deg") == line.npos) {  // which a CSV of samples has
+    if (const auto other = other_format(text)) throw std::invalid_argument(name + ": " + *other);
+  }
   return {parse_sample_csv(text, name, facts.exclude_samples), kSampleCsv};
 }
 
@@ -52,6 +57,7 @@ Reference load_measured_sky(const std::filesystem::path& file, const ImportOptio
   validate(options);
   const ImportOptions facts = with_sidecar(options, file);
   LoadedSky loaded = load(file, facts);
+  mask_unknown_wavelengths(loaded.sky);
   for (const ImportOptionRow& row : import_option_table()) {
     if (row.is_set(facts) && (row.formats & loaded.format) == 0)
       loaded.sky.notes.push_back(row.name + " is not used: it is not about this format");

@@ -11,13 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "data_refs/absorption_bands.h"
 #include "data_refs/solar_position.h"
 #include "data_refs/spectra.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDegree = std::numbers::pi / 180, kTurn = 2 * std::numbers::pi;
 
 [[noreturn]] void fail(std::string_view place, const std::string& message) {
   throw std::invalid_argument(fmt::format("{}: {}", place, message));
@@ -25,25 +26,42 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 std::optional<Instant> time_of(const ImportOptions& facts, std::string_view place) {
   if (!facts.local_time) return {};
-  if (!facts.utc_offset_h)
+  const std::optional<double> in_text = stated_utc_offset_h(*facts.local_time);
+  if (!in_text && !facts.utc_offset_h)
     fail(place, "utc_offset_h: not stated, expected the hours that local_time is ahead of UTC");
-  const std::optional<Instant> time = instant(*facts.local_time, *facts.utc_offset_h);
+  if (in_text && facts.utc_offset_h && *in_text != *facts.utc_offset_h) {
+    fail(place, fmt::format("utc_offset_h = {:.9g}: expected {:.9g}, as local_time = {} says",
+                            *facts.utc_offset_h, *in_text, *facts.local_time));
+  }
+  const std::optional<Instant> time =
+      instant(*facts.local_time, in_text.value_or(facts.utc_offset_h.value_or(0)));
   if (!time)
     fail(place, fmt::format("local_time = {}: expected YYYY-MM-DDTHH:MM:SS", *facts.local_time));
   return time;
 }
 
-// Throws when the stated sun is another one.
-void expect_agreement(const ImportOptions& facts, const SolarPosition& sun, Instant time,
-                      std::string_view place) {
-  if (!facts.sun_zenith_deg) return;
+// How far the stated sun is from one at `zenith`, degrees.
+double stated_sun_apart_deg(const ImportOptions& facts, const SolarPosition& sun, double zenith) {
   Sample between;  // the angle between two suns, as that between sun and view
-  between.sun_zenith = sun.zenith;
+  between.sun_zenith = zenith;
   between.view_zenith = *facts.sun_zenith_deg * kDegree;
   if (facts.sun_azimuth_deg)
     between.relative_azimuth = *facts.sun_azimuth_deg * kDegree - sun.azimuth;
-  const double apart_deg = scattering_angle(between) / kDegree;
-  if (apart_deg <= kSunAgreement_deg) return;
+  return scattering_angle(between) / kDegree;
+}
+
+// What to note of the stated sun; throws when it is another one.
+std::string expect_agreement(const ImportOptions& facts, const SolarPosition& sun, Instant time,
+                             std::string_view place) {
+  if (!facts.sun_zenith_deg) return {};
+  const double apart_deg = stated_sun_apart_deg(facts, sun, sun.zenith);
+  if (apart_deg <= kSunAgreement_deg) return {};
+  if (stated_sun_apart_deg(facts, sun, sun.zenith - refraction(sun.zenith)) <= kSunAgreement_deg) {
+    return fmt::format(
+        "sun_zenith_deg = {:.9g} is the apparent sun: refraction raises the sun of {} "
+        "from zenith {:.3f} deg, where the model has it",
+        *facts.sun_zenith_deg, iso_text(time), sun.zenith / kDegree);
+  }
   fail(place,
        fmt::format("sun_zenith_deg = {:.9g}: expected the sun of {} at this site, zenith {:.3f} "
                    "and azimuth {:.3f} deg, within {} deg; it is {:.2f} deg away",
@@ -71,12 +89,13 @@ std::string counted(std::size_t count, std::string_view what) {
 ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azimuth_is_needed) {
   ScanSun result;
   result.time = time_of(facts, place);
+  result.elevation_m = facts.elevation_m;
   if (result.time) result.distance_au = sun_distance_au(*result.time);
   if (result.time && facts.latitude_deg && facts.longitude_deg) {
     const SolarPosition sun =
         solar_position(*result.time, {*facts.latitude_deg * kDegree, *facts.longitude_deg * kDegree,
                                       facts.elevation_m.value_or(0)});
-    expect_agreement(facts, sun, *result.time, place);
+    result.remark = expect_agreement(facts, sun, *result.time, place);
     result.zenith = sun.zenith;
     result.azimuth = sun.azimuth;
   } else if (facts.sun_zenith_deg && (facts.sun_azimuth_deg || !azimuth_is_needed)) {
@@ -128,9 +147,11 @@ void MeasuredSky::begin_scan(std::string name, const ScanSun& sun) {
   if (sun.time) scan.time_utc = iso_text(*sun.time);
   scan.sun_azimuth = sun.azimuth;
   scan.sun_distance_au = sun.distance_au;
-  scan.elevation_m = facts_.elevation_m;
+  scan.elevation_m = sun.elevation_m;
   reference_.scans.push_back(std::move(scan));
   sun_ = sun;
+  first_sun_azimuth_ = sun.azimuth.value_or(0);
+  if (!sun.remark.empty()) note(sun.remark);
 }
 
 void MeasuredSky::add(const Reading& reading) {
@@ -140,9 +161,10 @@ void MeasuredSky::add(const Reading& reading) {
   sample.scan = static_cast<int>(reference_.scans.size()) - 1;
   sample.direction = reading.number;
   sample.sun_zenith = sun_.zenith;
+  sample.sun_azimuth_since = std::remainder(sun_.azimuth.value_or(0) - first_sun_azimuth_, kTurn);
   sample.view_zenith = reading.view_zenith_deg * kDegree;
   sample.relative_azimuth =
-      std::remainder(from_north_deg * kDegree - sun_.azimuth.value_or(0), 2 * std::numbers::pi);
+      std::remainder(from_north_deg * kDegree - sun_.azimuth.value_or(0), kTurn);
   sample.wavelength_nm = reading.wavelength_nm;
   sample.value = reading.value * unit_.factor;
   sample.zero_weight_reason = flaw_of(reading, sample);
@@ -152,21 +174,42 @@ void MeasuredSky::add(const Reading& reading) {
 }
 
 std::string MeasuredSky::flaw_of(const Reading& reading, const Sample& sample) const {
-  static const Spectrum& known = standard_spectral_data().solar_irradiance;
   for (const ExcludedSample& excluded : facts_.exclude_samples) {
     if (excluded.sample == reading.number) return excluded.reason;
   }
   if (!reading.flaw.empty()) return reading.flaw;
   if (!(reading.view_zenith_deg < 90)) return "outside the sky";
-  if (reading.wavelength_nm > 0 && (reading.wavelength_nm < known.wavelength_nm.front() ||
-                                    reading.wavelength_nm > known.wavelength_nm.back()))
-    return "wavelength outside the model's spectra";
+  if (reading.wavelength_nm > 0 && !has_spectra_at(standard_spectral_data(), reading.wavelength_nm))
+    return std::string(kOutsideSpectra);
   if (!std::isfinite(reading.value)) return "not finite";
   if (!(reading.value > 0)) return "not positive";
   if (facts_.saturation && reading.value >= *facts_.saturation) return "saturated";
   if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kDegree)
     return "near the sun";
   return {};
+}
+
+bool LeftOut::attempt(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const std::invalid_argument& complaint) {
+    complaints_.emplace_back(complaint.what());
+    return false;
+  }
+  ++read_;
+  return true;
+}
+
+std::vector<std::string> LeftOut::notes() const {
+  constexpr std::size_t kMostNotes = 5;
+  if (read_ == 0 && !complaints_.empty()) throw std::invalid_argument(complaints_.front());
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < std::min(kMostNotes, complaints_.size()); ++i)
+    notes.push_back(fmt::format("a {} is left out: {}", what_, complaints_[i]));
+  if (complaints_.size() > kMostNotes)
+    notes.push_back(
+        fmt::format("{} more {}s are left out", complaints_.size() - kMostNotes, what_));
+  return notes;
 }
 
 Reference MeasuredSky::finish() {

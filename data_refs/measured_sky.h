@@ -3,11 +3,13 @@
 // samples of a Reference. A reading that cannot be used stays, with weight 0 and a reason.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "data_refs/civil_time.h"
 #include "data_refs/import_options.h"
@@ -24,11 +26,14 @@ struct ScanSun {
   std::optional<double> azimuth;
   double distance_au = 1;
   std::optional<Instant> time;
+  std::optional<double> elevation_m;  // of the site
+  std::string remark;                 // what to note of it; empty otherwise
 };
 
-// From time and place; a sun that is stated beside them must agree within kSunAgreement_deg. Where
-// time or place is missing, the stated one. Throws std::invalid_argument that begins with `place`
-// when neither is known, they disagree or the sun is below the horizon.
+// From time and place; a sun that is stated beside them must agree within kSunAgreement_deg, as it
+// is or as refraction shows it. Where time or place is missing, the stated one. Throws
+// std::invalid_argument that begins with `place` when neither is known, they disagree or the sun is
+// below the horizon.
 inline constexpr double kSunAgreement_deg = 0.25;  // one minute of time; the sun's radius
 ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place,
                     bool azimuth_is_needed = true);
@@ -74,8 +79,26 @@ class MeasuredSky {
   ImportOptions facts_;
   AzimuthSense sense_;
   Reference reference_;
-  ScanSun sun_;            // of the last scan
+  ScanSun sun_;  // of the last scan
+  double first_sun_azimuth_ = 0;
   std::set<int> numbers_;  // of all directions that were read
+};
+
+// Scans (or lines) of a file that cannot be used: the others are read all the same.
+class LeftOut {
+ public:
+  explicit LeftOut(std::string what) : what_(std::move(what)) {}
+
+  // Whether `read` did not throw std::invalid_argument.
+  bool attempt(const std::function<void()>& read);
+
+  // What was left out and why. Throws the first complaint when nothing was read.
+  std::vector<std::string> notes() const;
+
+ private:
+  std::string what_;
+  int read_ = 0;
+  std::vector<std::string> complaints_;
 };
 
 }  // namespace skyfit::refs

@@ -58,7 +58,8 @@ Reference parse_patch_csv(std::string_view text, std::string_view source,
       stated_unit(header, options, source, {Quantity::kLuminance, Quantity::kRelativeLuminance});
   const PatchScan scan{std::filesystem::path(source).filename().string(),
                        sun_of_scan(facts, header.place(source, "sun_zenith_deg")),
-                       read_values(text, source)};
+                       read_values(text, source),
+                       {}};
   return patch_reference(std::string(source), unit, facts, {&scan, 1});
 }
 

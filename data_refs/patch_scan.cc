@@ -40,6 +40,33 @@ double brightest_from_sun_deg(std::span<const PatchScan> scans,
   return sum / static_cast<double>(kBrightest * scans.size());
 }
 
+// Mean distance between the stated azimuths of the sun and the computed ones when azimuths start at
+// `zero`; nothing where a scan does not state it.
+std::optional<double> stated_azimuth_off_deg(std::span<const PatchScan> scans, double zero,
+                                             bool counter) {
+  double sum = 0;
+  for (const PatchScan& scan : scans) {
+    if (!scan.stated_sun_azimuth || !scan.sun.azimuth) return {};
+    sum += std::abs(std::remainder(
+        zero + (counter ? -1 : 1) * *scan.stated_sun_azimuth - *scan.sun.azimuth, 2 * kPi));
+  }
+  return sum / kDegree / static_cast<double>(scans.size());
+}
+
+// Where azimuths start, by the azimuth that the file states for the sun; sets facts.azimuth_zero.
+std::optional<std::string> settle_by_sun_azimuth(ImportOptions& facts,
+                                                 std::span<const PatchScan> scans, bool counter) {
+  constexpr double kNear_deg = 10;  // of a sun at another minute of the scan, even a high one
+  const auto north = stated_azimuth_off_deg(scans, 0, counter),
+             south = stated_azimuth_off_deg(scans, kPi, counter);
+  if (!north || !south || std::min(*north, *south) > kNear_deg) return {};
+  facts.azimuth_zero = *north < *south ? "north" : "south";
+  return fmt::format(
+      "azimuth_zero is {}: the file's azimuth of the sun is {:.1f} deg from the "
+      "sun's with it",
+      *facts.azimuth_zero, std::min(*north, *south));
+}
+
 // Sets facts.azimuth_zero, or throws; returns what to note.
 std::optional<std::string> settle_azimuth_zero(const std::string& source, ImportOptions& facts,
                                                std::span<const PatchScan> scans,
@@ -55,6 +82,7 @@ std::optional<std::string> settle_azimuth_zero(const std::string& source, Import
   const std::string says = north < south ? "north" : "south";
   if (!facts.azimuth_zero) {
     if (!is_clear) {
+      if (auto settled = settle_by_sun_azimuth(facts, scans, counter)) return settled;
       throw std::invalid_argument(
           fmt::format("{}: azimuth_zero: not stated, expected north or south: {}", source, found));
     }
@@ -85,11 +113,12 @@ std::vector<SkyDirection> patch_directions(const ImportOptions& facts) {
 }
 
 Reference patch_reference(std::string source, const Unit& unit, ImportOptions facts,
-                          std::span<const PatchScan> scans) {
+                          std::span<const PatchScan> scans, const std::vector<std::string>& notes) {
   const std::vector<SkyDirection> directions = patch_directions(facts);
   const std::optional<std::string> note = settle_azimuth_zero(source, facts, scans, directions);
   MeasuredSky sky(std::move(source), unit, facts);
   if (note) sky.note(*note);
+  for (const std::string& text : notes) sky.note(text);
   for (const PatchScan& scan : scans) {
     sky.begin_scan(scan.name, scan.sun);
     for (std::size_t i = 0; i < kPatches; ++i) {

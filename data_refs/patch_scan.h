@@ -26,12 +26,15 @@ struct PatchScan {
   std::string name;
   ScanSun sun;
   std::vector<double> values;
+  std::optional<double> stated_sun_azimuth = {};  // radians, as the file counts azimuths
 };
 
 // The samples of the scans. Where azimuth_zero is stated, throws std::invalid_argument when the
 // brightest patches lie far from the sun and near it with the other zero; where it is not, they
-// must tell which it is, and a note says so.
+// must tell which it is, or under a sky without a bright side the stated azimuths of the sun, and a
+// note says so.
 Reference patch_reference(std::string source, const Unit& unit, ImportOptions facts,
-                          std::span<const PatchScan> scans);
+                          std::span<const PatchScan> scans,
+                          const std::vector<std::string>& notes = {});
 
 }  // namespace skyfit::refs

@@ -5,6 +5,14 @@
 
 namespace skyfit::refs {
 
+std::map<std::string, int> samples_left_out(const Reference& reference) {
+  std::map<std::string, int> counts;
+  for (const Sample& sample : reference.samples) {
+    if (!(sample.weight > 0)) ++counts[sample.zero_weight_reason];
+  }
+  return counts;
+}
+
 double scattering_angle(const Sample& sample) {
   // Vincenty's form of the angle between two directions: exact near 0 and pi, where acos loses half
   // the digits.
@@ -14,6 +22,12 @@ double scattering_angle(const Sample& sample) {
                cos_az = std::cos(sample.relative_azimuth);
   const double across = std::hypot(sin_v * sin_az, sin_s * cos_v - cos_s * sin_v * cos_az);
   return std::atan2(across, cos_s * cos_v + sin_s * sin_v * cos_az);
+}
+
+DirectionFromSun direction_from_sun(const Sample& sample) {
+  constexpr double kUnit = 1e-9;  // a thousand times what degrees and back cost, far below any step
+  return {sample.scan, std::llround((sample.view_zenith - sample.sun_zenith) / kUnit),
+          std::llround(sample.relative_azimuth / kUnit)};
 }
 
 }  // namespace skyfit::refs

@@ -3,8 +3,10 @@
 // struct.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace skyfit::refs {
@@ -26,14 +28,16 @@ struct Sample {
   double weight = 1;               // >= 0
   std::string zero_weight_reason;  // why weight == 0; empty otherwise
   int scan = 0;                    // samples of one scan share one sun position's luminance scale
-  int direction = 0;               // its number in a measured scan; many wavelengths share one
+  // How far the sun has gone since the scan's begin, radians clockwise, where a scan takes minutes.
+  double sun_azimuth_since = 0;
+  int direction = 0;  // its number in a measured scan; many wavelengths share one
 };
 
 // What is known of one scan beside its samples. Instants in UTC.
 struct Scan {
   std::string name;                   // the file, or "sun zenith 30 deg"
   std::string time_utc;               // "2013-05-27T13:30:00Z"; empty: not known
-  std::optional<double> sun_azimuth;  // radians clockwise from north
+  std::optional<double> sun_azimuth;  // radians clockwise from north, of the begin
   double sun_distance_au = 1;         // of the time; 1 where the time is not known
   std::optional<double> elevation_m;  // of the site above the sea
 };
@@ -47,7 +51,15 @@ struct Reference {
   std::vector<std::string> notes;  // what the reader of a measured sky concluded or left out
 };
 
+// How many samples have weight 0, by the reason.
+std::map<std::string, int> samples_left_out(const Reference& reference);
+
 // Angle between the view ray and the direction to the sun, radians.
 double scattering_angle(const Sample& sample);
+
+// What samples of one direction of a scan share while the sun moves: the scan, view zenith minus
+// sun zenith and relative azimuth, in 1e-9 radians.
+using DirectionFromSun = std::tuple<int, long long, long long>;
+DirectionFromSun direction_from_sun(const Sample& sample);
 
 }  // namespace skyfit::refs

@@ -2,7 +2,9 @@
 #include "data_refs/sky_image.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +18,7 @@
 #include "data_refs/csv.h"
 #include "data_refs/fisheye.h"
 #include "data_refs/measured_sky.h"
+#include "data_refs/radiance_header.h"
 #include "data_refs/sky_bins.h"
 #include "model/base/input_file.h"
 #include "model/base/module_file.h"
@@ -46,6 +49,30 @@ std::optional<std::size_t> channel(const Image& image, std::string_view name) {
   return static_cast<std::size_t>(found - image.channels.begin());
 }
 
+// What Y of CIE XYZ weighs red, green and blue with, where white has 1 (SMPTE RP 177).
+std::vector<double> weights_of(const Chromaticities& xy, std::string_view source) {
+  Eigen::Matrix3d primaries;
+  for (int c = 0; c < 3; ++c) {
+    const double x = static_cast<double>(xy[2 * c]), y = static_cast<double>(xy[2 * c + 1]);
+    primaries.col(c) << x, y, 1 - x - y;
+  }
+  const double x = static_cast<double>(xy[6]), y = static_cast<double>(xy[7]);
+  const Eigen::Vector3d scale = primaries.fullPivLu().solve(Eigen::Vector3d(x, y, 1 - x - y) / y);
+  const Eigen::Vector3d weights = primaries.row(1).transpose().cwiseProduct(scale);
+  if (!weights.allFinite() || std::abs(weights.sum() - 1) > 1e-3)
+    fail(source, fmt::format("chromaticities {}: expected those of three primaries and white",
+                             fmt::join(xy, " ")));
+  return {weights(0), weights(1), weights(2)};
+}
+
+constexpr Chromaticities kSrgb = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+constexpr Chromaticities kRadiance = {0.64f, 0.33f, 0.29f, 0.60f, 0.15f, 0.06f, 1 / 3.f, 1 / 3.f};
+
+bool same(const Chromaticities& a, const Chromaticities& b) {
+  constexpr float kRounded = 2e-3f;  // headers have three digits
+  return std::ranges::equal(a, b, [](float x, float y) { return std::abs(x - y) < kRounded; });
+}
+
 LuminanceWeights luminance_weights(const Image& image, bool is_radiance_hdr,
                                    const ImportOptions& facts, std::string_view source) {
   if (const auto y = channel(image, "Y")) return {{*y}, {1}, "channel Y"};
@@ -53,9 +80,18 @@ LuminanceWeights luminance_weights(const Image& image, bool is_radiance_hdr,
   if (!red || !green || !blue)
     fail(source, fmt::format("channels {}: expected R, G and B, or Y",
                              excerpt(fmt::format("{}", fmt::join(image.channels, ", ")))));
-  if (facts.primaries.value_or(is_radiance_hdr ? "radiance" : "srgb") == "radiance")
-    return {{*red, *green, *blue}, {0.265, 0.670, 0.065}, "Radiance's primaries"};
-  return {{*red, *green, *blue}, {0.2126, 0.7152, 0.0722}, "sRGB primaries"};
+  const std::vector<std::size_t> channels = {*red, *green, *blue};
+  const std::string stated = facts.primaries.value_or(is_radiance_hdr ? "radiance" : "srgb");
+  const Chromaticities& named = stated == "radiance" ? kRadiance : kSrgb;
+  if (image.chromaticities && !same(*image.chromaticities, named)) {
+    if (facts.primaries)
+      fail(source, fmt::format("chromaticities {}: expected primaries = {}, as options or sidecar "
+                               "state",
+                               fmt::join(*image.chromaticities, " "), *facts.primaries));
+    return {channels, weights_of(*image.chromaticities, source), "the file's primaries"};
+  }
+  if (stated == "radiance") return {channels, {0.265, 0.670, 0.065}, "Radiance's primaries"};
+  return {channels, {0.2126, 0.7152, 0.0722}, "sRGB primaries"};
 }
 
 // Of a pixel's luminance, as `unit` and `lumen_per_watt` say.
@@ -157,33 +193,31 @@ std::string file_head(const std::filesystem::path& file) {
   return head;
 }
 
-// The product of the lines EXPOSURE= of a Radiance file's header.
-double radiance_exposure(const std::filesystem::path& file) {
-  constexpr std::string_view kName = "EXPOSURE=";
+// Scenes of Radiance may begin as its pictures do, which name a format.
+bool has_pixels(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  double product = 1;
   for (std::string line; std::getline(in, line) && !line.empty();) {
-    if (!line.starts_with(kName)) continue;
-    const std::size_t begin = line.find_first_not_of(' ', kName.size());
-    const auto value = csv_number(begin == line.npos ? "" : std::string_view(line).substr(begin));
-    if (!value || !(*value > 0) || !std::isfinite(*value))
-      fail(file.string(), in_quotes(line) + ": expected a number > 0");
-    product *= *value;
+    if (line.starts_with("FORMAT=")) return true;
   }
-  return product;
+  return false;
 }
 
 }  // namespace
 
 bool is_sky_image(const std::filesystem::path& file) {
   const std::string head = file_head(file);
-  return head.starts_with(kExrMagic) || head.starts_with(kHdrMagic);
+  return head.starts_with(kExrMagic) || (head.starts_with(kHdrMagic) && has_pixels(file));
 }
 
 Reference sky_image_reference(const Image& image, const Image* mask, bool is_radiance_hdr,
                               const std::string& source, const ImportOptions& facts) {
   if (mask != nullptr && (mask->width != image.width || mask->height != image.height)) {
     fail(source, fmt::format("mask of {} x {} pixels: expected {} x {}", mask->width, mask->height,
+                             image.width, image.height));
+  }
+  if (image.width == 2 * image.height && !facts.radius_px) {
+    fail(source, fmt::format("{} x {} pixels: expected a fisheye, this is as wide as a panorama; "
+                             "state radius_px where it is none",
                              image.width, image.height));
   }
   const Fisheye lens(facts, image.width, image.height, source);
@@ -213,12 +247,31 @@ Reference sky_image_reference(const Image& image, const Image* mask, bool is_rad
   return sky.finish();
 }
 
+// The picture as its header means it: upright, without exposure and colour correction.
+Image as_radiance_means(Image image, const RadianceHeader& header, std::string_view source) {
+  if (image.channels.size() < 3) fail(source, "expected three channels");
+  image = upright(image, header.order);
+  image.chromaticities = header.primaries;
+  if (header.is_xyz) image.channels = {"X", "Y", "Z"};
+  const std::size_t channels = image.channels.size();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const std::size_t c = i % channels;
+    if (c < 3) image.pixels[i] /= static_cast<float>(header.exposure * header.colour_correction[c]);
+  }
+  return image;
+}
+
 Reference load_sky_image(const std::filesystem::path& file, const ImportOptions& options) {
   const auto& module = module_named<ImageModule>("skyfit_image_module");
   ImportOptions facts = options;
   const bool is_radiance_hdr = file_head(file).starts_with(kHdrMagic);
-  if (is_radiance_hdr) facts.calibration = facts.calibration.value_or(1) / radiance_exposure(file);
-  const Image image = module.read(file);
+  RadianceHeader header;
+  if (is_radiance_hdr) {
+    header = read_radiance_header(file);
+    facts = with_view(facts, header.view, file.string());
+  }
+  Image image = module.read(file);
+  if (is_radiance_hdr) image = as_radiance_means(std::move(image), header, file.string());
   std::optional<Image> mask;
   if (facts.mask) {
     require_regular_file(*facts.mask, "an image", kMostImageBytes);

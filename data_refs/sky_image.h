@@ -4,8 +4,10 @@
 // and the sun or time and place. Loads OpenImageIO (image/image_module.h).
 //
 // Luminance of a pixel: its channel Y, or 0.2126 R + 0.7152 G + 0.0722 B (sRGB), or 0.265 R +
-// 0.670 G + 0.065 B (Radiance's primaries), times `calibration`, times `lumen_per_watt` where the
-// pixels are radiances; a Radiance file's EXPOSURE is undone.
+// 0.670 G + 0.065 B (Radiance's primaries), or by the chromaticities that an EXR file or PRIMARIES
+// of a Radiance file states, times `calibration`, times `lumen_per_watt` where the pixels are
+// radiances. Of a Radiance file EXPOSURE and COLORCORR are undone, the order of its pixels and VIEW
+// are obeyed (radiance_header.h). A panorama, twice as wide as high, is refused.
 //
 // Bins: rows about bin_deg high (6 deg where it is not stated) of cells about as wide, or the
 // patches of Tregenza with 12; numbered from 1 by rows from the horizon and from north clockwise. A

@@ -146,4 +146,11 @@ double sun_distance_au(Instant time) {
   return orbit_coordinate("distance", epoch(time).terrestrial_days / 365250);
 }
 
+double refraction(double zenith) {
+  constexpr double kDegree = std::numbers::pi / 180, kArcMinute = kDegree / 60;
+  const double altitude_deg = 90 - zenith / kDegree;
+  if (altitude_deg < -1) return 0;
+  return kArcMinute * 1.02 / std::tan((altitude_deg + 10.3 / (altitude_deg + 5.11)) * kDegree);
+}
+
 }  // namespace skyfit::refs

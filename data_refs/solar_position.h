@@ -25,6 +25,10 @@ struct SolarPosition {
 
 SolarPosition solar_position(Instant time, const Site& site);
 
+// How much higher than it is a sun at this zenith angle is seen at sea level, radians (Saemundsson
+// 1986, as in Meeus 1998, eq. 16.4: 1010 hPa, 10 deg C); 0 where it is below the horizon by 1 deg.
+double refraction(double zenith);
+
 // Astronomical units; needs no place.
 double sun_distance_au(Instant time);
 

@@ -105,8 +105,8 @@ double band_mean(const Spectrum& spectrum, double nm, double band_nm) {
   return integral / band_nm;
 }
 
-// The multiples of the band's width whose band lies within the spectrum and 360 to 830 nm, where
-// the model has data.
+// The multiples of the band's width whose band lies within the spectrum and 360 to 830 nm, the
+// visible.
 std::vector<double> band_centres(const Spectrum& spectrum, double band_nm) {
   constexpr double kFirst_nm = 360, kLast_nm = 830;
   const double low = std::max(kFirst_nm, spectrum.wavelength_nm.front()) + band_nm / 2;
@@ -146,8 +146,10 @@ Reference load_spectral_scan_folder(const fs::path& folder, const ImportOptions&
   const fs::path name = folder.filename().empty() ? folder.parent_path() : folder;
   sky.begin_scan(name.filename().string(), sun_of_scan(facts, folder.string()));
   const double band_nm = options.band_nm.value_or(kDefaultBand_nm);
+  LeftOut left_out("direction");
   for (const auto& [number, file] : files) {
-    const Spectrum spectrum = read_spectrum(file.path);
+    Spectrum spectrum;
+    if (!left_out.attempt([&, &path = file.path] { spectrum = read_spectrum(path); })) continue;
     for (const double nm : band_centres(spectrum, band_nm)) {
       Reading reading;
       reading.number = number;
@@ -158,6 +160,7 @@ Reference load_spectral_scan_folder(const fs::path& folder, const ImportOptions&
       sky.add(reading);
     }
   }
+  for (const std::string& note : left_out.notes()) sky.note(note);
   return sky.finish();
 }
 

@@ -36,12 +36,13 @@ struct Sum {
 Directions directions_of(const refs::Reference& reference, const SpectralData& spectra,
                          double exclude_sun) {
   constexpr double kRounding = 1e-9;
-  std::map<std::tuple<int, double, double>, Sum> sums;
+  std::map<refs::DirectionFromSun, Sum> sums;
   for (const refs::Sample& s : reference.samples) {
     if (s.weight == 0 || refs::scattering_angle(s) < exclude_sun - kRounding) continue;
-    Sum& sum = sums[{s.scan, s.view_zenith, s.relative_azimuth}];
+    Sum& sum = sums[refs::direction_from_sun(s)];
     sum.at = s;
-    sum.luminance += s.value * (s.wavelength_nm > 0 ? spectra.y_bar.at(s.wavelength_nm) : 1.0);
+    sum.luminance +=
+        s.value * (s.wavelength_nm > 0 ? spectra.y_bar.at_or_zero(s.wavelength_nm) : 1.0);
   }
   if (sums.empty()) {
     throw std::invalid_argument(fmt::format(

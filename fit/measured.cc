@@ -88,7 +88,8 @@ refs::Reference without_sun(const refs::Reference& reference, const MeasuredProb
         std::ranges::find(problem.all.scans, sample.scan, &ScanInfo::number) -
         problem.all.scans.begin());
     const SkyPoint point =
-        pointed(sky_point(sample), problem.all.scans[scan], state.instrument[scan]);
+        pointed(sky_point(sample), problem.all.scans[scan].sun_azimuth + sample.sun_azimuth_since,
+                state.instrument[scan]);
     refs::Sample at = sample;
     at.view_zenith = point.view_zenith;
     at.relative_azimuth = point.relative_azimuth;

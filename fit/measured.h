@@ -74,7 +74,8 @@ struct UnknownRow {
 // How far the model is from the measured values, percent, over samples with weight.
 struct MeasuredErrors {
   // Root mean square of model / measured - 1 of the luminance of every direction; for spectra the
-  // sum of y_bar times radiance over the wavelengths at hand, both sides alike.
+  // sum of y_bar times radiance over the wavelengths at hand, both sides alike; NaN where none of
+  // them is visible.
   double luminance = 0;
   // |model - measured| / |measured|, 2-norms over all samples of 400 .. 700 nm; NaN for luminances.
   double spectral = 0;

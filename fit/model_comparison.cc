@@ -217,7 +217,7 @@ refs::Reference comparison_reference(const refs::Reference& reference,
       const double low = ascending[k > 0 ? k - 1 : k]->wavelength_nm,
                    high = ascending[std::min(k + 1, ascending.size() - 1)]->wavelength_nm;
       sum.value += kLumenPerWatt * 0.5 * (high - low) *
-                   spectra.y_bar.at(ascending[k]->wavelength_nm) * ascending[k]->value;
+                   spectra.y_bar.at_or_zero(ascending[k]->wavelength_nm) * ascending[k]->value;
     }
     luminances.samples.push_back(sum);
   }

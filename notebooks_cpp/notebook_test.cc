@@ -135,7 +135,8 @@ TEST_F(Folder, AnUnwritableTargetIsNamed) {
   std::filesystem::create_directory(folder_ / "toy.ipynb");
   const auto [status, said] = run(good_notebook);
   EXPECT_EQ(status, 1);
-  EXPECT_EQ(said, (folder_ / "toy.ipynb").string() + ": cannot write\n");
+  EXPECT_EQ(said, (folder_ / "toy.ipynb").string() +
+                      ": expected the name of a file, this is a directory\n");
 }
 
 TEST(Percent, BadCellsAreRefusedWithTheirLine) {

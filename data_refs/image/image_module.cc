@@ -23,7 +23,11 @@ Image read(const std::filesystem::path& file) {
   constexpr std::size_t kMostValues = std::size_t{1} << 30;
   if (spec.image_pixels() > kMostValues / static_cast<std::size_t>(std::max(spec.nchannels, 1)))
     fail(file, "expected at most 2^30 values");
-  Image image{spec.width, spec.height, spec.channelnames, {}};
+  Image image{spec.width, spec.height, spec.channelnames, {}, {}};
+  Chromaticities chromaticities;
+  const OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, static_cast<int>(chromaticities.size()));
+  if (spec.getattribute("chromaticities", type, chromaticities.data()))
+    image.chromaticities = chromaticities;
   image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   const bool whole =
       input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data());

@@ -3,24 +3,30 @@
 // data_refs/ that loads OpenImageIO.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace skyfit::refs {
 
+// x and y of red, green, blue and white.
+using Chromaticities = std::array<float, 8>;
+
 // Rows from the upper edge, channels interleaved.
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::string> channels;  // "R", "G", "B", ..
-  std::vector<float> pixels;          // height x width x channels
+  std::vector<std::string> channels;                  // "R", "G", "B", ..
+  std::vector<float> pixels;                          // height x width x channels
+  std::optional<Chromaticities> chromaticities = {};  // where the file states them
   const float* pixel(int x, int y) const {
     return &pixels[(static_cast<std::size_t>(y) * width + x) * channels.size()];
   }
 };
 
 struct ImageModule {
-  static constexpr int kRevision = 1;
+  static constexpr int kRevision = 2;
   int revision;
   // Throws std::runtime_error `file: cannot be read: ...`.
   Image (*read)(const std::filesystem::path& file);

@@ -23,9 +23,11 @@ constexpr double kRounding = 1e-9;  // radians: a sample on the rim of the cone 
                                           index + 1, field, value, expected));
 }
 
-bool is_used(const refs::Sample& sample, const ScanSelection& selection) {
-  return selection.with_weightless ||
-         (sample.weight > 0 && refs::scattering_angle(sample) >= selection.exclude_sun - kRounding);
+bool is_used(const refs::Sample& sample, const SpectralData& spectra,
+             const ScanSelection& selection) {
+  if (selection.with_weightless)
+    return sample.wavelength_nm == 0 || has_spectra_at(spectra, sample.wavelength_nm);
+  return (sample.weight > 0 && refs::scattering_angle(sample) >= selection.exclude_sun - kRounding);
 }
 
 void check(const refs::Reference& reference, std::size_t index, const ScanSelection& selection) {
@@ -104,10 +106,26 @@ double sigma_of(const refs::Sample& sample, const NoiseModel& noise) {
   return sigma / std::sqrt(sample.weight > 0 ? sample.weight : 1);
 }
 
-// Sorted by scan, direction and wavelength.
-using Place = std::tuple<int, double, double, double>;
+// Sorted by scan, direction, wavelength and sun.
+using Place = std::tuple<refs::DirectionFromSun, double, double>;
 Place place_of(const refs::Sample& s) {
-  return {s.scan, s.view_zenith, s.relative_azimuth, s.wavelength_nm};
+  return {refs::direction_from_sun(s), s.wavelength_nm, s.sun_zenith};
+}
+
+bool is_ray_of(const Ray& ray, const refs::Sample& sample) {
+  return ray.stated.sun_zenith == sample.sun_zenith &&
+         ray.stated.view_zenith == sample.view_zenith &&
+         ray.stated.relative_azimuth == sample.relative_azimuth;
+}
+
+// The ray of a sample, and its look where that is a new one.
+void add_direction(ScanData& data, const refs::Sample& sample, bool is_new_look) {
+  if (!is_new_look && is_ray_of(data.rays.back(), sample)) return;
+  const auto info = std::ranges::find(data.scans, sample.scan, &ScanInfo::number);
+  const int scan = static_cast<int>(info - data.scans.begin());
+  const SkyPoint point = sky_point(sample);
+  if (is_new_look) data.looks.push_back({scan, point});
+  data.rays.push_back({scan, point, info->sun_azimuth + sample.sun_azimuth_since});
 }
 
 void add_rows(ScanData& data, const refs::Reference& reference, std::vector<std::size_t> samples,
@@ -117,21 +135,17 @@ void add_rows(ScanData& data, const refs::Reference& reference, std::vector<std:
   std::map<double, int> channel_of;
   for (std::size_t c = 0; c < data.channels.size(); ++c)
     channel_of[data.channels[c].wavelength_nm] = static_cast<int>(c);
+  std::optional<refs::DirectionFromSun> last;
   for (const std::size_t i : samples) {
     const refs::Sample& sample = reference.samples[i];
     const auto channel = channel_of.find(sample.wavelength_nm);
     if (channel == channel_of.end()) continue;
-    const auto info = std::ranges::find(data.scans, sample.scan, &ScanInfo::number);
-    if (sample.sun_zenith != info->sun_zenith)
-      fail(reference, i, "sun_zenith", sample.sun_zenith, "that of its scan (radians)");
-    const int scan = static_cast<int>(info - data.scans.begin());
-    const SkyPoint point = sky_point(sample);
-    if (data.looks.empty() || data.looks.back().scan != scan ||
-        data.looks.back().stated.view_zenith != point.view_zenith ||
-        data.looks.back().stated.relative_azimuth != point.relative_azimuth) {
-      data.looks.push_back({scan, point});
-    }
-    data.rows.push_back({i, static_cast<int>(data.looks.size()) - 1, channel->second, sample.value,
+    const auto direction = refs::direction_from_sun(sample);
+    const bool is_new_look = direction != last;
+    add_direction(data, sample, is_new_look);
+    last = direction;
+    data.rows.push_back({i, static_cast<int>(data.looks.size()) - 1,
+                         static_cast<int>(data.rays.size()) - 1, channel->second, sample.value,
                          sigma_of(sample, noise)});
   }
 }
@@ -155,7 +169,7 @@ ScanData scan_data(const refs::Reference& reference, const SpectralData& spectra
   std::vector<std::size_t> used;
   std::set<double> wavelengths;
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    if (!is_used(reference.samples[i], selection)) continue;
+    if (!is_used(reference.samples[i], spectra, selection)) continue;
     check(reference, i, selection);
     used.push_back(i);
     wavelengths.insert(reference.samples[i].wavelength_nm);

@@ -24,23 +24,31 @@ struct Channel {
   std::vector<double> weight;
 };
 
-// One direction of one scan, as the instrument states it.
+// One direction of one scan, as the instrument states it. Under a sun that moves during the scan it
+// is a direction from the sun, and `stated` that of its first sample.
 struct Look {
   int scan;
   SkyPoint stated;
+};
+
+// A direction under one sun, for which the model is evaluated.
+struct Ray {
+  int scan;
+  SkyPoint stated;
+  double sun_azimuth;  // radians from north, 0 where it is not known
 };
 
 struct ScanInfo {
   int number = 0;  // the reference's
   std::string name;
   std::string time_utc;                    // empty: not known
-  double sun_zenith = 0, sun_azimuth = 0;  // radians; azimuth from north, 0 where it is not known
+  double sun_zenith = 0, sun_azimuth = 0;  // of its begin, radians; azimuth from north, else 0
   double inverse_distance2 = 1;            // au^-2
 };
 
 struct ScanRow {
   std::size_t sample;  // index into the reference's samples
-  int look, channel;
+  int look, ray, channel;
   double value, sigma;  // in the reference's unit; sigma includes the sample's weight
 };
 
@@ -49,6 +57,7 @@ struct ScanData {
   std::vector<Channel> channels;  // ascending wavelength
   std::vector<ScanInfo> scans;    // all of the reference, also those without a row
   std::vector<Look> looks;        // sorted by scan
+  std::vector<Ray> rays;          // those of a look follow each other
   std::vector<ScanRow> rows;      // sorted by look, then channel
   std::vector<int> rows_per_look() const;
 };
@@ -67,7 +76,7 @@ struct ScanSelection {
 };
 
 // Throws std::invalid_argument for a reference of relative luminance, values that are not finite
-// and > 0, wavelengths outside the tables, scans whose samples have different suns.
+// and > 0, and wavelengths outside the tables; with_weightless leaves such samples out.
 ScanData scan_data(const refs::Reference& reference, const SpectralData& spectra,
                    const ScanSelection& selection);
 

@@ -122,7 +122,7 @@ Eigen::VectorXd scaled_values(const std::vector<Unknown>& unknowns, const SkySta
   return result;
 }
 
-SkyPoint pointed(const SkyPoint& stated, const ScanInfo& scan,
+SkyPoint pointed(const SkyPoint& stated, double sun_azimuth,
                  const std::array<double, kInstrumentCount>& instrument) {
   const auto of = [&](Instrument id) { return instrument[static_cast<std::size_t>(id)]; };
   SkyPoint result = stated;
@@ -130,7 +130,7 @@ SkyPoint pointed(const SkyPoint& stated, const ScanInfo& scan,
   const double north = of(Instrument::kTiltNorth), east = of(Instrument::kTiltEast);
   if (north == 0 && east == 0) return result;  // keeps the zenith angle, and with it shared rays
   // x north, y west, z up; the axis leans toward (north, -east): a turn about z x lean.
-  const double azimuth = result.relative_azimuth + scan.sun_azimuth;
+  const double azimuth = result.relative_azimuth + sun_azimuth;
   const double sin_z = std::sin(result.view_zenith);
   const Eigen::Vector3d direction(sin_z * std::cos(azimuth), -sin_z * std::sin(azimuth),
                                   std::cos(result.view_zenith));
@@ -138,7 +138,7 @@ SkyPoint pointed(const SkyPoint& stated, const ScanInfo& scan,
   const Eigen::Vector3d leant = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * direction;
   result.view_zenith = std::atan2(std::hypot(leant.x(), leant.y()), leant.z());
   result.relative_azimuth =
-      std::remainder(std::atan2(-leant.y(), leant.x()) - scan.sun_azimuth, 2 * std::numbers::pi);
+      std::remainder(std::atan2(-leant.y(), leant.x()) - sun_azimuth, 2 * std::numbers::pi);
   return result;
 }
 

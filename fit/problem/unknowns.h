@@ -67,8 +67,8 @@ SkyState with_unknowns(SkyState state, const std::vector<Unknown>& unknowns,
                        const Eigen::VectorXd& scaled);
 Eigen::VectorXd scaled_values(const std::vector<Unknown>& unknowns, const SkyState& state);
 
-// Where the instrument truly points.
-SkyPoint pointed(const SkyPoint& stated, const ScanInfo& scan,
+// Where the instrument truly points. `sun_azimuth`: radians from north.
+SkyPoint pointed(const SkyPoint& stated, double sun_azimuth,
                  const std::array<double, kInstrumentCount>& instrument);
 
 }  // namespace skyfit::fit

@@ -3,7 +3,6 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
-#include <tuple>
 
 #include "fit/measured.h"
 
@@ -25,26 +24,27 @@ MeasuredErrors measured_errors(const refs::Reference& reference, const std::vect
                                const SpectralData& spectra, int scan) {
   constexpr double kShortestNm = 400, kLongestNm = 700;
   const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
-  std::map<std::tuple<int, double, double>, Pair> luminance_of_look;
+  std::map<refs::DirectionFromSun, Pair> luminance_of_look;
   double difference2 = 0, measured2 = 0;
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {
     const refs::Sample& s = reference.samples[i];
     if (s.weight == 0 || (scan != kAllScans && s.scan != scan)) continue;
-    const double weight = spectral ? spectra.y_bar.at(s.wavelength_nm) : 1;
-    Pair& luminance = luminance_of_look[{s.scan, s.view_zenith, s.relative_azimuth}];
+    const double weight = spectral ? spectra.y_bar.at_or_zero(s.wavelength_nm) : 1;
+    Pair& luminance = luminance_of_look[refs::direction_from_sun(s)];
     luminance.model += weight * model[i];
     luminance.measured += weight * s.value;
     if (!spectral || s.wavelength_nm < kShortestNm || s.wavelength_nm > kLongestNm) continue;
     difference2 += std::pow(model[i] - s.value, 2);
     measured2 += s.value * s.value;
   }
-  double sum = 0, squares = 0;
+  double sum = 0, squares = 0, count = 0;
   for (const auto& [look, luminance] : luminance_of_look) {
+    if (!(luminance.measured > 0)) continue;  // no visible wavelength
+    ++count;
     const double relative = luminance.model / luminance.measured - 1;
     sum += relative;
     squares += relative * relative;
   }
-  const auto count = static_cast<double>(luminance_of_look.size());
   return {100 * std::sqrt(squares / count), percent_of_norm(difference2, measured2),
           100 * sum / count};
 }

@@ -39,6 +39,15 @@ std::string header(const MeasuredResult& result) {
       result.starts.size(), result.model_evaluations, result.derivative_evaluations);
 }
 
+// What is known of the reference, and its samples without weight by reason.
+std::string reference_remarks(const refs::Reference& reference) {
+  std::string text;
+  for (const std::string& note : reference.notes) text += fmt::format("note        {}\n", note);
+  for (const auto& [reason, count] : refs::samples_left_out(reference))
+    text += fmt::format("left out    {} sample{}: {}\n", count, count == 1 ? "" : "s", reason);
+  return text.empty() ? text : text + "\n";
+}
+
 std::string errors_text(const MeasuredResult& result) {
   constexpr std::string_view kRow = "{:<44}{:>14}{:>14}{:>14}\n";
   const auto row = [&](std::string_view name, const MeasuredErrors& errors) {
@@ -224,9 +233,9 @@ std::string brief_report(const MeasuredResult& result) {
 }
 
 std::string full_report(const MeasuredResult& result, const MeasuredChecks& checks) {
-  return header(result) + errors_text(result) + unknowns_text(result) + pulled_text(result) +
-         downweighted_text(result) + findings_text(result) + correlation_text(result) +
-         profiles_text(checks.profiles) +
+  return header(result) + reference_remarks(result.reference) + errors_text(result) +
+         unknowns_text(result) + pulled_text(result) + downweighted_text(result) +
+         findings_text(result) + correlation_text(result) + profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
          hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }

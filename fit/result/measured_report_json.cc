@@ -111,6 +111,8 @@ json report_json(const MeasuredResult& result, const MeasuredChecks& checks) {
   const json& fit = result.preset.fit;
   json report = {{"skyfit_version", fit["skyfit_version"]},
                  {"reference", fit["reference"]},
+                 {"samples_not_used", refs::samples_left_out(result.reference)},
+                 {"notes", result.reference.notes},
                  {"model", fit["model"]},
                  {"start", fit["start"]},
                  {"errors_start", errors_json(result.start_errors)},

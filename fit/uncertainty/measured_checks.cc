@@ -274,9 +274,8 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
                                          const MeasuredOptions& options,
                                          const MeasuredResult& result, int parts,
                                          std::uint64_t seed) {
-  std::map<std::tuple<int, double, double>, int> part_of;
-  for (const refs::Sample& s : result.reference.samples)
-    part_of[{s.scan, s.view_zenith, s.relative_azimuth}] = 0;
+  std::map<refs::DirectionFromSun, int> part_of;
+  for (const refs::Sample& s : result.reference.samples) part_of[refs::direction_from_sun(s)] = 0;
   std::vector<int> dealt;
   for (std::size_t k = 0; k < part_of.size(); ++k) dealt.push_back(static_cast<int>(k) % parts);
   std::ranges::shuffle(dealt, std::mt19937_64(seed));
@@ -286,7 +285,7 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
   for (int part = 0; part < parts; ++part) {
     Marks marked;
     for (const refs::Sample& s : result.reference.samples)
-      marked.push_back(part_of[{s.scan, s.view_zenith, s.relative_azimuth}] == part);
+      marked.push_back(part_of[refs::direction_from_sun(s)] == part);
     outcomes.push_back(held_out(spectra, model, as_pointed(options), result, marked,
                                 fmt::format("directions, part {} of {}", part + 1, parts)));
   }

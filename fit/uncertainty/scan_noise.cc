@@ -105,7 +105,8 @@ Eigen::MatrixXd times_correlation(const ScanData& data, const ScanNoise& noise,
   for (Eigen::Index column = 0; column < columns.cols(); ++column) {
     Eigen::MatrixXd grid = Eigen::MatrixXd::Zero(looks, channels);
     for (std::size_t r = 0; r < data.rows.size(); ++r)
-      grid(data.rows[r].look, data.rows[r].channel) = columns(static_cast<Eigen::Index>(r), column);
+      grid(data.rows[r].look, data.rows[r].channel) +=
+          columns(static_cast<Eigen::Index>(r), column);
     grid = grid * along;
     for (std::size_t s = 0; s + 1 < borders.size(); ++s) {
       const auto first = static_cast<Eigen::Index>(borders[s]),

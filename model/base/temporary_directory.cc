@@ -8,10 +8,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "model/base/signal_cleanup.h"
@@ -23,18 +25,38 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = ".skyfit-";
 
-// The directory, open and locked, or -1 when it is gone or another process holds it.
-int locked(const fs::path& directory) {
+// An open directory, locked or not.
+struct Claim {
+  int directory = -1;  // -1: it is gone, or another process holds it
+  bool locked = false;
+};
+
+// Some file systems know no locks: then nobody can claim what another may use.
+Claim claim(const fs::path& directory) {
   const int open = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (open < 0) return -1;
-  struct stat held, named;
-  // Another process may have removed it, or put its own there, before the lock was taken.
-  if (::flock(open, LOCK_EX | LOCK_NB) == 0 && ::fstat(open, &held) == 0 &&
-      ::lstat(directory.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
-      held.st_dev == named.st_dev)
-    return open;
+  if (open < 0) return {};
+  if (::flock(open, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK) return {open, false};
+  } else {
+    // Another process may have removed it, or put its own there, before the lock was taken.
+    struct stat held, named;
+    if (::fstat(open, &held) == 0 && ::lstat(directory.c_str(), &named) == 0 &&
+        held.st_ino == named.st_ino && held.st_dev == named.st_dev)
+      return {open, true};
+  }
   ::close(open);
-  return -1;
+  return {};
+}
+
+// .skyfit-PID-RANDOM
+bool is_ours(const fs::path& directory) {
+  constexpr std::size_t kRandom = 6;
+  const std::string file_name = directory.filename().string();
+  std::string_view name = file_name;
+  if (!name.starts_with(kPrefix)) return false;
+  name.remove_prefix(kPrefix.size());
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  return digits > 0 && name.size() == digits + 1 + kRandom && name[digits] == '-';
 }
 
 // Removes those whose owner ended without doing so: theirs is the name, the user and no lock.
@@ -42,16 +64,15 @@ void remove_abandoned(const fs::path& parent) {
   std::error_code error;
   for (fs::directory_iterator entry(parent, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (!entry->path().filename().string().starts_with(kPrefix)) continue;
+    const fs::path path = entry->path();
     struct stat status;
-    if (::lstat(entry->path().c_str(), &status) != 0 || !S_ISDIR(status.st_mode) ||
+    if (!is_ours(path) || ::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) ||
         status.st_uid != ::geteuid())
       continue;
-    const int lock = locked(entry->path());
-    if (lock < 0) continue;
+    const Claim claimed = claim(path);
     std::error_code ignored;  // the next run tries again
-    fs::remove_all(entry->path(), ignored);
-    ::close(lock);
+    if (claimed.locked) fs::remove_all(path, ignored);
+    if (claimed.directory >= 0) ::close(claimed.directory);
   }
 }
 
@@ -70,7 +91,7 @@ TemporaryDirectory::TemporaryDirectory(const fs::path& parent) {
       throw std::runtime_error(
           fmt::format("{}: cannot be written: {}", parent.string(), std::strerror(errno)));
     path_ = name;
-    lock_ = locked(path_);
+    lock_ = claim(path_).directory;
   }
   if (lock_ < 0)
     throw std::runtime_error(fmt::format(

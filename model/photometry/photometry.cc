@@ -96,6 +96,17 @@ XyzRule xyz_of(const SpectralData& data, std::span<const ChosenNode> chosen) {
 
 }  // namespace
 
+bool Spectrum::covers(double nm) const {
+  return !wavelength_nm.empty() && nm >= wavelength_nm.front() && nm <= wavelength_nm.back();
+}
+
+bool has_spectra_at(const SpectralData& data, double wavelength_nm) {
+  return data.solar_irradiance.covers(wavelength_nm) &&
+         data.ozone_cross_section.covers(wavelength_nm);
+}
+
+double Spectrum::at_or_zero(double nm) const { return covers(nm) ? at(nm) : 0; }
+
 double Spectrum::at(double nm) const {
   if (wavelength_nm.empty() || !(nm >= wavelength_nm.front() && nm <= wavelength_nm.back())) {
     throw std::out_of_range(

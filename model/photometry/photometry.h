@@ -14,7 +14,9 @@ namespace skyfit {
 struct Spectrum {
   std::vector<double> wavelength_nm;
   std::vector<double> value;
-  double at(double nm) const;  // throws std::out_of_range outside the table
+  double at(double nm) const;          // throws std::out_of_range outside the table
+  double at_or_zero(double nm) const;  // of a function that ends with its table, such as y_bar
+  bool covers(double nm) const;
 };
 
 // The tabulated inputs of the model; data_refs/spectra.h delivers the standard ones.
@@ -23,6 +25,9 @@ struct SpectralData {
   Spectrum solar_irradiance;     // W m^-2 nm^-1 at 1 au
   Spectrum ozone_cross_section;  // m^2 per molecule
 };
+
+// Whether a sky model knows sun and ozone at the wavelength.
+bool has_spectra_at(const SpectralData& data, double wavelength_nm);
 
 // One wavelength at which the model is solved.
 struct WavelengthNode {

@@ -79,4 +79,13 @@ std::string scan_label(const MeasuredOutcome& outcome, int scan) {
   return info.name.empty() ? fmt::format("scan {}", scan) : short_name(info.name);
 }
 
+std::string wavelength_range(const MeasuredOutcome& outcome) {
+  constexpr double kMargin_nm = 50;
+  const auto [first, last] =
+      std::ranges::minmax_element(outcome.samples, {}, &MeasuredSample::wavelength_nm);
+  if (first->wavelength_nm < last->wavelength_nm) return "set xrange [*:*] noextend";
+  return fmt::format("set xrange [{:.6g}:{:.6g}]", first->wavelength_nm - kMargin_nm,
+                     first->wavelength_nm + kMargin_nm);
+}
+
 }  // namespace skyfit::plot

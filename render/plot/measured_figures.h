@@ -41,6 +41,8 @@ Figure series_figure(std::span<const MeasuredOutcome> fits);
 
 // The last part of a path.
 std::string short_name(const std::string& name);
+// gnuplot's range of the wavelengths; of a single one it would be empty.
+std::string wavelength_range(const MeasuredOutcome& outcome);
 std::string scan_label(const MeasuredOutcome& outcome, int scan);
 
 }  // namespace skyfit::plot

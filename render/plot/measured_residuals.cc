@@ -122,6 +122,7 @@ Figure residuals_figure(const MeasuredOutcome& outcome) {
   draw_scans(script, outcome, 2);
   if (outcome.spectral) {
     begin_panel(script, box(2), "radiance: wavelength, nm (mean ± scatter)", limit);
+    script.line("{}", wavelength_range(outcome));
     script.line(
         "plot $wavelengths using 1:($2-$3):($2+$3) with filledcurves fc rgb '#d8d8d8' "
         "notitle, $wavelengths using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb '{}' "

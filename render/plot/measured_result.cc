@@ -8,7 +8,6 @@
 #include <map>
 #include <stdexcept>
 #include <string_view>
-#include <tuple>
 
 #include "data_refs/samples.h"
 #include "data_refs/spectra.h"
@@ -91,6 +90,7 @@ void read_report(const std::filesystem::path& file, MeasuredOutcome& outcome) {
 std::map<double, double> widths_of(const std::vector<MeasuredSample>& samples) {
   std::map<double, double> widths;
   for (const MeasuredSample& sample : samples) widths[sample.wavelength_nm] = 0;
+  if (widths.size() == 1) widths.begin()->second = 1;  // ratios of its directions remain
   for (auto at = widths.begin(); at != widths.end(); ++at) {
     const auto next = std::next(at);
     if (next == widths.end()) continue;
@@ -120,14 +120,20 @@ MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory) {
   return outcome;
 }
 
+DirectionKey direction_key(int scan, double sun_zenith_deg, double view_zenith_deg,
+                           double relative_azimuth_deg) {
+  const auto thousandths = [](double degrees) { return std::lround(1e3 * degrees); };
+  return {scan, thousandths(view_zenith_deg - sun_zenith_deg), thousandths(relative_azimuth_deg)};
+}
+
 std::vector<MeasuredDirection> directions_of(const MeasuredOutcome& outcome) {
   constexpr double kLumenPerWatt = 683.002;
   const Spectrum& y_bar = refs::standard_spectral_data().y_bar;
   const std::map<double, double> widths = widths_of(outcome.samples);
-  std::map<std::tuple<int, double, double>, MeasuredDirection> looks;
+  std::map<DirectionKey, MeasuredDirection> looks;
   for (const MeasuredSample& s : outcome.samples) {
-    const auto [at, is_new] =
-        looks.try_emplace({s.scan, s.view_zenith_deg, s.relative_azimuth_deg});
+    const auto [at, is_new] = looks.try_emplace(
+        direction_key(s.scan, s.sun_zenith_deg, s.view_zenith_deg, s.relative_azimuth_deg));
     MeasuredDirection& look = at->second;
     if (is_new) {
       refs::Sample angles;
@@ -143,9 +149,9 @@ std::vector<MeasuredDirection> directions_of(const MeasuredOutcome& outcome) {
               0,
               false};
     }
-    const double weight =
-        s.wavelength_nm > 0 ? kLumenPerWatt * y_bar.at(s.wavelength_nm) * widths.at(s.wavelength_nm)
-                            : 1;
+    const double weight = s.wavelength_nm > 0 ? kLumenPerWatt * y_bar.at_or_zero(s.wavelength_nm) *
+                                                    widths.at(s.wavelength_nm)
+                                              : 1;
     look.measured += weight * s.measured;
     look.model += weight * s.model;
     look.counted |= s.weight > 0;

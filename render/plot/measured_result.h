@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "render/plot/measured_csv.h"
@@ -48,6 +49,12 @@ struct MeasuredDirection {
   double measured, model;
   bool counted;  // some sample of it has a weight
 };
+// What the samples of a direction share while the sun moves: the scan, view minus sun zenith angle
+// and relative azimuth, in 1e-3 deg.
+using DirectionKey = std::tuple<int, long, long>;
+DirectionKey direction_key(int scan, double sun_zenith_deg, double view_zenith_deg,
+                           double relative_azimuth_deg);
+
 std::vector<MeasuredDirection> directions_of(const MeasuredOutcome& outcome);
 
 }  // namespace skyfit::plot

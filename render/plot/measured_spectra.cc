@@ -59,9 +59,11 @@ std::vector<Chosen> chosen_directions(const MeasuredOutcome& outcome, int scan) 
 void write_data(Script& script, const MeasuredOutcome& outcome, const MeasuredDirection& d,
                 std::size_t index) {
   std::map<double, const MeasuredSample*> spectrum;
+  const DirectionKey wanted =
+      direction_key(d.scan, d.sun_zenith_deg, d.view_zenith_deg, d.relative_azimuth_deg);
   for (const MeasuredSample& s : outcome.samples) {
-    if (s.scan == d.scan && s.view_zenith_deg == d.view_zenith_deg &&
-        s.relative_azimuth_deg == d.relative_azimuth_deg)
+    if (direction_key(s.scan, s.sun_zenith_deg, s.view_zenith_deg, s.relative_azimuth_deg) ==
+        wanted)
       spectrum[s.wavelength_nm] = &s;
   }
   script.line("$spectrum{} << EOD", index);
@@ -71,7 +73,8 @@ void write_data(Script& script, const MeasuredOutcome& outcome, const MeasuredDi
   script.line("EOD");
 }
 
-void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_t index) {
+void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_t index,
+                const std::string& x_range) {
   script.begin_axes(box);
   const MeasuredDirection& d = chosen.direction;
   script.text_label(box.left + box.width / 2, box.top() + 26, chosen.meaning, "center font ',12'");
@@ -84,8 +87,9 @@ void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_
   script.line("set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set yrange [0:*]", kFrameColor,
               kGridColor);
   script.line(
-      "set xrange [*:*] noextend; set xtics 100 nomirror textcolor rgb '#202020'; set ytics "
-      "nomirror textcolor rgb '#202020'");
+      "{}; set xtics 100 nomirror textcolor rgb '#202020'; set ytics nomirror "
+      "textcolor rgb '#202020'",
+      x_range);
   const std::string data = fmt::format("$spectrum{}", index);
   script.line(
       "plot {0} using 1:($5>0?$2-$3:NaN):($5>0?$2+$3:NaN) with filledcurves fc rgb '#d8d8d8' "
@@ -128,7 +132,7 @@ Figure spectra_figure(const MeasuredOutcome& outcome, int scan) {
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     Box box = grid.cell(i);
     draw_panel(script, chosen[i], {box.left, box.bottom, box.width - kGap / 2, box.height - kGap},
-               i);
+               i, wavelength_range(outcome));
   }
   script.line("unset multiplot");
   return {kWidth, height, script.text()};

@@ -165,7 +165,7 @@ TEST_F(BadInputTest, Lists) {
 
 TEST_F(BadInputTest, Wavelengths) {
   expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--wavelength-nm", "200"},
-                     {"--wavelength-nm", "200", "from 360 to 830"});
+                     {"--wavelength-nm", "200", "from 300 to 2500"});
   expect_sky_refusal(
       {"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--wavelength-nm", "550", "--luminance"},
       {"--luminance"});

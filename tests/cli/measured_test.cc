@@ -108,6 +108,32 @@ TEST_F(MeasuredTest, ClassifyNamesTheType) {
   EXPECT_EQ(json::parse(found.out)["nearest_type"], 9);
 }
 
+// The figures are not the result.
+TEST_F(MeasuredTest, AFigureThatCannotBeDrawnDoesNotLoseTheFit) {
+  write_scan("a.csv", 40);
+  const Outcome outcome = run({"fit", "--reference", "a.csv", "--free", "none", "--out", "kept"},
+                              {"SKYFIT_GNUPLOT=/bin/false"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("the result is complete but for figures"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("maps (maps.svg: cannot be written: /bin/false: exit status 1"));
+  EXPECT_TRUE(exists("kept/preset.json") && exists("kept/measured.csv"));
+  EXPECT_FALSE(exists("kept/maps.png"));
+}
+
+// Every wavelength of an almucantar has its own sun; a scan of one wavelength has figures.
+TEST_F(MeasuredTest, AlmucantarsAreFitted) {
+  const Outcome outcome =
+      run({"fit", "--reference", std::string(SKYFIT_EXAMPLES) + "aeronet_almucantar.csv",
+           "--preset", "earth-clear", "--free", "mie.scattering", "--starts", "1", "--out",
+           "almucantar", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  EXPECT_LT(report["spectral_error_percent"].get<double>(), 0.01);  // five digits
+  EXPECT_EQ(report["samples_not_used"]["missing"], 6);
+  EXPECT_TRUE(exists("almucantar/spectra.png"));
+}
+
 TEST_F(MeasuredTest, BadOptionsAreRefusedInOneLine) {
   write_scan("a.csv", 40);
   const auto refused = [&](std::vector<std::string> more, const std::string& message) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "complaint.h"
+#include "data_refs/csv.h"
 
 namespace skyfit::refs {
 namespace {
@@ -85,7 +86,6 @@ TEST(AeronetCsv, WavelengthsTakenTogetherAreAScan) {
   ASSERT_EQ(sky.scans.size(), 3u);
   EXPECT_EQ(sky.samples[5].scan, 0);
   EXPECT_NEAR(sky.samples[5].sun_zenith, 60.1 * kDegree, kRounding);
-  EXPECT_EQ(sky.samples[10].zero_weight_reason, "wavelength outside the model's spectra");
   EXPECT_EQ(sky.samples[15].scan, 1);
   EXPECT_EQ(sky.samples[20].scan, 2);
   EXPECT_EQ(sky.samples[20].direction, 0);
@@ -94,20 +94,21 @@ TEST(AeronetCsv, WavelengthsTakenTogetherAreAScan) {
 
 TEST(AeronetCsv, FaultsNameLineAndColumn) {
   const std::string values = "22,-999,20,21,2";
-  EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", values, "Principal Plane")),
-            "sky.alm:5: Sky_Scan_Type = \"Principal Plane\": expected Almucantar");
+  EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", values, "Hybrid")),
+            "sky.alm:5: Sky_Scan_Type = \"hybrid\": expected Almucantar or Principal Plane, whose "
+            "directions are known");
   EXPECT_EQ(complaint(kBare + line("11:11:61", "440", "60", values)),
             "sky.alm:5: Time(hh:mm:ss) = \"11:11:61\": expected hh:mm:ss of a day that exists");
   EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", "bright,-999,20,21,2")),
             "sky.alm:5: -6.000000 = \"bright\": expected a number, -999 where there is none");
   EXPECT_EQ(complaint(kBare + line("11:11:49", "0", "60", values)),
-            "sky.alm:5: Nominal_Wavelength(nm) = \"0\": expected a wavelength in nm");
+            "sky.alm:5: Nominal_Wavelength(nm) = \"0\": expected a wavelength");
   EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", "22")),
             "sky.alm:5: expected 13 fields, got 9");
   EXPECT_THAT(complaint(kBare + line("11:11:49", "440", "-999", values)),
               StartsWith("sky.alm:5: the sun is not known: expected latitude_deg, longitude_deg"));
   EXPECT_EQ(complaint(kHead + "note\n" + line("11:11:49", "440", "60", "a")),
-            "sky.alm:4: expected columns of radiances, named by their azimuth");
+            "sky.alm:4: expected columns of radiances, named by their angle from the sun");
   EXPECT_EQ(complaint(kBare),
             "sky.alm: none of 0 samples can be used, expected at least 1: there "
             "is none");
@@ -115,6 +116,69 @@ TEST(AeronetCsv, FaultsNameLineAndColumn) {
   options.unit = "W m-2 sr-1 nm-1";
   EXPECT_THAT(complaint(kBare + line("11:11:49", "440", "60", values), options),
               StartsWith("sky.alm: unit = \"uW cm-2 sr-1 nm-1\": expected \"W m-2 sr-1 nm-1\""));
+}
+
+// The angles of a principal plane count from the sun, upward > 0; beyond the zenith the azimuth
+// turns.
+TEST(AeronetCsv, PrincipalPlaneGoesThroughTheZenith) {
+  const Reference sky =
+      parse(kBare + line("11:11:49", "440", "60", "22,-999,20,21,2", "Principal Plane"));
+  EXPECT_NEAR(sky.samples[0].view_zenith, 66 * kDegree, kRounding);
+  EXPECT_NEAR(sky.samples[2].view_zenith, 54 * kDegree, kRounding);
+  EXPECT_NEAR(sky.samples[2].relative_azimuth, 0, kRounding);
+  EXPECT_NEAR(sky.samples[4].view_zenith, 30 * kDegree, kRounding);
+  EXPECT_NEAR(std::abs(sky.samples[4].relative_azimuth), 180 * kDegree, kRounding);
+}
+
+TEST(AeronetCsv, ALineThatCannotBeUsedIsLeftOutAndSaid) {
+  const std::string values = "22,-999,20,21,2";
+  const Reference sky =
+      parse(kBare + line("11:11:49", "440", "60", values) +
+            line("11:12:49", "675", "60", values, "Hybrid") + line("11:13:49", "870", "60", "22"));
+  EXPECT_EQ(sky.samples.size(), 5u);
+  ASSERT_EQ(sky.notes.size(), 2u);
+  EXPECT_THAT(sky.notes[0], StartsWith("a line is left out: sky.alm:6: Sky_Scan_Type"));
+  EXPECT_EQ(sky.notes[1], "a line is left out: sky.alm:7: expected 13 fields, got 9");
+}
+
+// The web service ends lines with ",<br>" and the text with tags; wavelengths may be in um.
+TEST(AeronetCsv, DownloadsOfTheWebServiceAreRead) {
+  const std::string text = "<html><body>\n" + kBare.substr(0, kBare.size() - 1) + ",<br>\n" +
+                           "Somewhere,03:01:2019,11:11:49,620,0.44,-999,60,Almucantar,"
+                           "22,-999,20,21,2,<br>\n</body></html>\n";
+  const Reference sky = parse(text);
+  ASSERT_EQ(sky.samples.size(), 5u);
+  EXPECT_NEAR(sky.samples[0].wavelength_nm, 440, 1e-9);
+}
+
+// A second block of the same names, or under the title of scattering angles, holds no radiances.
+TEST(AeronetCsv, ScatteringAnglesAreNoRadiances) {
+  const std::string twice = kHead + "-6.0,6.0,90.0,-6.0,6.0,90.0\n" +
+                            line("11:11:49", "440", "60", "22,20,2,5.2,5.2,75.5");
+  EXPECT_EQ(parse(twice).samples.size(), 3u);
+  std::string titles = ",,,,,,,,Radiance,,,Scattering_Angle,,\n";
+  const std::size_t columns = kHead.find("AERONET_Site");
+  const std::string titled = kHead.substr(0, columns) + titles + kHead.substr(columns) +
+                             "-6.0,6.0,90.0,5.2,5.3,75.5\n" +
+                             line("11:11:49", "440", "60", "22,20,2,5.2,5.2,75.5");
+  EXPECT_EQ(parse(titled).samples.size(), 3u);
+}
+
+TEST(AeronetCsv, FilesOfBothVersionsHoldTheSameSky) {
+  const auto read = [](const std::string& name) {
+    const std::string file = std::string(SKYFIT_TEST_DATA) + "/" + name;
+    return parse_aeronet_csv(read_csv_file(file, "an almucantar"), file, {});
+  };
+  const Reference third = read("aeronet_named_two_blocks.csv"), second = read("aeronet_v2.alm");
+  ASSERT_EQ(third.samples.size(), 308u);
+  ASSERT_EQ(second.samples.size(), 308u);
+  EXPECT_EQ(third.scans.size(), 2u);
+  EXPECT_EQ(third.samples[2 * 77].zero_weight_reason, "missing");  // the sun itself
+  EXPECT_EQ(third.samples[2 * 77 + 1].zero_weight_reason, "one value in every direction");
+  for (std::size_t i = 0; i < second.samples.size(); ++i) {
+    EXPECT_EQ(second.samples[i].value, third.samples[i].value);
+    EXPECT_NEAR(second.samples[i].sun_zenith, third.samples[i].sun_zenith, kRounding);
+  }
 }
 
 }  // namespace

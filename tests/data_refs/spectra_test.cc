@@ -47,11 +47,24 @@ TEST(Spectra, SunGivesItsIlluminanceOutsideTheAtmosphere) {
   EXPECT_NEAR(std::accumulate(rule.weight.begin(), rule.weight.end(), 0.0), 133.7e3, 1.0e3);
 }
 
-TEST(Spectra, OzoneAbsorbsMostAt600) {
+TEST(Spectra, OzoneAbsorbsMostAt600OfTheVisible) {
   const Spectrum& ozone = standard_spectral_data().ozone_cross_section;
-  const auto peak = std::max_element(ozone.value.begin(), ozone.value.end());
-  EXPECT_EQ(ozone.wavelength_nm[static_cast<std::size_t>(peak - ozone.value.begin())], 600);
-  EXPECT_NEAR(*peak, 5.1e-25, 0.2e-25);  // Chappuis band
+  for (double nm = 400; nm <= 2500; nm += 10) EXPECT_LE(ozone.at(nm), ozone.at(600));
+  EXPECT_NEAR(ozone.at(600), 5.1e-25, 0.2e-25);  // Chappuis band
+}
+
+// The Huggins bands at 340 nm: 1.3e-25 to 1.6e-25 m2 at stratospheric temperatures over 10 nm (Bass
+// & Paur 1984). Both tables reach as far as has_spectra_at() says.
+TEST(Spectra, ReachFromTheUltravioletToTheInfrared) {
+  const SpectralData& data = standard_spectral_data();
+  EXPECT_NEAR(data.ozone_cross_section.at(340), 1.45e-25, 0.2e-25);
+  EXPECT_TRUE(has_spectra_at(data, 300) && has_spectra_at(data, 2500));
+  EXPECT_FALSE(has_spectra_at(data, 299.9) || has_spectra_at(data, 2500.1));
+  EXPECT_EQ(data.y_bar.at_or_zero(870), 0);
+  // ASTM E490 has 1366.1 W/m2, of which 300 to 2500 nm hold 95.2 %.
+  const Spectrum& sun = data.solar_irradiance;
+  const double sum = 5 * std::accumulate(sun.value.begin(), sun.value.end(), 0.0);
+  EXPECT_NEAR(sum, 0.952 * 1366.1, 7);
 }
 
 TEST(Embedded, UnknownFileIsAnError) { EXPECT_THROW(embedded_text("no.csv"), std::out_of_range); }

@@ -99,18 +99,19 @@ TEST(SpectralScan, SuspectSamplesStayWithAReason) {
   options.exclude_samples = {{0, "a bird"}};
   const SolarPosition sun =
       solar_position(*instant("2020-06-21T10:00:00", 1), {48 * kDegree, 16 * kDegree, 0});
-  const Reference scan =
-      parse(kPlace + kUnit + "sample,view_azimuth_deg,view_zenith_deg,radiance_400,radiance_900\n" +
-                "0,0,10,1,1\n1,0,10,-0.1,0.1\n2,0,10,nan,0.1\n3,0,10,0.95,0.1\n4,0,92,0.1,0.1\n5," +
-                std::to_string(sun.azimuth / kDegree) + "," +
-                std::to_string(sun.zenith / kDegree + 4) + ",0.1,0.1\n6,0,10,0.1,0.1\n",
-            options);
+  const Reference scan = parse(
+      kPlace + kUnit + "sample,view_azimuth_deg,view_zenith_deg,radiance_400,radiance_2600\n" +
+          "0,0,10,1,1\n1,0,10,-0.1,0.1\n2,0,10,nan,0.1\n3,0,10,0.95,0.1\n4,0,92,0.1,0.1\n5," +
+          std::to_string(sun.azimuth / kDegree) + "," + std::to_string(sun.zenith / kDegree + 4) +
+          ",0.1,0.1\n6,0,10,0.1,0.1\n",
+      options);
   std::vector<std::string> reasons;
   for (const Sample& sample : scan.samples) {
     EXPECT_EQ(sample.weight == 0, !sample.zero_weight_reason.empty());
     if (sample.wavelength_nm == 400) reasons.push_back(sample.zero_weight_reason);
   }
-  EXPECT_EQ(scan.samples.back().zero_weight_reason, "wavelength outside the model's spectra");
+  EXPECT_EQ(scan.samples.back().zero_weight_reason,
+            "wavelength outside the model's 300 to 2500 nm");
   EXPECT_THAT(reasons, testing::ElementsAre("a bird", "not positive", "not finite", "saturated",
                                             "outside the sky", "near the sun", ""));
 }

@@ -51,16 +51,16 @@ INSTANTIATE_TEST_SUITE_P(Unknowns, ScanDerivativesTest,
 
 // A tilt of the axis toward a direction raises what is stated as the zenith there.
 TEST(PointedTest, AxisLeansTowardNorthAndEast) {
-  const ScanInfo scan{0, "", "", 0.5, 1.2, 1};  // the sun at 1.2 from north
-  const SkyPoint north = pointed({0, 0.5, 0, 0}, scan, {0, 0.1, 0, 1});
+  const double sun_azimuth = 1.2;  // the sun's azimuth from north
+  const SkyPoint north = pointed({0, 0.5, 0, 0}, sun_azimuth, {0, 0.1, 0, 1});
   EXPECT_NEAR(north.view_zenith, 0.1, 1e-12);
   EXPECT_NEAR(north.relative_azimuth, -1.2, 1e-12);
-  const SkyPoint east = pointed({0, 0.5, 0, 0}, scan, {0, 0, 0.1, 1});
+  const SkyPoint east = pointed({0, 0.5, 0, 0}, sun_azimuth, {0, 0, 0.1, 1});
   EXPECT_NEAR(east.view_zenith, 0.1, 1e-12);
   EXPECT_NEAR(
       std::remainder(east.relative_azimuth - (std::numbers::pi / 2 - 1.2), 2 * std::numbers::pi), 0,
       1e-12);
-  const SkyPoint turned = pointed({0, 0.5, 0.7, 0.2}, scan, {0.3, 0, 0, 1});
+  const SkyPoint turned = pointed({0, 0.5, 0.7, 0.2}, sun_azimuth, {0.3, 0, 0, 1});
   EXPECT_EQ(turned.view_zenith, 0.7);
   EXPECT_NEAR(turned.relative_azimuth, 0.5, 1e-12);
 }

@@ -79,10 +79,11 @@ TEST_F(TemporaryDirectoryTest, OfAKilledOwnerGoesWithTheNextOne) {
 }
 
 TEST_F(TemporaryDirectoryTest, OfAnotherNameStays) {
-  fs::create_directory(top_.path() / "results");
+  for (const char* name : {"results", ".skyfit-cache", ".skyfit-12-ab", ".skyfit--abcdef"})
+    fs::create_directory(top_.path() / name);
   std::ofstream(top_.path() / ".skyfit-notes") << "a file of the user";
   const TemporaryDirectory one(top_.path());
-  EXPECT_EQ(entries(), 3u);
+  EXPECT_EQ(entries(), 6u);
 }
 
 }  // namespace

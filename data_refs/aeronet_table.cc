@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/aeronet_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+#include <sstream>
+
+#include "data_refs/csv.h"
+
+namespace skyfit::refs {
+namespace {
+
+constexpr double kMissing = -999;
+constexpr std::string_view kDate = "date", kTime = "time", kNominal = "nominalwavelength",
+                           kExact = "exactwavelength", kWavelength = "wavelength",
+                           kSunZenith = "solarzenithangle", kType = "skyscantype",
+                           kSite = "aeronetsite", kLatitude = "latitude", kLongitude = "longitude",
+                           kElevation = "elevation";
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+// "solarzenithangle" of "Solar_Zenith_Angle(Degrees)".
+std::string plain_name(std::string_view column) {
+  std::string name = lower(column.substr(0, column.find('(')));
+  std::erase_if(name, [](char c) { return c == '_' || c == ' '; });
+  return name;
+}
+
+bool holds_columns(std::string_view line) {
+  const std::string text = lower(line);
+  return text.find("date(") != text.npos && text.find("time(") != text.npos &&
+         text.find("wavelength") != text.npos &&
+         (text.find("solar_zenith_angle") != text.npos || text.find(kSunZenith) != text.npos);
+}
+
+// What the web service adds.
+std::string without_tags(const std::string& line) {
+  static const std::regex tag(R"(<[^>]*>)");
+  return std::regex_replace(line, tag, "");
+}
+
+// The angle that a column's name holds, if it is one of radiances.
+std::optional<double> angle_of(const std::string& column, std::string_view title) {
+  if (lower(column).find("scatter") != std::string::npos ||
+      title.find("scatter") != std::string_view::npos)
+    return {};
+  static const std::regex named(R"(Radiance_for.*_(-?\d+\.?\d*))", std::regex::icase);
+  std::smatch match;
+  return csv_number(std::regex_match(column, match, named) ? match[1].str() : column);
+}
+
+// The titles of groups of columns, each spread over its group; empty when it is no such line.
+std::vector<std::string> group_titles(const std::vector<std::string>& fields) {
+  constexpr std::size_t kFewestColumns = 6;
+  if (fields.size() < kFewestColumns || !fields.front().empty()) return {};
+  std::vector<std::string> titles;
+  for (const std::string& field : fields)
+    titles.push_back(field.empty() && !titles.empty() ? titles.back() : lower(field));
+  return titles;
+}
+
+// Scattering angles without a title repeat the names of the radiances.
+void drop_second_block(std::vector<AeronetAngle>& angles) {
+  const auto half = static_cast<std::ptrdiff_t>(angles.size() / 2);
+  const auto same = [](const AeronetAngle& a, const AeronetAngle& b) { return a.deg == b.deg; };
+  if (half > 1 && angles.size() % 2 == 0 &&
+      std::equal(angles.begin(), angles.begin() + half, angles.begin() + half, same))
+    angles.resize(static_cast<std::size_t>(half));
+}
+
+// "long=11.000" of a line of version 2.
+std::optional<double> head_number(const std::string& line, const std::string& name) {
+  const std::regex pattern(name + R"(\s*=\s*(-?\d+\.?\d*))");
+  std::smatch match;
+  if (!std::regex_search(line, match, pattern)) return {};
+  return csv_number(match[1].str());
+}
+
+}  // namespace
+
+bool AeronetTable::is_in(std::string_view text) {
+  for (int line = 0; line < 30 && !text.empty(); ++line) {  // of a head without end
+    const std::string_view content = text.substr(0, text.find('\n'));
+    if (holds_columns(content)) return true;
+    text.remove_prefix(std::min(text.size(), content.size() + 1));
+  }
+  return false;
+}
+
+AeronetTable::AeronetTable(std::string_view text, std::string_view source) : source_(source) {
+  std::istringstream lines{std::string(text)};
+  std::vector<std::string> titles;
+  std::string raw;
+  for (int number = 1; std::getline(lines, raw); ++number) {
+    const std::string content = without_tags(raw);
+    if (content.find_first_not_of(" \t\r") == content.npos) continue;
+    std::vector<std::string> fields = csv_fields(content, source_, number);
+    while (!fields.empty() && fields.back().empty()) fields.pop_back();
+    if (fields.empty()) continue;
+    if (holds_columns(content)) {
+      if (!columns_.empty() && fields != columns_)
+        fail_at(source_, number, "expected the columns once, or again the same");
+      if (columns_.empty()) read_columns(std::move(fields), titles, number);
+    } else if (columns_.empty()) {
+      head_ += lower(content) + "\n";
+      titles = group_titles(csv_fields(content, source_, number));
+    } else {
+      lines_.push_back({number, std::move(fields)});
+    }
+  }
+}
+
+void AeronetTable::read_columns(std::vector<std::string> columns,
+                                const std::vector<std::string>& titles, int number) {
+  columns_ = std::move(columns);
+  for (const std::string& name : columns_) names_.push_back(plain_name(name));
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (const auto angle = angle_of(columns_[i], i < titles.size() ? titles[i] : ""))
+      angles_.push_back({i, *angle});
+  }
+  drop_second_block(angles_);
+  for (const std::string_view name : {kDate, kTime, kSunZenith}) {
+    if (!column(name)) fail_at(source_, number, fmt::format("expected a column {}", name));
+  }
+  if (!column(kNominal) && !column(kExact) && !column(kWavelength))
+    fail_at(source_, number, "expected a column Nominal_Wavelength or Wavelength");
+  if (angles_.empty())
+    fail_at(source_, number, "expected columns of radiances, named by their angle from the sun");
+  place_.longitude_deg = head_number(head_, "long");
+  place_.latitude_deg = head_number(head_, "lat");
+  place_.elevation_m = head_number(head_, "elev");
+}
+
+std::optional<std::size_t> AeronetTable::column(std::string_view name) const {
+  const auto found = std::ranges::find(names_, name);
+  if (found == names_.end()) return {};
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+void AeronetTable::fail(const AeronetLine& line, std::size_t index,
+                        std::string_view expectation) const {
+  fail_at(
+      source_, line.number,
+      fmt::format("{} = \"{}\": expected {}", columns_[index], line.fields[index], expectation));
+}
+
+void AeronetTable::expect_fields(const AeronetLine& line) const {
+  const std::size_t needed = angles_.back().column + 1;
+  if (line.fields.size() >= needed) return;
+  fail_at(source_, line.number,
+          fmt::format("expected {} fields, got {}", needed, line.fields.size()));
+}
+
+std::optional<double> AeronetTable::number(const AeronetLine& line,
+                                           std::optional<std::size_t> column) const {
+  if (!column || line.fields[*column].empty() || line.fields[*column] == "N/A") return {};
+  const std::optional<double> value = csv_number(line.fields[*column]);
+  if (!value) fail(line, *column, "a number, -999 where there is none");
+  return *value == kMissing ? std::nullopt : value;
+}
+
+std::optional<double> AeronetTable::radiance(const AeronetLine& line,
+                                             const AeronetAngle& angle) const {
+  return number(line, angle.column);
+}
+
+// Of a wavelength in nm or um; no sky is measured below 100 nm or beyond 10 um.
+double AeronetTable::nanometres(const AeronetLine& line, std::optional<std::size_t> column) const {
+  constexpr double kLongest_um = 10;
+  const double value = number(line, column).value_or(0);
+  return value > 0 && value < kLongest_um ? 1000 * value : value;
+}
+
+double AeronetTable::wavelength_nm(const AeronetLine& line) const {
+  std::optional<std::size_t> last;
+  for (const std::string_view name : {kExact, kNominal, kWavelength}) {
+    const double nm = nanometres(line, column(name));
+    if (nm > 0) return nm;
+    if (column(name)) last = column(name);
+  }
+  fail(line, *last, "a wavelength");
+}
+
+std::string AeronetTable::scan_type(const AeronetLine& line) const {
+  if (const auto type = column(kType)) return lower(line.fields[*type]);
+  return head_.find("principal") == head_.npos ? "almucantar" : "principal plane";
+}
+
+std::string AeronetTable::site(const AeronetLine& line) const {
+  const auto site = column(kSite);
+  return site ? line.fields[*site] : "";
+}
+
+Instant AeronetTable::time(const AeronetLine& line) const {
+  const std::size_t clock = *column(kTime), date = *column(kDate);
+  static const std::regex day_first(R"((\d{1,2})[:/.-](\d{1,2})[:/.-](\d{4}))");
+  std::smatch match;
+  if (!std::regex_match(line.fields[date], match, day_first)) fail(line, date, "dd:mm:yyyy");
+  const auto time = instant(fmt::format("{}-{}-{}", match[3].str(), match[2].str(), match[1].str()),
+                            line.fields[clock], 0);
+  if (!time) fail(line, clock, "hh:mm:ss of a day that exists");
+  return *time;
+}
+
+ImportOptions AeronetTable::facts(const AeronetLine& line) const {
+  ImportOptions facts;
+  facts.local_time = iso_text(time(line)).substr(0, 19);
+  facts.utc_offset_h = 0;
+  facts.latitude_deg = number(line, column(kLatitude));
+  facts.longitude_deg = number(line, column(kLongitude));
+  facts.elevation_m = number(line, column(kElevation));
+  facts.sun_zenith_deg = number(line, column(kSunZenith));
+  return overlaid(facts, place_);
+}
+
+}  // namespace skyfit::refs

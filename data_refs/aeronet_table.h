@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lines of a file of AERONET's sky radiances, of version 2 or 3, as a download or the web
+// service (with its HTML) gives them. Columns are known by their names, without unit, case and
+// underscores:
+//   version 3: Date, Time, Nominal_Wavelength, Exact_Wavelength, Solar_Zenith_Angle, Sky_Scan_Type,
+//              AERONET_Site, Latitude, Longitude, Elevation
+//   version 2: Date, Time, Wavelength, SolarZenithAngle; the site in a line `Location=..,long=..`
+// A column of radiances is named by its angle, `-6.000000` or `Radiance_for_.._-6.000`. A line of
+// group titles may stand above; columns of scattering angles, which follow in some files with the
+// same names, are none of radiances.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data_refs/civil_time.h"
+#include "data_refs/import_options.h"
+
+namespace skyfit::refs {
+
+struct AeronetLine {
+  int number;  // 1 is the first of the file
+  std::vector<std::string> fields;
+};
+
+struct AeronetAngle {
+  std::size_t column;
+  double deg;  // from the sun
+};
+
+class AeronetTable {
+ public:
+  // Throws std::invalid_argument `source:line: ...` when columns are missing.
+  AeronetTable(std::string_view text, std::string_view source);
+
+  // Whether a text holds such a table.
+  static bool is_in(std::string_view text);
+
+  const std::vector<AeronetLine>& lines() const { return lines_; }
+  const std::vector<AeronetAngle>& angles() const { return angles_; }
+
+  // The rest throws std::invalid_argument `source:line: column = value: expected ...`.
+  void expect_fields(const AeronetLine& line) const;
+  std::string scan_type(const AeronetLine& line) const;  // lower case
+  std::string site(const AeronetLine& line) const;       // empty: not known
+  double wavelength_nm(const AeronetLine& line) const;   // the exact one where there is one
+  std::optional<double> radiance(const AeronetLine& line, const AeronetAngle& angle) const;
+  // Time, place and the sun's zenith angle.
+  ImportOptions facts(const AeronetLine& line) const;
+
+ private:
+  void read_columns(std::vector<std::string> columns, const std::vector<std::string>& titles,
+                    int number);
+  std::optional<std::size_t> column(std::string_view name) const;
+  // Of a column or value that may be missing.
+  std::optional<double> number(const AeronetLine& line, std::optional<std::size_t> column) const;
+  double nanometres(const AeronetLine& line, std::optional<std::size_t> column) const;
+  Instant time(const AeronetLine& line) const;
+  [[noreturn]] void fail(const AeronetLine& line, std::size_t index,
+                         std::string_view expectation) const;
+
+  std::string source_;
+  std::string head_;  // of the lines above the columns, lower case
+  ImportOptions place_;
+  std::vector<std::string> columns_, names_;  // as in the file; without unit, case and underscores
+  std::vector<AeronetAngle> angles_;
+  std::vector<AeronetLine> lines_;
+};
+
+}  // namespace skyfit::refs

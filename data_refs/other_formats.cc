@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/other_formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <regex>
+
+#include "data_refs/scan_header.h"
+
+namespace skyfit::refs {
+namespace {
+
+struct OtherFormat {
+  std::string_view pattern;  // in the head of the text, without case
+  std::string_view what;     // "is .., skyfit .."
+};
+
+// The first that matches; a line of columns of AERONET tells the product.
+constexpr std::array<OtherFormat, 11> kFormats = {{
+    {R"(degree_of_polarization_for|degree of polarization)",
+     "is a degree of polarisation of AERONET; skyfit reads AERONET's sky radiances, not yet these"},
+    {R"(single_scattering_albedo\[|refractive_index|inversion|retrievals, version|ssa\d+-t)",
+     "is an inversion of AERONET; skyfit reads the sky radiances that it came from, not yet these"},
+    {R"(aod_\d+nm|aot_\d+|[,_]aod_)",
+     "is aerosol optical depths of AERONET; skyfit reads AERONET's sky radiances, not yet these"},
+    {R"(^location,[^\n]*\n\s*design conditions)",
+     "is an EnergyPlus weather file (EPW), which holds irradiances; skyfit reads skies with "
+     "directions, not yet these"},
+    {R"(^\s*(#\?radiance[^\n]*\n)?(#[^\n]*\n|\s*\n)*\s*(void\s+(light|glow|brightfunc|plastic)\s|!\s*gen))",
+     "is a scene of Radiance, such as gendaylit and gensky write; skyfit reads skies as samples "
+     "and "
+     "perez:EPSILON,DELTA, not yet these"},
+    {R"(^\s*#?\s*gen(daylit|sky|daymtx)\b)",
+     "is what gendaylit, gensky or gendaymtx wrote; skyfit reads skies as samples and "
+     "perez:EPSILON,DELTA, not yet these"},
+    {R"(^\s*<\?xml|^\s*<!doctype|^\s*<html)",
+     "is XML or HTML; skyfit reads skies as text tables and images"},
+    {R"(^\s*[{\[])",
+     "is JSON; skyfit reads presets as --preset and skies as text tables and images"},
+    {R"(^\s*(#[^\n]*\n)*[^#\n]*irradiance)",
+     "is a table of irradiances, which have no directions; skyfit reads radiances and luminances "
+     "of "
+     "directions"},
+    {R"(^netcdf\s|^CDF)", "is netCDF; skyfit reads skies as text tables and images, not yet these"},
+    {R"(^%!ps|^%pdf)", "is a document; skyfit reads skies as text tables and images"},
+}};
+
+std::string lower_head(std::string_view text) {
+  constexpr std::size_t kHead = 6000;  // a dozen lines of many columns
+  std::string head(text.substr(0, kHead));
+  std::ranges::transform(head, head.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return head;
+}
+
+}  // namespace
+
+std::optional<std::string> other_format(std::string_view text) {
+  const std::string head = lower_head(text);
+  for (const OtherFormat& format : kFormats) {
+    const std::regex pattern(format.pattern.begin(), format.pattern.end());
+    if (std::regex_search(head, pattern)) return std::string(format.what);
+  }
+  return {};
+}
+
+}  // namespace skyfit::refs

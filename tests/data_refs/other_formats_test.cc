@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that are no sky are named for what they are, on one line; a CSV of samples is not taken for
+// one.
+#include "data_refs/other_formats.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "complaint.h"
+#include "data_refs/measured_formats.h"
+
+namespace skyfit::refs {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::string& name) {
+  return complaint_of([&] { load_measured_sky(std::string(SKYFIT_TEST_DATA) + "/" + name, {}); });
+}
+
+TEST(OtherFormats, FilesAreNamed) {
+  EXPECT_THAT(complaint("aeronet_aod.lev20"), HasSubstr("is aerosol optical depths of AERONET"));
+  EXPECT_THAT(complaint("aeronet_inversion.all"), HasSubstr("is an inversion of AERONET"));
+  EXPECT_THAT(complaint("gendaylit.rad"), HasSubstr("is a scene of Radiance"));
+}
+
+TEST(OtherFormats, TextsAreNamed) {
+  EXPECT_THAT(*other_format("LOCATION,Somewhere,-,FRA\nDESIGN CONDITIONS,0\n"), HasSubstr("(EPW)"));
+  EXPECT_THAT(*other_format("# gendaylit 6 21 12\nvoid light solar\n"), HasSubstr("Radiance"));
+  EXPECT_THAT(*other_format("wavelength, irradiance\n400, 1\n"), HasSubstr("irradiances"));
+  EXPECT_THAT(*other_format("{\"SkyAtmosphere\": {}}"), HasSubstr("JSON"));
+  EXPECT_FALSE(other_format("sun_zenith_deg,view_zenith_deg,relative_azimuth_deg\n1,2,3\n"));
+}
+
+}  // namespace
+}  // namespace skyfit::refs
