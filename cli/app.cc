@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/app.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/inputs.h"
 #include "cli/output.h"
+#include "model/base/temporary_directory.h"
+#include "model/base/text.h"
 #include "model/version.h"
 
 namespace skyfit::cli {
@@ -18,12 +22,20 @@ namespace {
 
 constexpr int kSuccess = 0, kFailure = 1, kUsage = 2;
 
-// One line, whatever a library's message holds.
-int fail(int status, std::string message) {
-  std::ranges::replace_if(
-      message, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  message.erase(message.find_last_not_of(' ') + 1);
-  std::fprintf(stderr, "skyfit: error: %s\n", message.c_str());
+// One line, whatever a library's message or a file's text in it holds.
+int fail(int status, std::string_view message) {
+  constexpr std::size_t kMost = 8192;  // two of the longest paths
+  const std::string line = printable(trim(message.substr(0, kMost)));
+  std::fprintf(stderr, "skyfit: error: %s\n", line.c_str());
+  return status;
+}
+
+// CLI11 prints help and version to a stream that does not tell when the disk is full.
+int print_help(const CLI::App& app, const CLI::Success& help_or_version) {
+  std::ostringstream text, ignored;
+  const int status = app.exit(help_or_version, text, ignored);
+  print(text.str());
+  finish_stdout();
   return status;
 }
 
@@ -31,6 +43,12 @@ void add_commands(CLI::App& app) {
   app.set_version_flag("--version", std::string("skyfit ") + kVersion);
   app.require_subcommand(0, 1);  // none at all is refused by run(), with a better message
   app.get_formatter()->column_width(34);
+  app.add_flag_callback(
+         "--allow-paths", [] { named_files() = NamedFiles::kAnywhere; },
+         "Read the files that presets, sidecars, sequences and meshes name, wherever\nthey lie; "
+         "else "
+         "only those in the folder of the file that names them")
+      ->trigger_on_parse();
   add_fit_command(app);
   add_sky_command(app);
   add_plot_command(app);
@@ -41,24 +59,31 @@ void add_commands(CLI::App& app) {
   add_check_command(app);
   add_classify_command(app);
   add_compare_command(app);
+  for (CLI::App* const command : app.get_subcommands({})) command->fallthrough();
   app.footer(
       "Example: skyfit fit --reference cie:12 --out fitted\nMore about a command: skyfit COMMAND "
       "--help");
 }
 
+int run_command(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return print_help(app, help_or_version);
+  }
+  if (app.get_subcommands().empty()) return fail(kUsage, "expected a command (see skyfit --help)");
+  finish_stdout();
+  return kSuccess;
+}
+
 }  // namespace
 
 int run(int argc, char** argv) {
+  clean_up_on_signals();
   CLI::App app("Fits an atmosphere to a reference sky, evaluates, plots and renders it.", "skyfit");
   add_commands(app);
   try {
-    app.parse(argc, argv);
-    if (app.get_subcommands().empty())
-      return fail(kUsage, "expected a command (see skyfit --help)");
-    finish_stdout();
-    return kSuccess;
-  } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+    return run_command(app, argc, argv);
   } catch (const CLI::ConversionError& error) {
     return fail(kUsage, std::string(error.what()) + ": expected a whole number");
   } catch (const CLI::ParseError& error) {

@@ -6,8 +6,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
+
+#include "model/base/text.h"
+#include "model/base/units.h"
 
 namespace skyfit::cli {
 namespace {
@@ -15,24 +17,8 @@ namespace {
 constexpr double kGridTolerance = 1e-6;  // of a step; decimal steps are not exact in binary
 constexpr std::string_view kListForm = "expected a,b,c or start:stop:step with finite numbers";
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t start = 0;;) {
-    const std::size_t end = text.find(separator, start);
-    parts.push_back(text.substr(start, end - start));
-    if (end == std::string_view::npos) return parts;
-    start = end + 1;
-  }
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
 std::optional<double> finite_number(std::string_view text) {
-  text = trimmed(text);
+  text = trim(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -64,8 +50,7 @@ std::pair<Parameter, std::string_view> named(std::string_view option, std::strin
                                              std::string_view form) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) throw UsageError(option, text, form);
-  return {parse_parameters(option, trimmed(text.substr(0, equals))).front(),
-          text.substr(equals + 1)};
+  return {parse_parameters(option, trim(text.substr(0, equals))).front(), text.substr(equals + 1)};
 }
 
 }  // namespace
@@ -163,9 +148,9 @@ ImageSize parse_image_size(std::string_view option, std::string_view text) {
 std::vector<Parameter> parse_parameters(std::string_view option, std::string_view text) {
   std::vector<Parameter> parameters;
   for (const std::string_view name : split(text, ',')) {
-    if (trimmed(name).empty()) throw UsageError(option, text, "expected names of parameters");
+    if (trim(name).empty()) throw UsageError(option, text, "expected names of parameters");
     try {
-      parameters.push_back(parameter_from_name(trimmed(name)));
+      parameters.push_back(parameter_from_name(trim(name)));
     } catch (const std::invalid_argument& error) {
       throw UsageError(option, text, error.what());
     }
@@ -208,7 +193,7 @@ std::map<Parameter, Prior> parse_priors(std::string_view option,
   return priors;
 }
 
-double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
-double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+double radians(double degrees) { return degrees * kRadiansPerDegree; }
+double degrees(double radians) { return radians * kDegreesPerRadian; }
 
 }  // namespace skyfit::cli

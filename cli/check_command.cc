@@ -36,6 +36,8 @@ constexpr std::string_view kSidecarEnd = ".sidecar.json";
 // A preset is a JSON object.
 bool looks_like_json(const std::filesystem::path& file) {
   if (file.extension() == ".json") return true;
+  if (std::filesystem::is_directory(file)) return false;
+  require_regular_file(file, "a measured sky, a preset or a sidecar", kMostImageBytes);
   std::ifstream in(file);
   char first = 0;
   return in >> first && first == '{';
@@ -100,7 +102,7 @@ std::string preset_lines(const json& summary) {
 }
 
 json summary_of_sidecar(const std::string& file) {
-  const refs::ImportOptions options = refs::load_sidecar(file);
+  const refs::ImportOptions options = refs::load_sidecar(file, named_files());
   return {
       {"file", file}, {"kind", "sidecar"}, {"excluded_samples", options.exclude_samples.size()}};
 }
@@ -236,7 +238,7 @@ void run_check(const std::string& file, const refs::ImportOptions& options, bool
   } else {
     summary = summary_of_samples(file, options);
   }
-  print(as_json ? summary.dump(2) + "\n" : text_of(summary));
+  print(as_json ? json_text(summary) : text_of(summary));
 }
 
 }  // namespace

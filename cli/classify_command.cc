@@ -26,7 +26,7 @@ void run_classify(const ClassifyArguments& arguments, const CLI::App& command) {
                                                     arguments.sampling, arguments.import, command);
   const fit::Classification found = fit::classify(reference, refs::standard_spectral_data(),
                                                   {radians(exclude), arguments.free_azimuth});
-  print(arguments.json ? fit::classification_json(found).dump(2) + "\n"
+  print(arguments.json ? json_text(fit::classification_json(found))
                        : fit::classification_text(found));
 }
 

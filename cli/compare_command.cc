@@ -12,12 +12,14 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/light_check.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
 #include "data_refs/truth.h"
 #include "fit/model_comparison.h"
 #include "fit/problem/residuals.h"
+#include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "render/plot/comparison.h"
 #include "render/plot/evaluate.h"
@@ -179,7 +181,7 @@ plot::FisheyeFigure fisheye_of(const refs::Reference& reference,
 }
 
 void run_compare(const CompareOptions& options, const CLI::App& command) {
-  const ResultDirectory out(
+  const WholeDirectory out(
       options.out, {kTextFile, kCsvFile, kJsonFile, kFigureFiles[0], kFigureFiles[1], kFisheyeFile},
       options.force);
   const std::vector<std::string> names = model_names(options.models);
@@ -195,12 +197,13 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
       refs::standard_spectral_data());
   if (options.reference != kOurs) warn_of_unused_options(command, options.reference);
   const auto rows = compare_all(options, names, reference, preset);
+  check_light(rows);
   const std::string text = fit::comparison_text(reference, rows);
   const nlohmann::json json = fit::comparison_json(reference, rows);
   out.publish([&](const std::filesystem::path& staging) {
-    write_text(staging / kTextFile, text);
-    write_text(staging / kCsvFile, fit::comparison_csv(reference, rows));
-    write_text(staging / kJsonFile, json.dump(2) + "\n");
+    write_file(staging / kTextFile, text);
+    write_file(staging / kCsvFile, fit::comparison_csv(reference, rows));
+    write_file(staging / kJsonFile, json_text(json));
     const plot::Comparison figure =
         figure_of(reference, rows, parse_number("--exclude-sun-deg", options.exclude_sun));
     if (figure.curves.empty()) return;
@@ -208,7 +211,7 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
     plot::write_fisheye(fisheye_of(reference, rows, preset, options.threads),
                         {staging / kFisheyeFile});
   });
-  print(options.json ? json.dump(2) + "\n" : text);
+  print(options.json ? json_text(json) : text);
 }
 
 std::string model_list() {

@@ -15,6 +15,7 @@
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
+#include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "render/plot/evaluate.h"
 #include "render/plot/results.h"
@@ -63,16 +64,16 @@ fit::FitOptions fit_options(const FitCommandOptions& options, const SkyModel& mo
 void write_result(const std::filesystem::path& directory, const refs::Reference& reference,
                   const SkyModel& model, const fit::FitOptions& options,
                   const fit::FitResult& result, Figures& figures) {
-  write_text(directory / kPresetFile, preset_to_json(result.preset));
-  write_text(directory / kReportFile, fit::report_json(result).dump(2) + "\n");
-  write_text(directory / kReportTextFile, fit::full_report(result));
+  write_file(directory / kPresetFile, preset_to_json(result.preset));
+  write_file(directory / kReportFile, json_text(fit::report_json(result)));
+  write_file(directory / kReportTextFile, fit::full_report(result));
   const auto samples =
       plot::compared_samples(reference, {result.fitted_model, result.scale},
                              {result.start_model, result.start_scale}, options.exclude_sun);
   plot::write_samples_csv(directory / kSamplesFile, samples);
   const plot::FitOutcome outcome{directory.string(), result.preset, samples};
   const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
-  figures.draw("comparison", [&] {
+  figures.draw(directory, "comparison", [&] {
     plot::write_comparison(
         plot::comparison_of({&outcome, 1}, refs::spectral_data_of(result.preset.atmosphere),
                             model_named),
@@ -97,7 +98,7 @@ std::vector<std::string> result_files() {
 }
 
 void run_fit(FitCommandOptions options, const CLI::App& command) {
-  const ResultDirectory out(options.out, result_files(), options.force);
+  const WholeDirectory out(options.out, result_files(), options.force);
   const std::map<fit::Instrument, Prior> instrument_priors = take_instrument_priors(options.prior);
   const auto model = make_sky_model(options.model, refs::standard_spectral_data(), options.threads);
   const fit::FitOptions how = fit_options(options, *model, command);
@@ -121,10 +122,9 @@ void run_fit(FitCommandOptions options, const CLI::App& command) {
     write_result(staging, reference, *model, how, result, figures);
   });
   if (!result.converged) {
-    fmt::print(stderr, "skyfit: warning: the fit stopped before it converged: {}\n",
-               result.termination);
+    warn(fmt::format("the fit stopped before it converged: {}", result.termination));
   }
-  print(options.json ? fit::report_json(result).dump(2) + "\n" : fit::brief_report(result) + "\n");
+  print(options.json ? json_text(fit::report_json(result)) : fit::brief_report(result) + "\n");
   figures.expect_all(options.out);
 }
 

@@ -6,13 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
-#include "cli/output.h"
 #include "cli/render_session.h"
+#include "model/base/input_file.h"
+#include "model/base/whole_file.h"
 #include "model/version.h"
-#include "render/plot/whole_files.h"
 
 namespace skyfit::cli {
 namespace {
@@ -97,9 +96,8 @@ ordered_json json_of(const CameraPose& pose) {
 
 ordered_json read_manifest(const fs::path& file) {
   if (!fs::exists(file)) return {{"frames", ordered_json::object()}};
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  const ordered_json json = ordered_json::parse(text.str(), nullptr, false);
+  const ordered_json json =
+      ordered_json::parse(read_file(file, "what an earlier sequence left"), nullptr, false);
   if (!json.is_object() || json.value("skyfit_frames", 0) != kManifestVersion ||
       !json.contains("frames") || !json.at("frames").is_object()) {
     throw std::runtime_error(fmt::format(
@@ -148,7 +146,7 @@ FrameStore::FrameStore(fs::path directory, std::vector<std::string> extensions)
   require_writable_file(directory_ / kManifest);
   const ordered_json manifest = read_manifest(directory_ / kManifest);
   frames_ = manifest.at("frames");
-  video_ = manifest.value("film", "");
+  video_ = manifest.value("video", "");
 }
 
 FrameStore::~FrameStore() {
@@ -180,17 +178,17 @@ void FrameStore::write(int frame, const Entry& entry, const Frame& picture, Tone
   tone.exposure = entry.exposure;
   std::vector<fs::path> files = files_of(frame);
   files.push_back(directory_ / kManifest);
-  plot::WholeFiles whole(files);
+  WholeFiles whole(files);
   ordered_json noted = {{"request", entry.request},
                         {"metered_exposure_m2_per_cd", entry.metered},
                         {"exposure_m2_per_cd", entry.exposure}};
   for (std::size_t i = 0; i + 1 < files.size(); ++i) {
-    write_frame(picture, whole.temporary(i), tone);
+    whole.make(i, [&](const fs::path& file) { write_frame(picture, file, tone); });
     noted[files[i].extension().string()] = fs::file_size(whole.temporary(i));
   }
   frames_[name_of(frame)] = noted;
-  write_text(whole.temporary(files.size() - 1), manifest());
-  whole.commit();
+  whole.write(files.size() - 1, manifest());
+  whole.publish();
 }
 
 bool FrameStore::has_video(int frames, double frames_per_second) const {
@@ -199,20 +197,18 @@ bool FrameStore::has_video(int frames, double frames_per_second) const {
 
 void FrameStore::note_video(int frames, double frames_per_second) {
   video_ = video_of(frames, frames_per_second);
-  plot::WholeFiles whole({directory_ / kManifest});
-  write_text(whole.temporary(0), manifest());
-  whole.commit();
+  write_whole_file(directory_ / kManifest, manifest());
 }
 
 std::string FrameStore::video_of(int frames, double frames_per_second) const {
-  ordered_json film = {frames_per_second};
-  for (int i = 0; i < frames; ++i) film.push_back(frames_.value(name_of(i), ordered_json()));
-  return hash_of(film.dump());
+  ordered_json video = {frames_per_second};
+  for (int i = 0; i < frames; ++i) video.push_back(frames_.value(name_of(i), ordered_json()));
+  return hash_of(video.dump());
 }
 
 std::string FrameStore::manifest() const {
   const ordered_json json = {
-      {"skyfit_frames", kManifestVersion}, {"film", video_}, {"frames", frames_}};
+      {"skyfit_frames", kManifestVersion}, {"video", video_}, {"frames", frames_}};
   return json.dump(1) + "\n";
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/arguments.h"
+#include "cli/output.h"
 #include "data_refs/joint_reference.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/perez_sky.h"
@@ -30,6 +31,11 @@ std::string import_option_name(const refs::ImportOptionRow& row) {
 
 }  // namespace
 
+NamedFiles& named_files() {
+  static NamedFiles named = NamedFiles::kInItsFolder;
+  return named;
+}
+
 Preset preset_named(const std::string& name_or_file) {
   const std::vector<std::string> shipped = refs::shipped_preset_names();
   if (std::ranges::count(shipped, name_or_file) > 0) {
@@ -40,7 +46,7 @@ Preset preset_named(const std::string& name_or_file) {
         fmt::format("preset \"{}\": no such file, and none of the shipped presets {}", name_or_file,
                     fmt::join(shipped, ", ")));
   }
-  return load_preset(name_or_file, refs::load_table_csv);
+  return load_preset(name_or_file, refs::load_table_csv, named_files());
 }
 
 void add_site_pressure_option(CLI::App& command, std::string& site_pressure) {
@@ -81,8 +87,8 @@ void warn_of_unused_options(const CLI::App& command, const std::string& referenc
     const bool is_sampling =
         option->check_lname("sampling") || option->check_lname("sun-zenith-deg");
     if (!(is_import && !is_measured) && !(is_sampling && !is_analytic)) continue;
-    fmt::print(stderr, "skyfit: warning: {} is not used: {} {}\n", option->get_name(), reference,
-               is_import ? "is no measured sky" : "has its own directions");
+    warn(fmt::format("{} is not used: {} {}", option->get_name(), reference,
+                     is_import ? "is no measured sky" : "has its own directions"));
   }
 }
 
@@ -102,6 +108,7 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
 
 refs::ImportOptions parse_import_options(const ImportArguments& arguments) {
   refs::ImportOptions options;
+  options.named_files = named_files();
   for (const refs::ImportOptionRow& row : refs::import_option_table()) {
     const auto given = arguments.facts.find(row.name);
     if (given == arguments.facts.end() || !given->second) continue;

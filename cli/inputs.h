@@ -10,8 +10,13 @@
 
 #include "data_refs/references.h"
 #include "model/atmosphere/preset.h"
+#include "model/base/input_file.h"
 
 namespace skyfit::cli {
+
+// Which files the files that are read may name: --allow-paths of the program, set before a command
+// runs.
+NamedFiles& named_files();
 
 // A shipped preset's name or the path of a preset file; a shipped name wins over a file of that
 // name (write ./name for the file). Throws std::invalid_argument or std::runtime_error with one

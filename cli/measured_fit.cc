@@ -10,6 +10,7 @@
 #include <set>
 
 #include "cli/arguments.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/absorption_bands.h"
 #include "data_refs/ground_spectra.h"
@@ -134,7 +135,7 @@ void write_figures(const std::filesystem::path& directory, Figures& figures) {
     std::vector<std::filesystem::path> files;
     for (const char* extension : kFigureExtensions)
       files.push_back(directory / fmt::format("{}{}", name, extension));
-    figures.draw(name, [&, &shown = outcome] {
+    figures.draw(directory, name, [&, &shown = outcome] {
       plot::write_figure(plot::measured_figure(figure, {&shown, 1}), files);
     });
   }
@@ -245,7 +246,7 @@ std::map<fit::Instrument, Prior> take_instrument_priors(std::vector<std::string>
 
 void run_measured_fit(const MeasuredArguments& arguments, refs::Reference reference,
                       fit::MeasuredOptions options, const SkyModel& model, bool json,
-                      const ResultDirectory& out) {
+                      const WholeDirectory& out) {
   apply(arguments, options);
   if (!arguments.keep_absorption_bands) refs::mask_absorption_bands(reference);
   fit::MeasuredResult result;
@@ -260,18 +261,17 @@ void run_measured_fit(const MeasuredArguments& arguments, refs::Reference refere
     options.common.progress = {};
     checks = checks_of(arguments, model, options, result);
   }
-  const std::string report = fit::report_json(result, checks).dump(2) + "\n";
+  const std::string report = json_text(fit::report_json(result, checks));
   Figures figures;
   out.publish([&](const std::filesystem::path& staging) {
-    write_text(staging / kPresetFile, preset_to_json(result.preset));
-    write_text(staging / kReportFile, report);
-    write_text(staging / kReportTextFile, fit::full_report(result, checks));
-    write_text(staging / kMeasuredFile, plot::measured_to_csv(measured_samples(result)));
+    write_file(staging / kPresetFile, preset_to_json(result.preset));
+    write_file(staging / kReportFile, report);
+    write_file(staging / kReportTextFile, fit::full_report(result, checks));
+    write_file(staging / kMeasuredFile, plot::measured_to_csv(measured_samples(result)));
     write_figures(staging, figures);
   });
   if (!result.converged) {
-    fmt::print(stderr, "skyfit: warning: the fit stopped before it converged: {}\n",
-               result.termination);
+    warn(fmt::format("the fit stopped before it converged: {}", result.termination));
   }
   print(json ? report : fit::brief_report(result) + "\n");
   figures.expect_all(reference.name);

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/output.h"
 #include "data_refs/samples.h"
 #include "fit/measured.h"
+#include "model/base/whole_file.h"
 
 namespace skyfit::cli {
 
@@ -33,6 +33,6 @@ std::map<fit::Instrument, Prior> take_instrument_priors(std::vector<std::string>
 // Fits, publishes the result and prints the report. Throws UsageError or what the fit throws.
 void run_measured_fit(const MeasuredArguments& arguments, refs::Reference reference,
                       fit::MeasuredOptions options, const SkyModel& model, bool json,
-                      const ResultDirectory& out);
+                      const WholeDirectory& out);
 
 }  // namespace skyfit::cli

@@ -38,7 +38,7 @@ void add_presets_command(CLI::App& app) {
     } else if (!options->name.empty()) {
       print(refs::shipped_preset_json(options->name));
     } else if (options->json) {
-      print(nlohmann::json(names).dump(2) + "\n");
+      print(json_text(nlohmann::json(names)));
     } else {
       for (const std::string& name : names) print(name + "\n");
     }

@@ -33,7 +33,7 @@ void print_list(bool json) {
     auto list = nlohmann::json::array();
     for (const refs::ReferenceEntry& entry : entries)
       list.push_back({{"name", entry.name}, {"description", entry.description}});
-    return print(list.dump(2) + "\n");
+    return print(json_text(list));
   }
   std::size_t longest = 0;
   for (const refs::ReferenceEntry& entry : entries) longest = std::max(longest, entry.name.size());

@@ -3,7 +3,6 @@
 // what validate() of what it returns throws.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +11,6 @@
 #include "render/sequence/sequence.h"
 
 namespace skyfit::cli {
-
-// Throws std::runtime_error `option name: cannot be read: reason`.
-std::filesystem::path readable_file(std::string_view option, const std::string& name);
 
 // The first two of the values.
 Place parse_place(std::string_view option, const std::string& text,

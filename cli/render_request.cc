@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "cli/arguments.h"
 #include "cli/output.h"
 #include "cli/render_arguments.h"
+#include "model/base/input_file.h"
+#include "model/base/text.h"
 
 namespace skyfit::cli {
 namespace {
@@ -22,14 +22,19 @@ namespace fs = std::filesystem;
 constexpr int kStripFrames = 5, kMostStripFrames = 64;
 
 Sequence load_sequence(const std::string& file, const Keyframe& start) {
-  std::ostringstream text;
-  text << std::ifstream(readable_file("--sequence", file), std::ios::binary).rdbuf();
+  const std::string text = read_file(file, "a sequence (JSON)");
   const fs::path folder = fs::path(file).parent_path();
   const auto preset = [&](const std::string& name) {
-    const bool beside = !folder.empty() && fs::exists(folder / name);
-    return preset_named(beside ? (folder / name).string() : name);
+    const auto path = named_file(folder, name, named_files());
+    const bool beside = path && fs::exists(*path);
+    if (!beside && std::ranges::count(refs::shipped_preset_names(), name) > 0)
+      return preset_named(name);
+    if (!path)
+      throw std::invalid_argument(
+          fmt::format("{}: preset = {}: expected {}", file, in_quotes(name), kNamedFile));
+    return preset_named(path->string());
   };
-  return parse_sequence(text.str(), file, start, {preset, parse_instant});
+  return parse_sequence(text, file, start, {preset, parse_instant});
 }
 
 Strip parse_strip(const std::string& text, const Preset& preset) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 #include "cli/arguments.h"
+#include "cli/inputs.h"
 #include "cli/render_arguments.h"
+#include "model/base/input_file.h"
 
 namespace skyfit::cli {
 
@@ -26,7 +25,8 @@ PlacedMesh parse_mesh(const std::string& text) {
   const auto values = parse_tuple("--mesh", text.substr(at + 1), 3, 5, kForm);
   const Place place = parse_place("--mesh", text, values);
   PlacedMesh mesh;
-  mesh.file = readable_file("--mesh", text.substr(0, at));
+  mesh.file = text.substr(0, at);
+  require_regular_file(mesh.file, "a mesh for --mesh", kMostMeshBytes);
   mesh.latitude = place.latitude;
   mesh.longitude = place.longitude;
   mesh.altitude_m = values[2];
@@ -70,21 +70,16 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
 
 }  // namespace
 
-fs::path readable_file(std::string_view option, const std::string& name) {
-  const auto fail = [&](std::string_view reason) {
-    throw std::runtime_error(fmt::format("{} {}: cannot be read: {}", option, name, reason));
-  };
-  if (fs::is_directory(name)) fail("expected a file, this is a directory");
-  if (!std::ifstream(name)) fail(std::strerror(errno));
-  return name;
-}
-
 Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   Scene scene;
-  if (command.count("--height-map") > 0)
-    scene.height_map = readable_file("--height-map", options.height_map);
-  if (command.count("--color-map") > 0)
-    scene.color_map = readable_file("--color-map", options.color_map);
+  if (command.count("--height-map") > 0) {
+    scene.height_map = options.height_map;
+    require_regular_file(scene.height_map, "an image for --height-map", kMostImageBytes);
+  }
+  if (command.count("--color-map") > 0) {
+    scene.color_map = options.color_map;
+    require_regular_file(scene.color_map, "an image for --color-map", kMostImageBytes);
+  }
   const auto [low, high] =
       parse_ends("--height-range-m", options.height_range, "LOW..HIGH in metres");
   scene.lowest_m = parse_number("--height-range-m", low);
@@ -92,6 +87,7 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   scene.water_level_m = parse_number("--water-level-m", options.water_level);
   for (const std::string& mesh : options.meshes) scene.meshes.push_back(parse_mesh(mesh));
   scene.textures = options.textures;
+  scene.named_files = named_files();
   validate(scene);
   return scene;
 }

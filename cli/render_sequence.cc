@@ -14,6 +14,7 @@
 #include "cli/render_modes.h"
 #include "cli/render_session.h"
 #include "cli/video.h"
+#include "model/base/process.h"
 #include "render/sequence/exposure.h"
 
 namespace skyfit::cli {
@@ -65,8 +66,8 @@ class Shooting {
       progress.show((number + done) / frames, fmt::format("frame {} of {}", number + 1, frames));
     };
     show(0);
-    if (!studio_) studio_.emplace(request_, timeline_, [](double, std::string_view) {});
-    const Frame picture = studio_->draw(shot, time_s, show);
+    if (!session_) session_.emplace(request_, timeline_, [](double, std::string_view) {});
+    const Frame picture = session_->draw(shot, time_s, show);
     const double metered = metered_exposure(picture);
     if (!exposure) exposure = exposure_after(number, metered);
     store_.write(number, {fingerprint, metered, *exposure}, picture, request_.tone);
@@ -80,7 +81,7 @@ class Shooting {
   FrameStore store_;
   Adaptation adaptation_;
   StatisticsTable statistics_;
-  std::optional<RenderSession> studio_;  // opened by the first frame that is drawn
+  std::optional<RenderSession> session_;  // opened by the first frame that is drawn
   int drawn_ = 0;
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_session.h"
 
+#include "cli/light_check.h"
 #include "data_refs/spectra.h"
+#include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "model/tables/tables.h"
-#include "render/plot/whole_files.h"
 
 namespace skyfit::cli {
 
@@ -38,6 +39,7 @@ Frame RenderSession::draw(const Shot& shot, double time_s,
 }
 
 void write_frame(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone) {
+  check_light(frame);
   if (file.extension() == ".exr") {
     write_exr(frame, file);
   } else {
@@ -47,9 +49,10 @@ void write_frame(const Frame& frame, const std::filesystem::path& file, const To
 
 void write_frame_files(const Frame& frame, const std::vector<std::filesystem::path>& files,
                        const ToneOptions& tone) {
-  plot::WholeFiles whole(files);
-  for (std::size_t i = 0; i < files.size(); ++i) write_frame(frame, whole.temporary(i), tone);
-  whole.commit();
+  WholeFiles whole(files);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    whole.make(i, [&](const std::filesystem::path& file) { write_frame(frame, file, tone); });
+  whole.publish();
 }
 
 std::vector<TimelineStep> timeline_of(const Sequence& sequence) {

@@ -8,6 +8,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/light_check.h"
 #include "cli/output.h"
 #include "cli/sky_table.h"
 #include "data_refs/spectra.h"
@@ -123,6 +124,7 @@ void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
                const SkyTable& table, int threads) {
   const std::vector<SkyPoint> points = points_of(grid, 1 + table.orders);
   const SkyValues sky = model.radiance(atmosphere, table.nodes, points, table.derivatives());
+  check_light(sky, table.nodes, points);
   const std::vector<SkyValues> orders = orders_of(atmosphere, table, points, threads);
   print(header(table, "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,"));
   int point = 0;
@@ -137,18 +139,18 @@ void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
 
 void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmosphere,
                       const SkyGrid& grid, const SkyTable& table) {
-  print(header(table, "altitude_m,sun_zenith_deg,"));
   fmt::memory_buffer text;
   for (const double altitude : grid.altitude_m) {
     for (const double sun : grid.sun_zenith_deg) {
-      text.clear();
-      append_place(
-          table, fmt::format("{:.9g},{:.9g},", altitude, sun),
-          model.irradiance(atmosphere, table.nodes, altitude, radians(sun), table.derivatives()),
-          {}, 0, kIrradianceCount, text);
-      print({text.data(), text.size()});
+      const SkyValues irradiance =
+          model.irradiance(atmosphere, table.nodes, altitude, radians(sun), table.derivatives());
+      check_irradiance(irradiance, table.nodes, altitude, radians(sun));
+      append_place(table, fmt::format("{:.9g},{:.9g},", altitude, sun), irradiance, {}, 0,
+                   kIrradianceCount, text);
     }
   }
+  print(header(table, "altitude_m,sun_zenith_deg,"));
+  print({text.data(), text.size()});
 }
 
 void run_sky(const SkyOptions& options) {

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/video.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
+#include <cstdint>
 #include <fstream>
-#include <sstream>
-#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <vector>
 
-#include "render/plot/whole_files.h"
+#include "model/base/process.h"
+#include "model/base/text.h"
+#include "model/base/whole_file.h"
 
 namespace skyfit::cli {
 namespace {
@@ -49,67 +45,64 @@ std::vector<std::string> arguments(const fs::path& directory, int frames, double
           video.string()};
 }
 
-// Runs a program with stdin empty and both outputs in a file; its exit status.
-int run(const fs::path& program, std::vector<std::string> texts, const fs::path& log) {
-  texts.insert(texts.begin(), program.string());
-  std::vector<char*> pointers;
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int error =
-      posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0)
-    throw std::runtime_error(
-        fmt::format("{}: cannot run: {}", program.string(), std::strerror(error)));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+// The boxes of an MP4 file, of big-endian sizes, fill it, and one says where the frames are.
+bool is_complete(const fs::path& video) {
+  std::error_code none;
+  const std::uintmax_t end = fs::file_size(video, none);
+  std::ifstream in(video, std::ios::binary);
+  const auto big_endian = [&](int bytes) {
+    std::uintmax_t number = 0;
+    while (bytes-- > 0) number = number << 8 | static_cast<unsigned char>(in.get());
+    return number;
+  };
+  bool has_index = false;
+  for (std::uintmax_t at = 0; in.seekg(static_cast<std::streamoff>(at));) {
+    if (at == end) return has_index;
+    constexpr std::uintmax_t kLarge = 1;  // the size follows, in 8 bytes
+    std::uintmax_t size = big_endian(4);
+    std::string kind(4, '\0');
+    in.read(kind.data(), 4);
+    if (size == kLarge) size = big_endian(8);
+    if (!in || size < 8 || size > end - at) return false;
+    has_index |= kind == "moov";
+    at += size;
+  }
+  return false;
 }
 
 }  // namespace
 
-std::optional<fs::path> program_in_path(const std::string& name) {
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
-    if (!fs::is_directory(program) && ::access(program.c_str(), X_OK) == 0) return program;
-  }
-  return {};
-}
-
 fs::path make_video(const fs::path& ffmpeg, const fs::path& directory, int frames,
                     double frames_per_second) {
   const fs::path video = directory / kVideo;
-  plot::WholeFiles whole({video});
-  // Not among the targets: it is removed in any case.
-  const plot::WholeFiles log({directory / "ffmpeg.log"});
-  const int status =
-      run(ffmpeg, arguments(directory, frames, frames_per_second, whole.temporary(0)),
-          log.temporary(0));
-  if (status != 0) {
-    std::string first;
-    std::ifstream in(log.temporary(0));
-    std::getline(in, first);
-    throw std::runtime_error(fmt::format("{}: ffmpeg: exit status {}: {}", video.string(), status,
-                                         first.empty() ? "no message" : first));
+  WholeFiles whole({video});
+  // Where the frames lie, so that no name but our own is a pattern or a protocol to ffmpeg.
+  const fs::path drawn = whole.temporary(0);
+  const Outcome outcome = run(
+      {ffmpeg,
+       arguments({}, frames, frames_per_second, drawn.parent_path().filename() / drawn.filename()),
+       "", directory});
+  if (!outcome.succeeded()) {
+    const auto words = trim(outcome.output);
+    whole.fail(0, fmt::format("ffmpeg: {}: {}", outcome.ending(),
+                              words.empty() ? "no message" : excerpt(split(words, '\n').front())));
   }
-  whole.commit();
+  if (!is_complete(drawn)) whole.fail(0, "ffmpeg left half a film, as on a full disk");
+  whole.publish();
   return video;
 }
 
 std::string video_command(const fs::path& directory, int frames, double frames_per_second) {
+  constexpr std::string_view kPlain =
+      "+,-./:=_%0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
   std::string command = "ffmpeg";
   for (const std::string& text :
        arguments(directory, frames, frames_per_second, directory / kVideo)) {
-    const bool plain = text.find_first_of(" ()*'\"\\$&;") == std::string::npos;
-    command += plain ? " " + text : fmt::format(" \"{}\"", text);
+    const bool plain = text.find_first_not_of(kPlain) == std::string::npos;
+    command += plain ? " " + text : " '";
+    if (plain) continue;
+    for (const char c : text) command += c == '\'' ? "'\\''" : std::string(1, c);
+    command += '\'';
   }
   return command;
 }

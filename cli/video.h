@@ -3,13 +3,9 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 namespace skyfit::cli {
-
-// The first program of that name in PATH.
-std::optional<std::filesystem::path> program_in_path(const std::string& name);
 
 // DIR/frame_00000.png .. to DIR/sequence.mp4 (H.264, 4:2:0, even sides), whole or not at all.
 // Throws std::runtime_error with ffmpeg's own words.

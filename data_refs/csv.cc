@@ -3,28 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
+
+#include "model/base/input_file.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-constexpr std::string_view kBlank = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
-
 // Reads the quoted field at the front of `rest` and removes it, up to the comma or the end.
 std::string take_quoted(std::string_view& rest, std::string_view source, int line) {
   std::string field;
@@ -38,7 +28,7 @@ std::string take_quoted(std::string_view& rest, std::string_view source, int lin
     }
     field += rest[i];
   }
-  rest = trimmed(rest.substr(i + 1));
+  rest = trim(rest.substr(i + 1));
   if (!rest.empty() && rest.front() != ',')
     fail_at(source, line, "expected a comma after a closing quote");
   return field;
@@ -47,21 +37,18 @@ std::string take_quoted(std::string_view& rest, std::string_view source, int lin
 }  // namespace
 
 void fail_at(std::string_view source, int line, std::string_view message) {
-  std::string printable(message);
-  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
-  std::replace_if(printable.begin(), printable.end(), is_control, '?');
-  throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, printable));
+  throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, printable(message)));
 }
 
 std::vector<std::string> csv_fields(std::string_view rest, std::string_view source, int line) {
   std::vector<std::string> fields;
   for (;;) {
-    rest = trimmed(rest);
+    rest = trim(rest);
     if (!rest.empty() && rest.front() == '"') {
       fields.push_back(take_quoted(rest, source, line));
     } else {
       const std::size_t comma = rest.find(',');
-      fields.emplace_back(trimmed(rest.substr(0, comma)));
+      fields.emplace_back(trim(rest.substr(0, comma)));
       rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma);
     }
     if (rest.empty()) return fields;
@@ -81,7 +68,7 @@ CsvTable::CsvTable(std::string_view text, std::string_view source) : source_(sou
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
-    const std::string_view content = trimmed(text.substr(0, end));
+    const std::string_view content = trim(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
     if (content.empty() || content.front() == '#') continue;
     CsvRecord record{line, csv_fields(content, source_, line)};
@@ -102,7 +89,7 @@ CsvTable::CsvTable(std::string_view text, std::string_view source) : source_(sou
     const std::string& name = header_.fields[i];
     if (name.empty()) fail_header(fmt::format("column {} has no name", i + 1));
     if (!index_.emplace(name, i).second)
-      fail_header(fmt::format("column {}: expected once, found twice", name));
+      fail_header(fmt::format("column {}: expected once, found twice", excerpt(name)));
   }
 }
 
@@ -128,23 +115,13 @@ void CsvTable::fail_header(std::string_view message) const {
 
 void CsvTable::fail_value(const CsvRecord& record, std::string_view column,
                           std::string_view expectation) const {
-  constexpr std::size_t kLongest = 60;
-  std::string value = text(record, column);
-  if (value.size() > kLongest) value = value.substr(0, kLongest) + "...";
   fail_at(source_, record.line,
-          fmt::format("{} = \"{}\": expected {}", column, value, expectation));
+          fmt::format("{} = {}: expected {}", excerpt(column), in_quotes(text(record, column)),
+                      expectation));
 }
 
 std::string read_csv_file(const std::filesystem::path& file, std::string_view expectation) {
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (!stream && errno != 0) {
-    throw std::runtime_error(fmt::format("{}: cannot be read ({}), expected {}", file.string(),
-                                         std::strerror(errno), expectation));
-  }
-  std::string content = std::move(text).str();
+  std::string content = read_file(file, expectation);
   if (content.starts_with(kByteOrderMark)) content.erase(0, kByteOrderMark.size());
   return content;
 }

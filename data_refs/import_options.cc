@@ -9,6 +9,7 @@
 
 #include "data_refs/csv.h"
 #include "model/base/preset_reader.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 namespace {
@@ -85,10 +86,15 @@ ImportOptions parse_sidecar(std::string_view json, std::string_view source) {
   return options;
 }
 
-ImportOptions load_sidecar(const std::filesystem::path& sidecar) {
+ImportOptions load_sidecar(const std::filesystem::path& sidecar, NamedFiles named) {
   ImportOptions options =
       parse_sidecar(read_csv_file(sidecar, "a sidecar (JSON)"), sidecar.string());
-  if (options.mask) options.mask = (sidecar.parent_path() / *options.mask).string();
+  if (!options.mask) return options;
+  const auto mask = named_file(sidecar.parent_path(), *options.mask, named);
+  if (!mask)
+    throw std::invalid_argument(fmt::format("{}: mask = {}: expected {}", sidecar.string(),
+                                            in_quotes(*options.mask), kNamedFile));
+  options.mask = mask->string();
   return options;
 }
 
@@ -96,8 +102,11 @@ ImportOptions with_sidecar(const ImportOptions& options, const std::filesystem::
   std::filesystem::path beside = file;
   if (beside.filename().empty()) beside = beside.parent_path();  // "folder/"
   beside += ".sidecar.json";
-  if (options.sidecar) return overlaid(options, load_sidecar(*options.sidecar));
-  return std::filesystem::exists(beside) ? overlaid(options, load_sidecar(beside)) : options;
+  if (options.sidecar)
+    return overlaid(options, load_sidecar(*options.sidecar, options.named_files));
+  return std::filesystem::exists(beside)
+             ? overlaid(options, load_sidecar(beside, options.named_files))
+             : options;
 }
 
 }  // namespace skyfit::refs

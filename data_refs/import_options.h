@@ -17,6 +17,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/base/input_file.h"
+
 namespace skyfit::refs {
 
 struct ExcludedSample {
@@ -34,7 +36,8 @@ struct ImportOptions {
   std::optional<double> centre_x_px, centre_y_px, radius_px, north_deg;
   std::optional<double> lumen_per_watt, calibration, bin_deg;
   std::vector<ExcludedSample> exclude_samples;
-  std::optional<std::filesystem::path> sidecar;  // in the place of the one beside the file
+  std::optional<std::filesystem::path> sidecar;       // in the place of the one beside the file
+  NamedFiles named_files = NamedFiles::kInItsFolder;  // which a sidecar may name
 };
 
 // The kinds of measured skies that a fact can be about, as bits.
@@ -79,8 +82,9 @@ ImportOptions overlaid(const ImportOptions& first, const ImportOptions& second);
 // Throws std::invalid_argument `source:line: name = value: expected ...`.
 ImportOptions parse_sidecar(std::string_view json, std::string_view source);
 
-// Throws std::runtime_error when it cannot be read.
-ImportOptions load_sidecar(const std::filesystem::path& sidecar);
+// The same of a file, with the path of the mask that it names. Throws std::runtime_error when it
+// cannot be read.
+ImportOptions load_sidecar(const std::filesystem::path& sidecar, NamedFiles named);
 
 // What `options` and the sidecar of `file`, if there is one, say. Throws std::runtime_error when a
 // sidecar that was named cannot be read.

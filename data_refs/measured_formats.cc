@@ -17,6 +17,7 @@
 #include "data_refs/sky_image.h"
 #include "data_refs/spectral_scan_csv.h"
 #include "data_refs/spectral_scan_folder.h"
+#include "model/base/input_file.h"
 
 namespace skyfit::refs {
 namespace {
@@ -45,6 +46,7 @@ LoadedSky load_text(const std::string& text, const std::string& name, const Impo
 LoadedSky load(const std::filesystem::path& file, const ImportOptions& facts) {
   if (std::filesystem::is_directory(file))
     return {load_spectral_scan_folder(file, facts), kSpectralFolder};
+  require_regular_file(file, "a measured sky", kMostImageBytes);
   if (is_sky_image(file)) return {load_sky_image(file, facts), kSkyImage};
   return load_text(read_csv_file(file, "a measured sky"), file.string(), facts);
 }

@@ -15,13 +15,15 @@
 #include <vector>
 
 #include "data_refs/csv.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 namespace {
 
 [[noreturn]] void fail(const std::string& source, std::string_view line,
                        std::string_view expected) {
-  throw std::invalid_argument(fmt::format("{}: \"{}\": expected {}", source, line, expected));
+  throw std::invalid_argument(
+      fmt::format("{}: {}: expected {}", source, in_quotes(line), expected));
 }
 
 // The numbers of `NAME= 1 2 3`.

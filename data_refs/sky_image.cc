@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,12 +20,14 @@
 #include "data_refs/measured_sky.h"
 #include "data_refs/radiance_header.h"
 #include "data_refs/sky_bins.h"
+#include "model/base/input_file.h"
 #include "model/base/module_file.h"
+#include "model/base/text.h"
+#include "model/base/units.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 constexpr double kDefaultBin_deg = 6;
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01",
                            kHdrMagic = "#?R";  // #?RADIANCE or #?RGBE
@@ -77,8 +78,8 @@ LuminanceWeights luminance_weights(const Image& image, bool is_radiance_hdr,
   if (const auto y = channel(image, "Y")) return {{*y}, {1}, "channel Y"};
   const auto red = channel(image, "R"), green = channel(image, "G"), blue = channel(image, "B");
   if (!red || !green || !blue)
-    fail(source,
-         fmt::format("channels {}: expected R, G and B, or Y", fmt::join(image.channels, ", ")));
+    fail(source, fmt::format("channels {}: expected R, G and B, or Y",
+                             excerpt(fmt::format("{}", fmt::join(image.channels, ", ")))));
   const std::vector<std::size_t> channels = {*red, *green, *blue};
   const std::string stated = facts.primaries.value_or(is_radiance_hdr ? "radiance" : "srgb");
   const Chromaticities& named = stated == "radiance" ? kRadiance : kSrgb;
@@ -149,7 +150,7 @@ class PixelReader {
     sample.sun_zenith = sun_.zenith;
     sample.view_zenith = view.zenith;
     sample.relative_azimuth = view.azimuth - sun_.azimuth.value_or(0);
-    if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kDegree)
+    if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kRadiansPerDegree)
       return "near the sun";
     return {};
   }
@@ -181,7 +182,7 @@ void add_notes(const SkyBins& bins, const LuminanceWeights& weights, const ScanS
   sample.view_zenith = brightest.direction.view_zenith;
   sample.relative_azimuth = brightest.direction.relative_azimuth - sun.azimuth.value_or(0);
   sky.note(fmt::format("luminance from {}; the brightest bin is {:.0f} deg from the sun",
-                       weights.name, scattering_angle(sample) / kDegree));
+                       weights.name, scattering_angle(sample) * kDegreesPerRadian));
 }
 
 // Its first bytes.
@@ -236,8 +237,8 @@ Reference sky_image_reference(const Image& image, const Image* mask, bool is_rad
   for (const SkyBin& bin : bins.result()) {
     Reading reading;
     reading.number = bin.number;
-    reading.view_zenith_deg = bin.direction.view_zenith / kDegree;
-    reading.view_azimuth_deg = bin.direction.relative_azimuth / kDegree;
+    reading.view_zenith_deg = bin.direction.view_zenith * kDegreesPerRadian;
+    reading.view_azimuth_deg = bin.direction.relative_azimuth * kDegreesPerRadian;
     reading.value = bin.luminance;
     reading.flaw = bin.flaw;
     sky.add(reading);
@@ -272,7 +273,10 @@ Reference load_sky_image(const std::filesystem::path& file, const ImportOptions&
   Image image = module.read(file);
   if (is_radiance_hdr) image = as_radiance_means(std::move(image), header, file.string());
   std::optional<Image> mask;
-  if (facts.mask) mask = module.read(*facts.mask);
+  if (facts.mask) {
+    require_regular_file(*facts.mask, "an image", kMostImageBytes);
+    mask = module.read(*facts.mask);
+  }
   return sky_image_reference(image, mask ? &*mask : nullptr, is_radiance_hdr, file.string(), facts);
 }
 

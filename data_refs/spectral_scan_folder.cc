@@ -16,6 +16,7 @@
 
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
+#include "model/base/text.h"
 #include "model/photometry/photometry.h"
 
 namespace skyfit::refs {
@@ -78,8 +79,7 @@ Spectrum read_spectrum(const fs::path& file) {
     words >> value_text >> rest;
     const std::optional<double> nm = csv_number(nm_text), value = csv_number(value_text);
     if (!nm || !std::isfinite(*nm) || !value || !rest.empty())
-      fail_at(source, line,
-              fmt::format("\"{}\": expected a wavelength in nm and a radiance", content));
+      fail_at(source, line, in_quotes(content) + ": expected a wavelength in nm and a radiance");
     if (!spectrum.wavelength_nm.empty() && *nm <= spectrum.wavelength_nm.back())
       fail_at(source, line,
               fmt::format("wavelength = {}: expected ascending wavelengths", nm_text));

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "data_refs/csv.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 
@@ -14,8 +15,8 @@ TwoColumns parse_table_csv(std::string_view text, std::string_view source,
   const CsvTable csv(text, source);
   const auto& [x, y] = format.columns;
   if (!csv.has(x) || !csv.has(y) || csv.columns().size() != format.columns.size()) {
-    csv.fail_header(
-        fmt::format("columns {}: expected {}, {}", fmt::join(csv.columns(), ", "), x, y));
+    csv.fail_header(fmt::format("columns {}: expected {}, {}",
+                                excerpt(fmt::format("{}", fmt::join(csv.columns(), ", "))), x, y));
   }
   TwoColumns table;
   for (const CsvRecord& record : csv.records()) {

@@ -21,7 +21,7 @@
 
 #include "model/solver/reference_model.h"
 #include "notebooks_cpp/notebook.h"
-#include "render/plot/gnuplot.h"
+#include "render/plot/figure_file.h"
 #include "render/plot/legend.h"
 #include "render/plot/script.h"
 
@@ -102,9 +102,7 @@ void draw_figure(const std::filesystem::path& png, const std::string& ordinate_t
   const double left = 90, gap = 16, bottom = 60, width = 300, height = 340;
   const double right = left + width * static_cast<double>(panels.size());
   plot::Script script(right, bottom + height + 44);
-  script.line("set terminal pngcairo size {:.0f},{:.0f} font 'DejaVu Sans,9' background '#ffffff'",
-              script.width(), script.height());
-  script.line("set output {}; set multiplot", plot::gnuplot_quoted(png.string()));
+  script.line("set multiplot");
   script.begin_axes({0, 0, script.width(), script.height()});
   script.text_label(22, bottom + height / 2, ordinate_title, "center rotate by 90 font ',12'");
   plot::draw_legend(script, legend, (left + right) / 2, bottom + height + 22);
@@ -114,8 +112,8 @@ void draw_figure(const std::filesystem::path& png, const std::string& ordinate_t
     draw_axes(script, panels[i], box, ordinate, i == 0);
     draw_curves(script, panels[i].curves);
   }
-  script.line("unset multiplot; unset output");
-  plot::run_gnuplot(script.text());
+  script.line("unset multiplot");
+  plot::write_figure({script.width(), script.height(), script.text()}, {png});
 }
 
 // %% [hidden]

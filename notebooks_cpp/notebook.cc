@@ -2,34 +2,19 @@
 #include "notebooks_cpp/notebook.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
+
+#include "model/base/input_file.h"
+#include "model/base/whole_file.h"
 
 namespace skyfit::notebook {
 namespace {
 
 using nlohmann::json;
-
-std::filesystem::path new_scratch_directory() {
-  std::string name = (std::filesystem::temp_directory_path() / "skyfit-notebook-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error(fmt::format("{}: cannot create", name));
-  return name;
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  if (!in || !(bytes << in.rdbuf()))
-    throw std::runtime_error(fmt::format("{}: cannot read", file.string()));
-  return bytes.str();
-}
 
 // RFC 4648.
 std::string base64(std::string_view bytes) {
@@ -71,38 +56,17 @@ json notebook_metadata() {
         {"pygments_lexer", "cpp"}}}};
 }
 
-void write_whole(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::create_directories(file.parent_path());
-  std::filesystem::path temporary = file;
-  temporary += fmt::format(".{}", ::getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, file, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
-  }
-}
-
 }  // namespace
 
 Page::Page(std::string_view source, std::string name)
     : name_(std::move(name)),
       cells_(parse_percent(source, name_)),
       outputs_(cells_.size(), json::array()),
-      terminal_(std::cout.rdbuf()),
-      scratch_(new_scratch_directory()) {
+      terminal_(std::cout.rdbuf()) {
   std::cout.rdbuf(printed_.rdbuf());
 }
 
-Page::~Page() {
-  std::cout.rdbuf(terminal_);
-  std::error_code ignored;
-  std::filesystem::remove_all(scratch_, ignored);
-}
+Page::~Page() { std::cout.rdbuf(terminal_); }
 
 void Page::cell(std::source_location here) {
   end_cell();
@@ -133,7 +97,7 @@ void Page::figure(const std::filesystem::path& file) {
   if (run_order_.empty())
     throw CellError(fmt::format("{}: drawn before the first page.cell()", name_));
   const bool svg = file.extension() == ".svg";
-  const std::string bytes = bytes_of(file);
+  const std::string bytes = read_file(file, "a picture", kMostImageBytes);
   json data = svg ? json{{"image/svg+xml", lines_of(bytes)}} : json{{"image/png", base64(bytes)}};
   outputs_[run_order_.back()].push_back(
       {{"output_type", "display_data"}, {"data", std::move(data)}, {"metadata", json::object()}});
@@ -190,7 +154,9 @@ int execute(int argc, char** argv, std::string_view source, const std::string& n
       throw;
     }
     const auto stem = std::filesystem::path(name).stem().string();
-    write_whole(std::filesystem::path(argv[1]) / (stem + ".ipynb"), page.to_ipynb().dump(1) + "\n");
+    std::filesystem::create_directories(argv[1]);
+    write_whole_file(std::filesystem::path(argv[1]) / (stem + ".ipynb"),
+                     page.to_ipynb().dump(1) + "\n");
     return 0;
   } catch (const std::exception& error) {
     std::cerr << place << error.what() << '\n';

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/base/temporary_directory.h"
 #include "notebooks_cpp/percent.h"
 
 namespace skyfit::notebook {
@@ -39,7 +40,9 @@ class Page {
   void cell(std::source_location here = std::source_location::current());
 
   // A place for a file that goes away with the page.
-  std::filesystem::path scratch(std::string_view file_name) const { return scratch_ / file_name; }
+  std::filesystem::path scratch(std::string_view file_name) const {
+    return scratch_.path() / file_name;
+  }
 
   // Shows a .png or .svg in the cell that runs. Throws std::runtime_error when it cannot be read.
   void figure(const std::filesystem::path& file);
@@ -60,7 +63,7 @@ class Page {
   std::vector<int> run_order_;           // cells, in the order they ran
   std::ostringstream printed_;
   std::streambuf* terminal_;
-  std::filesystem::path scratch_;
+  TemporaryDirectory scratch_;
 };
 
 // Runs the notebook and writes OUTPUT_DIRECTORY/STEM.ipynb, whole or not at all. Returns the exit

@@ -5,10 +5,11 @@
 #include "notebooks_cpp/notebook.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <iostream>
+
+#include "model/base/temporary_directory.h"
 
 namespace skyfit::notebook {
 namespace {
@@ -58,13 +59,6 @@ struct Line9 {
 
 class Folder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "skyfit-toy-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   // Exit status and what was said on stderr.
   std::pair<int, std::string> run(void (*notebook)(Page&), const char* source = kSource) {
     std::string program = "toy", folder = folder_.string();
@@ -74,7 +68,8 @@ class Folder : public ::testing::Test {
     return {status, ::testing::internal::GetCapturedStderr()};
   }
 
-  std::filesystem::path folder_;
+  const TemporaryDirectory temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 void good_notebook(Page& page) {
@@ -140,7 +135,8 @@ TEST_F(Folder, AnUnwritableTargetIsNamed) {
   std::filesystem::create_directory(folder_ / "toy.ipynb");
   const auto [status, said] = run(good_notebook);
   EXPECT_EQ(status, 1);
-  EXPECT_EQ(said, (folder_ / "toy.ipynb").string() + ": cannot write\n");
+  EXPECT_EQ(said, (folder_ / "toy.ipynb").string() +
+                      ": expected the name of a file, this is a directory\n");
 }
 
 TEST(Percent, BadCellsAreRefusedWithTheirLine) {

@@ -6,17 +6,12 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "model/base/text.h"
+
 namespace skyfit::notebook {
 namespace {
 
 constexpr std::string_view kMarker = "// %%";
-constexpr std::string_view kBlank = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -33,7 +28,7 @@ std::invalid_argument error_at(std::string_view name, int line, std::string_view
 }
 
 CellKind kind_of(std::string_view marker, std::string_view name, int line) {
-  const auto kind = trimmed(marker.substr(kMarker.size()));
+  const auto kind = trim(marker.substr(kMarker.size()));
   if (kind.empty()) return CellKind::kCode;
   if (kind == "[markdown]") return CellKind::kMarkdown;
   if (kind == "[hidden]") return CellKind::kHidden;
@@ -42,7 +37,7 @@ CellKind kind_of(std::string_view marker, std::string_view name, int line) {
 }
 
 std::string markdown_line(std::string_view line, std::string_view name, int number) {
-  const auto text = trimmed(line);
+  const auto text = trim(line);
   if (text.empty()) return {};
   if (!text.starts_with("//"))
     throw error_at(name, number, "code in a markdown cell: expected a line with //");
@@ -57,8 +52,8 @@ void remove_indentation(std::vector<std::string>& lines) {
 }
 
 std::string joined_without_blank_ends(std::vector<std::string> lines) {
-  while (!lines.empty() && trimmed(lines.back()).empty()) lines.pop_back();
-  while (!lines.empty() && trimmed(lines.front()).empty()) lines.erase(lines.begin());
+  while (!lines.empty() && trim(lines.back()).empty()) lines.pop_back();
+  while (!lines.empty() && trim(lines.front()).empty()) lines.erase(lines.begin());
   std::string text;
   for (const auto& line : lines) text += (&line == lines.data() ? "" : "\n") + line;
   return text;
@@ -71,7 +66,7 @@ std::string shown_source(const Cell& cell, const std::vector<std::string_view>& 
     const auto line = lines[number - 1];
     if (cell.kind == CellKind::kMarkdown)
       shown.push_back(markdown_line(line, name, number));
-    else if (trimmed(line) != "page.cell();")
+    else if (trim(line) != "page.cell();")
       shown.emplace_back(line);
   }
   if (cell.kind == CellKind::kCode) remove_indentation(shown);
@@ -85,7 +80,7 @@ std::vector<Cell> parse_percent(std::string_view text, std::string_view name) {
   const int count = static_cast<int>(lines.size());
   std::vector<Cell> cells;
   for (int number = 1; number <= count; ++number) {
-    const auto line = trimmed(lines[number - 1]);
+    const auto line = trim(lines[number - 1]);
     if (line.starts_with(kMarker))
       cells.push_back({kind_of(line, name, number), number, number, {}});
     if (!cells.empty()) cells.back().last_line = number;

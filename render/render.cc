@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <stdexcept>
 
 #include "model/base/module_file.h"
+#include "model/base/units.h"
 #include "render/module/module.h"
 
 namespace skyfit {
@@ -20,21 +20,20 @@ const RenderModule& module() {
 }
 
 void add_metadata(const std::string& preset, const FrameOptions& options, Frame& frame) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const Camera& camera = options.camera;
   const auto add = [&](const char* name, double value) {
     frame.metadata.emplace_back(name, fmt::format("{:.9g}", value));
   };
   frame.metadata.emplace_back("skyfit:preset", preset);
-  add("skyfit:sun_zenith_deg", options.sun_zenith * kDegrees);
+  add("skyfit:sun_zenith_deg", options.sun_zenith * kDegreesPerRadian);
   add("skyfit:camera_altitude_m", camera.altitude_m);
-  add("skyfit:camera_view_zenith_deg", camera.view_zenith * kDegrees);
-  add("skyfit:camera_azimuth_deg", camera.azimuth * kDegrees);
-  add("skyfit:camera_vertical_fov_deg", camera.vertical_fov * kDegrees);
+  add("skyfit:camera_view_zenith_deg", camera.view_zenith * kDegreesPerRadian);
+  add("skyfit:camera_azimuth_deg", camera.azimuth * kDegreesPerRadian);
+  add("skyfit:camera_vertical_fov_deg", camera.vertical_fov * kDegreesPerRadian);
   if (options.site) {
-    add("skyfit:latitude_deg", options.site->latitude * kDegrees);
-    add("skyfit:longitude_deg", options.site->longitude * kDegrees);
-    add("skyfit:sun_azimuth_deg", options.site->sun_azimuth * kDegrees);
+    add("skyfit:latitude_deg", options.site->latitude * kDegreesPerRadian);
+    add("skyfit:longitude_deg", options.site->longitude * kDegreesPerRadian);
+    add("skyfit:sun_azimuth_deg", options.site->sun_azimuth * kDegreesPerRadian);
   }
 }
 

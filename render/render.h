@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "model/atmosphere/preset.h"
+#include "model/base/input_file.h"
 #include "model/tables/tables.h"
 #include "render/color_space.h"
 
@@ -81,6 +82,7 @@ struct Scene {
   // A directory of the materials' textures; those that are missing are made and saved there. Empty:
   // made and not saved.
   std::filesystem::path textures;
+  NamedFiles named_files = NamedFiles::kInItsFolder;  // which a mesh may name: its materials
 };
 
 // Another sun of the same colour and angular size in the same sky; its irradiance as a share of the

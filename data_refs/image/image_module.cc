@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace skyfit::refs {
@@ -19,6 +20,9 @@ Image read(const std::filesystem::path& file) {
   if (!input) fail(file, OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.depth > 1 || spec.deep) fail(file, "expected a flat image");
+  constexpr std::size_t kMostValues = std::size_t{1} << 30;
+  if (spec.image_pixels() > kMostValues / static_cast<std::size_t>(std::max(spec.nchannels, 1)))
+    fail(file, "expected at most 2^30 values");
   Image image{spec.width, spec.height, spec.channelnames, {}, {}};
   Chromaticities chromaticities;
   const OIIO::TypeDesc type(OIIO::TypeDesc::FLOAT, static_cast<int>(chromaticities.size()));

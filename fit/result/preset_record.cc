@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "model/atmosphere/derived.h"
+#include "model/base/preset_reader.h"
 
 namespace skyfit::fit {
 namespace {
@@ -53,7 +54,7 @@ std::vector<Parameter> read_parameters(const json& names, const Atmosphere<doubl
                                        std::string_view source) {
   std::vector<Parameter> parameters;
   for (const json& name : names) {
-    const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
+    const std::string text = name.is_string() ? name.get<std::string>() : json_excerpt(name);
     const auto fail = [&](std::string_view expected) {
       fail_covariance(source, fmt::format(".parameters: {}: {}", text, expected));
     };
@@ -88,9 +89,10 @@ Eigen::MatrixXd read_matrix(const json& rows, const std::vector<Parameter>& para
       const json& value = rows[i][j];
       if (!value.is_number() || (i == j && value < 0)) {
         fail_covariance(
-            source, fmt::format(".matrix[{}][{}] = {}: expected a finite number{}; fit again with "
-                                "{} fixed or under a prior",
-                                i, j, value.dump(), i == j ? " >= 0" : "", parameters[i].name()));
+            source,
+            fmt::format(".matrix[{}][{}] = {}: expected a finite number{}; fit again with "
+                        "{} fixed or under a prior",
+                        i, j, json_excerpt(value), i == j ? " >= 0" : "", parameters[i].name()));
       }
       matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = value;
     }

@@ -4,11 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 
 #include "model/atmosphere/preset_choices.h"
@@ -88,7 +84,8 @@ Preset read_preset(const PresetReader& root, const PresetTables& tables) {
     root.expect_only(
         {"skyfit_preset", "name", "planet", "rayleigh", "mie", "ozone", "ground", "fit"});
   } else {
-    root.expect_only({"skyfit_preset", "name", "note", "planet", "star", "ground", "constituents", "fit"});
+    root.expect_only(
+        {"skyfit_preset", "name", "note", "planet", "star", "ground", "constituents", "fit"});
   }
   Preset preset;
   preset.name = root.text("name");
@@ -128,9 +125,10 @@ std::string document_path(const Atmosphere<double>& atmosphere, std::string_view
 
 }  // namespace
 
-Preset parse_preset(std::string_view text, std::string_view source, const TableReader& reader) {
+Preset parse_preset(std::string_view text, std::string_view source, const TableReader& reader,
+                    NamedFiles named) {
   const PresetDocument document(text, source);
-  const PresetTables tables(std::filesystem::path(source).parent_path(), reader);
+  const PresetTables tables(std::filesystem::path(source).parent_path(), reader, named);
   Preset preset = read_preset(document.root(), tables);
   try {
     validate(preset.atmosphere);
@@ -168,18 +166,12 @@ std::string preset_to_json(const Preset& preset) {
   return root.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-Preset load_preset(const std::filesystem::path& file, const TableReader& reader) {
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (!stream || text.view().empty()) {
-    const bool empty = errno == 0;
-    throw std::runtime_error(fmt::format("{}: cannot be read ({}), expected a preset",
-                                         file.string(),
-                                         empty ? "it is empty" : std::strerror(errno)));
-  }
-  return parse_preset(text.view(), file.string(), reader);
+Preset load_preset(const std::filesystem::path& file, const TableReader& reader, NamedFiles named) {
+  const std::string text = read_file(file, "a preset");
+  if (text.empty())
+    throw std::runtime_error(
+        fmt::format("{}: cannot be read (it is empty), expected a preset", file.string()));
+  return parse_preset(text, file.string(), reader, named);
 }
 
 }  // namespace skyfit

@@ -10,6 +10,7 @@
 
 #include "model/atmosphere/atmosphere.h"
 #include "model/atmosphere/table_format.h"
+#include "model/base/input_file.h"
 
 namespace skyfit {
 
@@ -21,13 +22,16 @@ struct Preset {
 };
 
 // Parse and write. `reader` reads the CSVs that a preset names (refs::load_table_csv), relative to
-// the folder of `source`; without it they are refused. Unknown names, missing names, wrong types
+// the folder of `source` and within it unless they may lie anywhere; without it they are refused.
+// Unknown names, missing names, wrong types
 // and unphysical values throw std::invalid_argument with one line `source: path.to.field = value:
 // expected ...`; `source` is the file name that the message shows.
-Preset parse_preset(std::string_view text, std::string_view source, const TableReader& reader = {});
+Preset parse_preset(std::string_view text, std::string_view source, const TableReader& reader = {},
+                    NamedFiles named = NamedFiles::kInItsFolder);
 std::string preset_to_json(const Preset& preset);
 
 // Throws std::runtime_error when the file cannot be read.
-Preset load_preset(const std::filesystem::path& file, const TableReader& reader = {});
+Preset load_preset(const std::filesystem::path& file, const TableReader& reader = {},
+                   NamedFiles named = NamedFiles::kInItsFolder);
 
 }  // namespace skyfit

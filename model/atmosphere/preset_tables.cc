@@ -14,7 +14,9 @@ TwoColumns PresetTables::read_columns(const PresetReader& object, const TableFor
   object.expect_only({"type", "csv"});
   const std::string file = object.text("csv");
   if (!reader_) object.fail_value("csv", fmt::format("{} and {} instead of a file", x, y));
-  return reader_(folder_ / file, format);
+  const auto path = named_file(folder_, file, named_);
+  if (!path) object.fail_value("csv", kNamedFile);
+  return reader_(*path, format);
 }
 
 nlohmann::ordered_json table_to_json(const TwoColumns& table, const TableFormat& format) {

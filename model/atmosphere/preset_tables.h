@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "model/atmosphere/table_format.h"
+#include "model/base/input_file.h"
 #include "model/base/preset_reader.h"
 
 namespace skyfit {
@@ -16,8 +17,8 @@ inline constexpr std::string_view kTabulated = "tabulated";
 class PresetTables {
  public:
   // Without a reader a preset that names a CSV is refused.
-  PresetTables(std::filesystem::path folder, const TableReader& reader)
-      : folder_(std::move(folder)), reader_(reader) {}
+  PresetTables(std::filesystem::path folder, const TableReader& reader, NamedFiles named)
+      : folder_(std::move(folder)), reader_(reader), named_(named) {}
 
   // Table is LinearProfile or TabulatedPhase.
   template <class Table>
@@ -38,6 +39,7 @@ class PresetTables {
 
   std::filesystem::path folder_;
   const TableReader& reader_;
+  NamedFiles named_;
 };
 
 nlohmann::ordered_json table_to_json(const TwoColumns& table, const TableFormat& format);

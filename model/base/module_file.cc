@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <vector>
@@ -13,24 +14,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> candidates(const std::string& file) {
-  std::vector<fs::path> files;
+// Where the build or the installation put the modules, in the order of trial. An installation may
+// have been moved as a whole: its library directory is known relative to that of its programs.
+std::vector<fs::path> module_directories() {
   std::error_code none;
-  fs::path directory = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (int level = 0; level < 3 && !directory.empty(); ++level) {
-    files.push_back(directory / file);
-    files.push_back(directory / SKYFIT_MODULE_SUBDIR / file);
-    directory = directory.parent_path();
-  }
-  files.push_back(fs::path(SKYFIT_MODULE_DIR) / file);
-  return files;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  const fs::path build = fs::weakly_canonical(SKYFIT_MODULE_BUILD_DIR, none);
+  std::vector<fs::path> directories;
+  const fs::path folder = program.parent_path();
+  if (folder.filename() == SKYFIT_PROGRAM_SUBDIR)
+    directories.push_back(folder.parent_path() / SKYFIT_MODULE_SUBDIR);
+  const bool is_of_build = std::ranges::mismatch(build, program).in1 == build.end();
+  directories.emplace_back(is_of_build ? build : fs::path(SKYFIT_MODULE_DIR));
+  return directories;
 }
 
 }  // namespace
 
 const void* open_module(const std::string& name) {
   const std::string file_name = name + ".so";
-  for (const fs::path& file : candidates(file_name)) {
+  for (const fs::path& directory : module_directories()) {
+    const fs::path file = directory / file_name;
     std::error_code none;
     if (!fs::exists(file, none)) continue;
     void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

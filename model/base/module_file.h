@@ -9,8 +9,9 @@
 
 namespace skyfit {
 
-// What NAME() returns. Looks beside the program and above it (build tree), in the library directory
-// of its prefix (installed) and where CMake installs. Throws std::runtime_error with one line.
+// What NAME() returns. A program of the build directory opens the modules of the build and no
+// others; any other opens those in the library directory beside its own (a moved installation) or
+// where CMake installs them, all by absolute path. Throws std::runtime_error with one line.
 const void* open_module(const std::string& name);
 
 // The struct of that module; kRevision is the one this program knows.

@@ -6,21 +6,18 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "model/base/text.h"
+
 namespace skyfit {
 namespace {
 
 using nlohmann::json;
-
-// A name as it stands in a message: control characters escaped as JSON does.
-std::string printable(std::string_view name) {
-  const std::string quoted = json(name).dump(-1, ' ', false, json::error_handler_t::replace);
-  return quoted.substr(1, quoted.size() - 2);
-}
 
 // Hands characters to the parser and counts the lines that it has read, which the library does not
 // tell.
@@ -69,7 +66,7 @@ class FieldTracker {
         open_.pop_back();
         break;
       case json::parse_event_t::key:
-        enter(printable(parsed.get<std::string>()));
+        enter(parsed.get<std::string>());
         break;
       case json::parse_event_t::value:
         count_element();
@@ -117,7 +114,7 @@ class FieldTracker {
   }
 
   void enter(const std::string& key) {
-    open_.back().key = key;
+    open_.back().key = excerpt(key);
     const std::string place = path();
     if (!open_.back().seen.insert(key).second) {
       throw std::invalid_argument(
@@ -138,18 +135,19 @@ std::string syntax_complaint(const std::string& what) {
   const std::size_t begin = bracket == std::string::npos ? 0 : bracket + 2;
   const std::size_t colon = what.find(": ", begin);
   const bool has_place = what.compare(begin, 11, "parse error") == 0 && colon != std::string::npos;
-  return what.substr(has_place ? colon + 2 : begin);
-}
-
-// A value as it stands in the file, short enough for one line.
-std::string shown(const json& value) {
-  constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text;
+  const std::string complaint = what.substr(has_place ? colon + 2 : begin);
+  // It ends with all that was read of a word, of any length.
+  constexpr std::string_view kLastRead = "last read: '";
+  const std::size_t word = complaint.find(kLastRead);
+  if (word == std::string::npos) return complaint;
+  return complaint.substr(0, word) + excerpt(complaint.substr(word));
 }
 
 }  // namespace
+
+std::string json_excerpt(const json& value) {
+  return excerpt(value.dump(-1, ' ', false, json::error_handler_t::replace));
+}
 
 PresetDocument::PresetDocument(std::string_view text, std::string_view source) : source_(source) {
   int line = 1;
@@ -165,7 +163,7 @@ PresetDocument::PresetDocument(std::string_view text, std::string_view source) :
   line_of_path_ = tracker.take_lines();
   if (!json_.is_object()) {
     throw std::invalid_argument(
-        fmt::format("{}: expected a JSON object, got {}", source_, shown(json_)));
+        fmt::format("{}: expected a JSON object, got {}", source_, json_excerpt(json_)));
   }
 }
 
@@ -218,6 +216,17 @@ double PresetReader::number(std::string_view field) const {
   return found.get<double>();
 }
 
+bool PresetReader::is_null(std::string_view field) const {
+  return member(field, "a value or null").is_null();
+}
+
+double PresetReader::number_or_nan(std::string_view field) const {
+  const json& found = member(field, "a number or null");
+  if (found.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (!found.is_number()) fail_value(field, "a number or null");
+  return found.get<double>();
+}
+
 std::vector<double> PresetReader::numbers(std::string_view field) const {
   const json& found = member(field, "an array of numbers");
   const auto is_number = [](const json& value) { return value.is_number(); };
@@ -250,10 +259,19 @@ bool PresetReader::flag(std::string_view field) const {
   return found.get<bool>();
 }
 
+std::vector<std::string> PresetReader::texts(std::string_view field) const {
+  const json& found = member(field, "an array of texts");
+  const auto is_text = [](const json& value) { return value.is_string(); };
+  if (!found.is_array() || !std::ranges::all_of(found, is_text))
+    fail_value(field, "an array of texts");
+  return found.get<std::vector<std::string>>();
+}
+
 void PresetReader::fail_value(std::string_view field, std::string_view expectation) const {
   const std::string path = path_of(field);
   throw std::invalid_argument(fmt::format("{}: {} = {}: expected {}", document_.place(path), path,
-                                          shown(value_.at(std::string(field))), expectation));
+                                          json_excerpt(value_.at(std::string(field))),
+                                          expectation));
 }
 
 void PresetReader::fail_missing(std::string_view expectation) const {
@@ -268,7 +286,7 @@ void PresetReader::fail_inside(std::string_view message) const {
 }
 
 std::string PresetReader::path_of(std::string_view field) const {
-  return path_.empty() ? printable(field) : fmt::format("{}.{}", path_, printable(field));
+  return path_.empty() ? excerpt(field) : fmt::format("{}.{}", path_, excerpt(field));
 }
 
 const json& PresetReader::member(std::string_view field, std::string_view expectation) const {

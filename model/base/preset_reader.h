@@ -17,6 +17,9 @@ namespace skyfit {
 
 class PresetReader;
 
+// A value as it stands in the file, short enough for a message (text.h).
+std::string json_excerpt(const nlohmann::json& value);
+
 class PresetDocument {
  public:
   PresetDocument(std::string_view text, std::string_view source);
@@ -53,10 +56,13 @@ class PresetReader {
     return has(field) && value_.at(std::string(field)).is_object();
   }
   double number(std::string_view field) const;
+  bool is_null(std::string_view field) const;
+  double number_or_nan(std::string_view field) const;  // null is not a number
   std::vector<double> numbers(std::string_view field) const;
   std::vector<std::vector<double>> rows(std::string_view field) const;  // an array of arrays
   std::string text(std::string_view field) const;
   bool flag(std::string_view field) const;
+  std::vector<std::string> texts(std::string_view field) const;
 
   // The result of `make`, which may throw std::invalid_argument with a message that begins with a
   // path inside this object: source, line and this object's path are put before it.

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image/image_files.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <stdexcept>
-#include <system_error>
 
+#include "model/base/whole_file.h"
 #include "render/image/tone.h"
 
 namespace skyfit {
@@ -15,30 +18,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Writes beside the target under another name and renames, so that the file is whole or not there.
-void write_whole(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+// The stream is ours, because OpenImageIO does not look whether its last bytes reach the disk.
+void write_image(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                  const void* pixels) {
-  const fs::path part = file.parent_path() / fmt::format(".{}.{}{}", file.stem().string(), getpid(),
-                                                         file.extension().string());
+  const auto fail = [&](const std::string& reason) {
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(),
+                                         reason.substr(0, reason.find('\n'))));
+  };
+  std::FILE* const stream = std::fopen(file.c_str(), "wb");
+  if (stream == nullptr) fail(std::strerror(errno));
   std::string error;
-  std::error_code code;
   {
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(part.string());
+    OIIO::Filesystem::IOFile target(stream, OIIO::Filesystem::IOProxy::Write);
+    const auto output = OIIO::ImageOutput::create(file.string(), &target);
     if (!output) {
       error = OIIO::geterror();
-    } else if (!output->open(part.string(), spec) || !output->write_image(type, pixels) ||
+    } else if (!output->open(file.string(), spec) || !output->write_image(type, pixels) ||
                !output->close()) {
       error = output->geterror();
+      if (error.empty()) error = "OpenImageIO gives no reason";
     }
   }
-  if (error.empty()) {
-    fs::rename(part, file, code);
-    if (code) error = code.message();
-  }
-  if (error.empty()) return;
-  fs::remove(part, code);
-  throw std::runtime_error(
-      fmt::format("{}: cannot write: {}", file.string(), error.substr(0, error.find('\n'))));
+  errno = 0;
+  const bool flushed = std::fflush(stream) == 0 && std::ferror(stream) == 0;
+  const bool closed = std::fclose(stream) == 0;
+  if (!flushed || !closed) error = errno != 0 ? std::strerror(errno) : "not all of it was written";
+  if (!error.empty()) fail(error);
+}
+
+void write_whole(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                 const void* pixels) {
+  WholeFiles whole({file});
+  whole.make(0, [&](const fs::path& part) { write_image(part, spec, type, pixels); });
+  whole.publish();
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
+
+#include "model/base/units.h"
 
 namespace skyfit::plot {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // Sheds the noise of the way through radians: 5 degrees read 5 again, not 5.000000000000001.
 double degrees(double radians) {
   constexpr double kDigits = 1e10;
-  return std::round(radians * 180 / std::numbers::pi * kDigits) / kDigits;
+  return std::round(radians * kDegreesPerRadian * kDigits) / kDigits;
 }
 
 double counted_weight(const refs::Sample& sample, double exclude_sun) {

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <string_view>
 
+#include "model/base/input_file.h"
+#include "model/base/text.h"
+#include "model/base/whole_file.h"
 #include "render/plot/gnuplot.h"
-#include "render/plot/whole_files.h"
 
 namespace skyfit::plot {
 namespace {
@@ -28,12 +31,24 @@ std::string terminal(const std::string& extension, const Figure& figure) {
       figure.width_px / kPixelsPerInch, figure.height_px / kPixelsPerInch);
 }
 
-// gnuplot may end well without having drawn: what it left must be there.
-void check_drawn(const std::filesystem::path& drawn, const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(drawn, error);
-  if (error || size == 0)
-    throw std::runtime_error(fmt::format("{}: gnuplot left no picture", file.string()));
+// gnuplot may end well on a full disk: the picture must end as its format does.
+bool is_complete(std::string_view picture, const std::string& extension) {
+  using namespace std::string_view_literals;
+  if (extension == ".png") return picture.ends_with("\0\0\0\0IEND\xae\x42\x60\x82"sv);
+  return trim(picture).ends_with(extension == ".svg" ? "</svg>" : "%%EOF");
+}
+
+// Draws where the file lies and under its name there, which are our own: a name that starts with |
+// would be a command to gnuplot, and ~ a user's home.
+void draw(const Figure& figure, const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  run_gnuplot(fmt::format("set encoding utf8\nset minussign\nset terminal {}\nset output '{}'\n{}"
+                          "unset output\n",
+                          terminal(extension, figure), file.filename().string(), figure.body),
+              file.parent_path());
+  if (!std::filesystem::exists(file)) throw std::runtime_error("gnuplot left no picture");
+  if (!is_complete(read_file(file, "a picture", kMostImageBytes), extension))
+    throw std::runtime_error("gnuplot left half a picture, as on a full disk");
 }
 
 }  // namespace
@@ -50,14 +65,14 @@ void check_figure_files(const std::vector<std::filesystem::path>& files) {
 void write_figure(const Figure& figure, const std::vector<std::filesystem::path>& files) {
   check_figure_files(files);
   WholeFiles whole(files);
-  std::string script = "set encoding utf8\nset minussign\n";
-  for (std::size_t i = 0; i < files.size(); ++i)
-    script += fmt::format("reset\nset terminal {}\nset output {}\n{}unset output\n",
-                          terminal(files[i].extension().string(), figure),
-                          gnuplot_quoted(whole.temporary(i).string()), figure.body);
-  run_gnuplot(script);
-  for (std::size_t i = 0; i < files.size(); ++i) check_drawn(whole.temporary(i), files[i]);
-  whole.commit();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    try {
+      draw(figure, whole.temporary(i));
+    } catch (const std::runtime_error& error) {
+      whole.fail(i, error.what());
+    }
+  }
+  whole.publish();
 }
 
 }  // namespace skyfit::plot

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
+
+#include "model/base/units.h"
 
 namespace skyfit::plot {
 namespace {
@@ -156,7 +157,7 @@ void draw_block_label(Script& script, const Box& block, const std::string& label
 }  // namespace
 
 std::string polar_point(double zenith_deg, double azimuth_deg) {
-  const double azimuth = azimuth_deg * std::numbers::pi / 180;
+  const double azimuth = azimuth_deg * kRadiansPerDegree;
   return fmt::format("{:.5f},{:.5f}", zenith_deg / 90 * std::cos(azimuth),
                      zenith_deg / 90 * std::sin(azimuth));
 }

@@ -25,12 +25,16 @@ constexpr std::string_view kScan = "scan";
 bool zenith(double value) { return value >= 0 && value <= 180; }
 bool any(double) { return true; }
 bool not_negative(double value) { return value >= 0; }
+// Of light that the sun sends; 0: a luminance.
+bool wavelength(double value) { return value == 0 || (value >= 100 && value <= 10000); }
+// Some turns.
+bool azimuth(double value) { return value >= -3600 && value <= 3600; }
 
 constexpr std::array<Column, 8> kColumns = {{
     {"sun_zenith_deg", &MeasuredSample::sun_zenith_deg, "0 to 180", zenith},
     {"view_zenith_deg", &MeasuredSample::view_zenith_deg, "0 to 180", zenith},
-    {"relative_azimuth_deg", &MeasuredSample::relative_azimuth_deg, "a number", any},
-    {"wavelength_nm", &MeasuredSample::wavelength_nm, "a number >= 0", not_negative},
+    {"relative_azimuth_deg", &MeasuredSample::relative_azimuth_deg, "-3600 to 3600", azimuth},
+    {"wavelength_nm", &MeasuredSample::wavelength_nm, "0 or 100 to 10000", wavelength},
     {"measured", &MeasuredSample::measured, "a number", any},
     {"sigma", &MeasuredSample::sigma, "a number >= 0", not_negative},
     {"model", &MeasuredSample::model, "a number", any},

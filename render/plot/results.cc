@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
 #include "data_refs/perez_sky.h"
 #include "data_refs/references.h"
 #include "model/atmosphere/derived.h"
+#include "model/base/preset_reader.h"
+#include "model/base/text.h"
+#include "model/base/units.h"
 #include "render/plot/evaluate.h"
 
 namespace skyfit::plot {
@@ -33,7 +35,7 @@ T field(const FitOutcome& fit, const char* pointer, const char* expected) {
     if (record.contains(place)) return record.at(place).get<T>();
   } catch (const json::exception&) {
     throw std::invalid_argument(fmt::format("{}: fit{} = {}: expected {}", fit.folder, pointer,
-                                            record.at(place).dump(), expected));
+                                            json_excerpt(record.at(place)), expected));
   }
   throw std::invalid_argument(
       fmt::format("{}: fit{}: missing, expected {}", fit.folder, pointer, expected));
@@ -44,8 +46,8 @@ FitRecord record_of(const FitOutcome& fit) {
       field<std::string>(fit, "/reference/quantity", "luminance_cd_m2 or relative_luminance");
   if (quantity != "luminance_cd_m2" && quantity != "relative_luminance")
     throw std::invalid_argument(fmt::format(
-        "{}: fit/reference/quantity = \"{}\": expected luminance_cd_m2 or relative_luminance",
-        fit.folder, quantity));
+        "{}: fit/reference/quantity = {}: expected luminance_cd_m2 or relative_luminance",
+        fit.folder, in_quotes(quantity)));
   return {field<std::string>(fit, "/reference/name", "the reference's name"),
           field<std::string>(fit, "/reference/description", "one line of text"),
           field<std::string>(fit, "/model", "the name of a sky model"),
@@ -64,13 +66,12 @@ bool is_analytic(const std::string& reference) {
 std::vector<ComparedSample> hemisphere_samples(const FitOutcome& fit, const FitRecord& record,
                                                const SpectralData& spectra, const SkyModel& model) {
   if (!is_analytic(record.reference)) return fit.samples;
-  constexpr double kRadian = std::numbers::pi / 180;
   std::set<double> suns;
-  for (const auto& sample : fit.samples) suns.insert(sample.sun_zenith_deg * kRadian);
+  for (const auto& sample : fit.samples) suns.insert(sample.sun_zenith_deg * kRadiansPerDegree);
   const auto reference =
       refs::load_reference(record.reference, {suns.begin(), suns.end()}, refs::Sampling::kTregenza);
   return evaluated_samples(reference, fit.preset.atmosphere, spectra, model,
-                           record.exclude_sun_deg * kRadian);
+                           record.exclude_sun_deg * kRadiansPerDegree);
 }
 
 std::string label_of(std::span<const FitOutcome> fits, std::size_t index) {

@@ -7,12 +7,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 
-#include "render/plot/whole_files.h"
+#include "model/base/input_file.h"
+#include "model/base/text.h"
+#include "model/base/whole_file.h"
 
 namespace skyfit::plot {
 namespace {
@@ -45,16 +45,6 @@ constexpr std::array<Column, 8> kColumns = {{
     {"start_model", &ComparedSample::start_model, "a number > 0", positive},
 }};
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = text.find(separator, begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string_view::npos) return parts;
-    begin = end + 1;
-  }
-}
-
 // Lines without their end, be it \n or \r\n; the empty one after the last is dropped.
 std::vector<std::string_view> lines_of(std::string_view text) {
   auto lines = split(text, '\n');
@@ -69,8 +59,8 @@ double parse_field(const Column& column, std::string_view field, std::string_vie
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size() || !column.accepts(value))
-    throw std::invalid_argument(fmt::format("{}:{}: {} = \"{}\": expected {}", source, line,
-                                            column.name, field, column.expected));
+    throw std::invalid_argument(fmt::format("{}:{}: {} = {}: expected {}", source, line,
+                                            column.name, in_quotes(field), column.expected));
   return value;
 }
 
@@ -119,8 +109,8 @@ std::vector<ComparedSample> parse_samples_csv(std::string_view text, std::string
   const bool with_start =
       header.size() == kHeader.size() + kStartColumn.size() && header.ends_with(kStartColumn);
   if (!header.starts_with(kHeader) || (header.size() != kHeader.size() && !with_start))
-    throw std::invalid_argument(fmt::format("{}:1: header = \"{}\": expected \"{}[{}]\"", source,
-                                            header, kHeader, kStartColumn));
+    throw std::invalid_argument(fmt::format("{}:1: header = {}: expected \"{}[{}]\"", source,
+                                            in_quotes(header), kHeader, kStartColumn));
   if (lines.size() < 2)
     throw std::invalid_argument(fmt::format("{}:2: expected at least one sample", source));
   std::vector<ComparedSample> samples;
@@ -130,20 +120,11 @@ std::vector<ComparedSample> parse_samples_csv(std::string_view text, std::string
 }
 
 void write_samples_csv(const std::filesystem::path& file, std::span<const ComparedSample> samples) {
-  WholeFiles files({file});
-  std::ofstream out(files.temporary(0), std::ios::binary);
-  out << samples_to_csv(samples);
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
-  files.commit();
+  write_whole_file(file, samples_to_csv(samples));
 }
 
 std::vector<ComparedSample> read_samples_csv(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf()))
-    throw std::runtime_error(fmt::format("{}: cannot read", file.string()));
-  return parse_samples_csv(text.str(), file.string());
+  return parse_samples_csv(read_file(file, "the samples of a fit"), file.string());
 }
 
 }  // namespace skyfit::plot

@@ -115,7 +115,8 @@ TEST_F(MeasuredTest, AFigureThatCannotBeDrawnDoesNotLoseTheFit) {
                               {"SKYFIT_GNUPLOT=/bin/false"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("the result is complete but for figures"));
-  EXPECT_THAT(outcome.err, HasSubstr("maps (/bin/false: exit status 1"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("maps (maps.svg: cannot be written: /bin/false: exit status 1"));
   EXPECT_TRUE(exists("kept/preset.json") && exists("kept/measured.csv"));
   EXPECT_FALSE(exists("kept/maps.png"));
 }

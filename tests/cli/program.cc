@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <fstream>
@@ -15,12 +14,6 @@ extern char** environ;
 namespace skyfit::cli {
 namespace fs = std::filesystem;
 namespace {
-
-fs::path temporary_folder() {
-  std::string name = (fs::temp_directory_path() / "skyfit-cli-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
-  return name;
-}
 
 std::string text_of(const fs::path& file) {
   std::ostringstream text;
@@ -36,16 +29,6 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 }
 
 }  // namespace
-
-void ProgramTest::SetUp() {
-  folder_ = temporary_folder();
-  capture_ = temporary_folder();
-}
-
-void ProgramTest::TearDown() {
-  fs::remove_all(folder_);
-  fs::remove_all(capture_);
-}
 
 Outcome ProgramTest::run(const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment,

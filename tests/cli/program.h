@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "model/base/temporary_directory.h"
+
 namespace skyfit::cli {
 
 struct Outcome {
@@ -18,9 +20,6 @@ struct Outcome {
 
 class ProgramTest : public ::testing::Test {
  protected:
-  void SetUp() override;
-  void TearDown() override;
-
   // Runs the program with the folder as its working directory. `environment` holds NAME=VALUE to
   // add; `out` is the file that takes stdout instead of Outcome::out.
   Outcome run(const std::vector<std::string>& arguments,
@@ -35,8 +34,9 @@ class ProgramTest : public ::testing::Test {
   std::string read(const std::string& name) const;
   std::set<std::string> files() const;  // everything below the folder
 
-  std::filesystem::path folder_;   // the program's working directory
-  std::filesystem::path capture_;  // where its output is collected
+  const TemporaryDirectory working_, collected_;
+  const std::filesystem::path folder_ = working_.path();     // the program's working directory
+  const std::filesystem::path capture_ = collected_.path();  // where its output is collected
 };
 
 // The first line, and the lines, of a text.

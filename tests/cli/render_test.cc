@@ -69,17 +69,19 @@ TEST_F(RenderTest, ASequenceIsKeptContinuedAndRedrawn) {
   // Nothing is drawn again, and the film is made once there is a program for it.
   const auto drawn = time_of("film/frame_00001.png");
   const std::string bytes = read("film/frame_00001.png"), manifest = read("film/frames.json");
-  fs::permissions(
-      write("programs/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho \"$@\" >\"$last\"\n"),
-      fs::perms::owner_all);
+  fs::permissions(write("programs/ffmpeg",
+                        "#!/bin/sh\nfor last; do :; done\necho \"$@\" >\"$0.arguments\"\n"
+                        "printf '\\000\\000\\000\\010moov' >\"$last\"\n"),
+                  fs::perms::owner_all);
   const std::string programs = "PATH=" + (folder_ / "programs").string();
   const Outcome second = run(command, {programs});
   ASSERT_EQ(second.status, 0) << second.err;
   EXPECT_EQ(second.err, "");
   EXPECT_THAT(second.out, HasSubstr("0 drawn, 3 kept, video film/sequence.mp4"));
   EXPECT_EQ(time_of("film/frame_00001.png"), drawn);
-  EXPECT_THAT(read("film/sequence.mp4"), HasSubstr("-framerate 10"));
-  EXPECT_THAT(read("film/sequence.mp4"), HasSubstr("yuv420p"));
+  EXPECT_EQ(read("film/sequence.mp4").size(), 8u);
+  EXPECT_THAT(read("programs/ffmpeg.arguments"), HasSubstr("-framerate 10"));
+  EXPECT_THAT(read("programs/ffmpeg.arguments"), HasSubstr("-i frame_%05d.png"));
 
   // A run that was cut off after two frames: the third comes out as it would have.
   const auto film = time_of("film/sequence.mp4");
@@ -109,9 +111,26 @@ TEST_F(RenderTest, AFailingFfmpegIsNamed) {
                                "--size", "16x9", "--samples-per-side", "1", "--out-dir", "film"},
                               {"PATH=" + (folder_ / "programs").string()});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("film/sequence.mp4: ffmpeg: exit status 3: no such encoder"));
+  EXPECT_THAT(
+      outcome.err,
+      HasSubstr("film/sequence.mp4: cannot be written: ffmpeg: exit status 3: no such encoder"));
   EXPECT_FALSE(fs::exists(folder_ / "film/sequence.mp4"));
   EXPECT_TRUE(fs::exists(folder_ / "film/frame_00000.png"));
+}
+
+TEST_F(RenderTest, HalfAFilmIsNoFilm) {
+  write("one.json", R"({"skyfit_sequence": 1, "keyframes": [{"time_s": 0}]})");
+  fs::permissions(write("programs/ffmpeg",
+                        "#!/bin/sh\nfor last; do :; done\n"
+                        "printf '\\000\\000\\000\\010moov\\000\\000\\001\\000mdat' >\"$last\"\n"),
+                  fs::perms::owner_all);
+  write("film/sequence.mp4", "the old one");
+  const Outcome outcome = run({"render", "--preset", "earth-clear", "--sequence", "one.json",
+                               "--size", "16x9", "--samples-per-side", "1", "--out-dir", "film"},
+                              {"PATH=" + (folder_ / "programs").string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("film/sequence.mp4: cannot be written: ffmpeg left half"));
+  EXPECT_EQ(read("film/sequence.mp4"), "the old one");
 }
 
 TEST_F(RenderTest, CamerasThatCannotBe) {
@@ -139,8 +158,9 @@ TEST_F(RenderTest, CamerasThatCannotBe) {
 }
 
 TEST_F(RenderTest, ScenesThatCannotBe) {
-  expect_render_refusal({"--height-map", "missing.png"}, {"--height-map missing.png", "No such"});
-  expect_render_refusal({"--color-map", "."}, {"--color-map .", "directory"});
+  expect_render_refusal({"--height-map", "missing.png"},
+                        {"missing.png: cannot be read", "--height-map", "No such"});
+  expect_render_refusal({"--color-map", "."}, {".: cannot be read", "--color-map", "directory"});
   write("heights.png", "");
   expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000..0"},
                         {"highest_m", "0"});
@@ -149,7 +169,8 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--height-range-m", "0..1"}, {"--height-range-m", "with --height-map"});
   expect_render_refusal({"--water-level-m", "-3"}, {"water_level_m", "-3"});
   expect_render_refusal({"--mesh", "tower.obj"}, {"--mesh", "tower.obj", "FILE@LATITUDE"});
-  expect_render_refusal({"--mesh", "tower.obj@47,8,0"}, {"--mesh tower.obj", "No such"});
+  expect_render_refusal({"--mesh", "tower.obj@47,8,0"},
+                        {"tower.obj: cannot be read", "--mesh", "No such"});
   expect_render_refusal({"--moon", "10"}, {"--moon", "10", "ZENITH"});
   expect_render_refusal({"--moon", "10,20,30,40"}, {"moon.distance_m", "30"});
   expect_render_refusal({"--second-sun", "10,20,-1"}, {"second_sun.irradiance", "-1"});

@@ -10,6 +10,7 @@
 
 #include "complaint.h"
 #include "data_refs/references.h"
+#include "model/base/temporary_directory.h"
 
 namespace skyfit::refs {
 namespace {
@@ -23,15 +24,10 @@ constexpr double kDegree = std::numbers::pi / 180;
 class SpectralScanFolder : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "skyfit-scan-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
     options_.utc_offset_h = -4;
     options_.latitude_deg = 42;
     options_.longitude_deg = -76;
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
@@ -42,7 +38,8 @@ class SpectralScanFolder : public testing::Test {
     return complaint_of([&] { load(); });
   }
 
-  fs::path folder_;
+  const TemporaryDirectory temporary_;
+  const fs::path folder_ = temporary_.path();
   ImportOptions options_;
 };
 
@@ -87,7 +84,7 @@ TEST_F(SpectralScanFolder, FaultsNameTheFile) {
   const std::string good = "2013-05-27___09.30.00_-_0____000___12.1151.asd.rad.txt";
   const std::string path = (folder_ / good).string();
   write(good, "Wavelength\tvalue\n400\t0.1\n401\tdark\n");
-  EXPECT_EQ(complaint(), path + ":3: \"401?dark\": expected a wavelength in nm and a radiance");
+  EXPECT_EQ(complaint(), path + ":3: \"401 dark\": expected a wavelength in nm and a radiance");
   write(good, "Wavelength\tvalue\n400\t0.1\n400\t0.1\n");
   EXPECT_EQ(complaint(), path + ":3: wavelength = 400: expected ascending wavelengths");
   write(good, "Wavelength\tvalue\n");

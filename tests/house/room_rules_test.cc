@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "model/base/temporary_directory.h"
+
 namespace skyfit::house {
 namespace {
 
@@ -31,18 +33,13 @@ TEST(RoomRules, EveryRoomHasSourcesToCheck) {
 // A small house in a directory of its own.
 class BadHouse : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "skyfit-house-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    top_ = name;
-  }
-  void TearDown() override { fs::remove_all(top_); }
   fs::path write(const std::string& path, const std::string& text) const {
     fs::create_directories((top_ / path).parent_path());
     std::ofstream(top_ / path) << text;
     return top_ / path;
   }
-  fs::path top_;
+  const TemporaryDirectory temporary_;
+  const fs::path top_ = temporary_.path();
 };
 
 TEST_F(BadHouse, IncludesAreFound) {

@@ -199,7 +199,7 @@ TEST(Preset, UnknownNameIsNamedWithItsFullPath) {
 
 TEST(Preset, UnknownNameIsOneLineWhateverItHolds) {
   EXPECT_EQ(complaint(with("\"g\": 0.76", "\"g\": 0.76, \"\\n\": 1")),
-            "my.json:13: mie.phase.\\n: unknown name, expected one of type, g");
+            "my.json:13: mie.phase. : unknown name, expected one of type, g");
 }
 
 TEST(Preset, PhaseHasExactlyTheFieldsOfItsType) {

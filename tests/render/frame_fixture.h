@@ -13,6 +13,7 @@
 #include <numbers>
 #include <string>
 
+#include "model/base/temporary_directory.h"
 #include "render/render.h"
 #include "tests/render/gl_fixture.h"
 
@@ -121,26 +122,6 @@ class WorstPixel {
  private:
   int count_ = 0, x_ = 0, y_ = 0;
   double error_ = 0, square_ = 0;
-};
-
-// A directory that is gone at the end of its life.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "skyfit-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    path_ = pattern;
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace skyfit

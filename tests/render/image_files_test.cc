@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "model/base/temporary_directory.h"
 #include "render/image/tone.h"
 
 namespace skyfit {
@@ -24,13 +25,6 @@ using ::testing::UnorderedElementsAre;
 
 class ImageFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "skyfit-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
   std::set<std::string> files() const {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(directory_))
@@ -38,7 +32,8 @@ class ImageFiles : public ::testing::Test {
     return names;
   }
 
-  fs::path directory_;
+  const TemporaryDirectory temporary_;
+  const fs::path directory_ = temporary_.path();
 };
 
 // A smooth gradient, with a value outside the gamut and a sky pixel.
@@ -186,7 +181,7 @@ TEST_F(ImageFiles, AFailureNamesTheFileAndLeavesNothing) {
     write_exr_file(frame, file);
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr(file.string() + ": cannot write: "));
+    EXPECT_THAT(error.what(), HasSubstr(file.string() + ": cannot be written: "));
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
   fs::create_directory(directory_ / "frame.png");  // a directory stands in the way

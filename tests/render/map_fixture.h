@@ -14,19 +14,13 @@
 #include <string>
 #include <vector>
 
+#include "model/base/temporary_directory.h"
 #include "render/gl/terrain/map_layout.h"
 
 namespace skyfit {
 
 class MapFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "skyfit-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   std::filesystem::path write(const std::string& name, int width, int height, int channels,
                               OIIO::TypeDesc type, const std::vector<float>& values) const {
     const std::filesystem::path file = directory_ / name;
@@ -68,7 +62,8 @@ class MapFiles : public ::testing::Test {
     return values;
   }
 
-  std::filesystem::path directory_;
+  const TemporaryDirectory temporary_;
+  const std::filesystem::path directory_ = temporary_.path();
 };
 
 }  // namespace skyfit

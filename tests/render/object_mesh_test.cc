@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "data_refs/spectra.h"
+#include "model/base/temporary_directory.h"
 #include "render/gl/terrain/color_reflectance.h"
 
 namespace skyfit {
@@ -30,13 +31,6 @@ const ColorRule& rule() {
 
 class ObjFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "skyfit-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(directory_ / name) << text;
     return directory_ / name;
@@ -45,7 +39,8 @@ class ObjFiles : public ::testing::Test {
     return read_object_mesh(write("mesh.obj", text), 0.25, rule());
   }
 
-  fs::path directory_;
+  const TemporaryDirectory temporary_;
+  const fs::path directory_ = temporary_.path();
 };
 
 // From -1 to 1, its faces quadrilaterals seen from outside.

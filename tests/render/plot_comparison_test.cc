@@ -3,6 +3,8 @@
 // RMS of their samples.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "plot_samples.h"
 #include "render/plot/comparison.h"
 #include "render/plot/figure_style.h"
@@ -160,7 +162,7 @@ TEST_F(PlotTest, AllFilesAppearOrNone) {
         write_comparison(comparison_at({30}), {folder_ / "c.svg", folder_ / "none/c.png"});
       },
       ThrowsMessage<std::runtime_error>(
-          HasSubstr("none/c.png: cannot write: No such file or directory")));
+          HasSubstr("none/c.png: cannot be written: No such file or directory")));
   EXPECT_THAT(names(), IsEmpty());
 }
 
@@ -168,8 +170,8 @@ TEST_F(PlotTest, MissingGnuplotIsOneClearLine) {
   const OtherGnuplot other((folder_ / "no-gnuplot").string());
   EXPECT_THAT([&] { write_comparison(comparison_at({30}), {folder_ / "c.svg"}); },
               ThrowsMessage<std::runtime_error>(
-                  HasSubstr("no-gnuplot: cannot run: No such file or directory; figures "
-                            "need gnuplot 5.4 (package gnuplot-nox)")));
+                  HasSubstr("no-gnuplot: no such program; figures need gnuplot 5.4 (package "
+                            "gnuplot-nox)")));
   EXPECT_THAT(names(), IsEmpty());
 }
 
@@ -183,12 +185,85 @@ TEST_F(PlotTest, AFailingOrIdleGnuplotLeavesTheOldFigure) {
   }
 }
 
+TEST_F(PlotTest, HalfAPictureIsNoFigure) {
+  std::ofstream(folder_ / "gnuplot.sh") << "#!/bin/sh\n"
+                                           "printf '<svg>half' > 0.svg\n"
+                                           "exit 0\n";
+  std::filesystem::permissions(folder_ / "gnuplot.sh", std::filesystem::perms::owner_all);
+  const OtherGnuplot other((folder_ / "gnuplot.sh").string());
+  EXPECT_THAT([&] { write_comparison(comparison_at({30}), {folder_ / "c.svg"}); },
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("c.svg: cannot be written: gnuplot left half a picture")));
+  EXPECT_THAT(names(), UnorderedElementsAre("gnuplot.sh"));
+}
+
+// Text that would be a command, an escape or an end of something if it were syntax anywhere.
+const std::vector<std::string> kHostile = {
+    "|touch pwned;#",
+    "`touch pwned`",
+    "$(touch pwned)",
+    "'; !touch pwned\n#",
+    "\n!touch pwned\n",
+    "\nEOD\nsystem('touch pwned')\n",
+    "'.system('touch pwned').'",
+    "\"; system 'touch pwned'; \"",
+    "a\\",
+    "'\\'",
+    "a''; !touch pwned; ''",
+    "@ARG0 {/Symbol x}_{^&~} %s %d",
+    "]]></svg><script>&amp;",
+    "~root",
+    "\xff\xfe\x1b[2J\x00x",
+};
+
+TEST_F(PlotTest, NoTextOfAUserIsSyntax) {
+  for (std::string text : kHostile) {
+    // gnuplot runs in a folder that goes: a command would leave its trace in this one.
+    if (const std::size_t word = text.find("pwned"); word != text.npos)
+      text.insert(word, folder_.string() + "/");
+    Comparison comparison = comparison_at({30});
+    comparison.title = comparison.subtitle = comparison.reference_label = text;
+    for (Curve& curve : comparison.curves) curve.label = text;
+    const std::filesystem::path svg = folder_ / "c.svg";
+    write_comparison(comparison, {svg});
+    const std::string picture = bytes_of(svg);
+    EXPECT_EQ(picture.find("<script>"), picture.npos) << text;
+    EXPECT_EQ(picture.find('\x1b'), picture.npos) << text;
+    EXPECT_THAT(names(), UnorderedElementsAre("c.svg")) << text;
+  }
+  // Quotes, braces and the like are drawn as they are.
+  Comparison comparison = comparison_at({30});
+  comparison.title = "it's {a}_b^c @d `e` \\n %f";
+  write_comparison(comparison, {folder_ / "c.svg"});
+  EXPECT_THAT(bytes_of(folder_ / "c.svg"), HasSubstr("it's {a}_b^c @d `e` \\n %f"));
+}
+
+TEST_F(PlotTest, NoNameOfAFileIsSyntax) {
+  for (std::string text : kHostile) {
+    std::ranges::replace(text, '/', ':');
+    std::ranges::replace(text, '\0', ':');
+    const std::filesystem::path inner = folder_ / ("d" + text), bare = folder_ / text;
+    for (const auto& directory : {inner, bare}) {
+      std::filesystem::create_directory(directory);
+      for (const char* extension : {".svg", ".png", ".pdf"}) {
+        const std::filesystem::path file = directory / (text + extension);
+        write_comparison(comparison_at({30}), {file});
+        EXPECT_GT(std::filesystem::file_size(file), 1000u) << file;
+      }
+      std::filesystem::remove_all(directory);
+    }
+    EXPECT_THAT(names(), IsEmpty()) << text;
+  }
+}
+
 TEST(Gnuplot, ItsOwnWordsReachTheUser) {
-  EXPECT_THAT([] { run_gnuplot("set terminal nonsense\n"); },
+  EXPECT_THAT([] { run_gnuplot("set terminal nonsense\n", "."); },
               ThrowsMessage<std::runtime_error>(HasSubstr("exit status 1: ")));
 }
 
-TEST(Gnuplot, QuotesAreDoubledAndLinesJoined) { EXPECT_EQ(gnuplot_quoted("it's\na"), "'it''s a'"); }
+TEST(Gnuplot, TextIsOneLineOfPlainCharacters) {
+  EXPECT_EQ(gnuplot_quoted("it's\na °C"), "\"it\\047s a °C\"");
+}
 
 }  // namespace
 }  // namespace skyfit::plot

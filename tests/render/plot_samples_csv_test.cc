@@ -97,7 +97,7 @@ TEST_F(PlotTest, MissingFolderLeavesNothing) {
   EXPECT_THAT(
       [&] { write_samples_csv(folder_ / "none/samples.csv", awkward_samples(false)); },
       ThrowsMessage<std::runtime_error>(StrEq((folder_ / "none/samples.csv").string() +
-                                              ": cannot write: No such file or directory")));
+                                              ": cannot be written: No such file or directory")));
   EXPECT_THAT(names(), IsEmpty());
 }
 

@@ -87,8 +87,8 @@ class GlRenderer final : public FrameDrawer {
     }
     if (meshes_.size() < scene_.meshes.size()) {
       for (const PlacedMesh& mesh : scene_.meshes) {
-        meshes_.push_back(
-            ObjectPass::upload_mesh(read_object_mesh(mesh.file, mesh.reflectance, tables.color)));
+        meshes_.push_back(ObjectPass::upload_mesh(
+            read_object_mesh(mesh.file, mesh.reflectance, tables.color, scene_.named_files)));
       }
     }
     add_tables(tables, graph_);

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "model/base/text.h"
+
 namespace skyfit {
 namespace {
 
@@ -81,7 +83,7 @@ class Checker {
       if (error == std::errc() && end == digits.data() + digits.size() &&
           std::isfinite(static_cast<float>(value)))
         continue;
-      fail(line_, fmt::format("expected three finite numbers, got \"{}\"", word));
+      fail(line_, "expected three finite numbers, got " + in_quotes(word));
     }
     ++elements.count;
   }
@@ -111,7 +113,7 @@ class Checker {
     int index = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     if (error != std::errc() || end != digits.data() + digits.size() || index == 0)
-      fail(line_, fmt::format("expected a {} from 1 on, got \"{}\"", elements.name, word));
+      fail(line_, fmt::format("expected a {} from 1 on, got {}", elements.name, in_quotes(word)));
     if (index < -elements.count) {
       fail(line_,
            fmt::format("{} {}: there are {} before it", elements.name, index, elements.count));

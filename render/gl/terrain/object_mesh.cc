@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <glm/glm.hpp>
+#include <map>
+#include <sstream>
 #include <stdexcept>
 
+#include "model/base/text.h"
 #include "render/gl/terrain/color_reflectance.h"
 #include "render/gl/terrain/obj_syntax.h"
 
@@ -23,13 +27,38 @@ struct ObjFile {
   std::vector<tinyobj::material_t> materials;
 };
 
-ObjFile parsed(const fs::path& file) {
+// Reads the files of mtllib as tinyobj names them, which are those that it found in the line.
+class MaterialFiles : public tinyobj::MaterialReader {
+ public:
+  MaterialFiles(const fs::path& mesh, NamedFiles named) : mesh_(mesh), named_(named) {}
+
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* numbers, std::string* warning,
+                  std::string* error) override {
+    const auto file = named_file(mesh_.parent_path(), name, named_);
+    if (!file)
+      throw std::runtime_error(
+          fmt::format("{}: mtllib {}: expected {}", mesh_.string(), in_quotes(name), kNamedFile));
+    if (!fs::exists(*file)) return false;  // a material that is used is then missing
+    std::istringstream text(read_file(*file, "a file of materials"));
+    tinyobj::LoadMtl(numbers, materials, &text, warning, error);
+    return true;
+  }
+
+ private:
+  const fs::path& mesh_;
+  NamedFiles named_;
+};
+
+ObjFile parsed(const fs::path& file, NamedFiles named) {
+  require_regular_file(file, "a mesh", kMostMeshBytes);
   const MaterialUses uses = check_obj(file);
   ObjFile obj;
   std::string warning, error;
-  const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
-  if (!tinyobj::LoadObj(&obj.elements, &obj.shapes, &obj.materials, &warning, &error, file.c_str(),
-                        folder.c_str(), true, false)) {
+  MaterialFiles material_files(file, named);
+  std::ifstream text(file);
+  if (!tinyobj::LoadObj(&obj.elements, &obj.shapes, &obj.materials, &warning, &error, &text,
+                        &material_files, true, false)) {
     throw std::runtime_error(
         fmt::format("{}: cannot be read: {}", file.string(), error.substr(0, error.find('\n'))));
   }
@@ -37,7 +66,7 @@ ObjFile parsed(const fs::path& file) {
     if (std::ranges::find(obj.materials, name, &tinyobj::material_t::name) != obj.materials.end())
       continue;
     throw std::runtime_error(fmt::format("{}:{}: material {} is in none of the files of mtllib",
-                                         file.string(), line, name));
+                                         file.string(), line, excerpt(name)));
   }
   return obj;
 }
@@ -133,8 +162,9 @@ class MeshBuilder {
 
 }  // namespace
 
-ObjectMesh read_object_mesh(const fs::path& file, double reflectance, const ColorRule& rule) {
-  const ObjFile obj = parsed(file);
+ObjectMesh read_object_mesh(const fs::path& file, double reflectance, const ColorRule& rule,
+                            NamedFiles named) {
+  const ObjFile obj = parsed(file, named);
   const ColorReflectance colors(rule);
   ObjectMesh mesh;
   for (const tinyobj::material_t& material : obj.materials) {

@@ -36,9 +36,10 @@ struct ObjectMesh {
 
 // `reflectance`: where the file names no material. Normals are the file's; where it has none, those
 // of the faces, smoothed within a smoothing group. Triangles without an area are left out. Throws
-// std::runtime_error in one line as check_obj() does, and for a material that is in no file.
+// std::runtime_error in one line as check_obj() does, and for a material that is in no file or
+// in one that the mesh may not name.
 ObjectMesh read_object_mesh(const std::filesystem::path& file, double reflectance,
-                            const ColorRule& rule);
+                            const ColorRule& rule, NamedFiles named = NamedFiles::kInItsFolder);
 
 // From a mesh's axes and unit to the planet's axes (Ground) and metres.
 glm::dmat3 planet_from_mesh(const PlacedMesh& mesh);

@@ -3,6 +3,7 @@
 #include <skyfit/data_refs/references.h>
 #include <skyfit/data_refs/spectra.h>
 #include <skyfit/fit/fit.h>
+#include <skyfit/model/registry.h>
 #include <skyfit/model/version.h>
 
 #include <cstdio>

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Factors between the units that people write and those of the formulas.
+#pragma once
+
+#include <numbers>
+
+namespace skyfit {
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+inline constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
+}  // namespace skyfit
