@@ -14,7 +14,8 @@ install(DIRECTORY model data_refs fit render DESTINATION ${CMAKE_INSTALL_INCLUDE
   FILES_MATCHING PATTERN "*.h" PATTERN "model/shared/*.glsl")
 install(FILES ${PROJECT_BINARY_DIR}/generated/model/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/skyfit/model)
 install(DIRECTORY data_refs/presets DESTINATION ${CMAKE_INSTALL_DATADIR}/skyfit FILES_MATCHING PATTERN "*.json")
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES data_refs/preset.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/skyfit)
+install(FILES LICENSE README.md CHANGELOG.md docs/preset.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/skyfit_config.cmake.in
   ${PROJECT_BINARY_DIR}/generated/skyfit-config.cmake INSTALL_DESTINATION ${package_dir})

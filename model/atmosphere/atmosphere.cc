@@ -9,36 +9,34 @@
 #include <string>
 #include <string_view>
 
+#include "model/atmosphere/validation.h"
+
 namespace skyfit {
 namespace {
-
-// Throws unless the value is finite and `holds`; the message names path, value and expectation.
-void expect(bool holds, std::string_view path, double value, std::string_view expectation) {
-  if (!holds || !std::isfinite(value)) {
-    throw std::invalid_argument(fmt::format("{} = {}: expected {}", path, value, expectation));
-  }
-}
 
 [[noreturn]] void fail_text(std::string_view path, std::string_view found,
                             std::string_view expectation) {
   throw std::invalid_argument(fmt::format("{} = {}: expected {}", path, found, expectation));
 }
 
-// What the solver was tried with, far beyond any sky. Planets: a pebble of 1 km to a giant.
-constexpr double kLeastRadius = 1e3, kMostRadius = 1e9;  // m
+// What the solver was tried with, far beyond any sky. Planets: a pebble of 10 km to a giant. On
+// smaller ones, and under a top above 1.3 radii, light beyond the terminator came out negative by
+// percents of daylight.
+constexpr double kLeastRadius = 1e4, kMostRadius = 1e9;  // m
+constexpr double kHighestTop = 1.3;                      // bottom radii
 constexpr double kThinnest = 100;                        // m, of the whole atmosphere
 constexpr double kLeastHeight = 1, kMostHeight = 1e7;    // m, scale heights
-constexpr double kMostCoefficient = 10;                  // 1/m
-constexpr double kMostDepth = 1000;                      // vertical optical depth
 constexpr double kMostExponent = 20;
-constexpr double kMostAsymmetry = 0.999;                       // |g|
+// Backward lobes narrower than that of the least g leave negative light behind when their peak is
+// cut off; nothing scatters so.
+constexpr double kLeastAsymmetry = -0.8, kMostAsymmetry = 0.999;
 constexpr double kLeastWavelength = 1, kMostWavelength = 1e6;  // nm
 constexpr double kMostColumn = 1e5;                            // DU
 constexpr double kMostPressure = 1e6;                          // hPa
 
 void validate_asymmetry(const std::string& path, double g) {
-  expect(std::abs(g) <= kMostAsymmetry, path, g,
-         fmt::format("an asymmetry from -{0} to {0}", kMostAsymmetry));
+  expect(g >= kLeastAsymmetry && g <= kMostAsymmetry, path, g,
+         fmt::format("an asymmetry from {} to {}", kLeastAsymmetry, kMostAsymmetry));
 }
 
 void validate(const PhaseFunction<double>& phase, const std::string& path) {
@@ -93,20 +91,6 @@ void validate(const Atmosphere<double>& atmosphere, const VerticalProfile<double
         fail_text(path + ".of", profile.of, "the name of a constituent with a profile of its own");
     }
   }
-}
-
-std::string_view amount_path(AmountType type) {
-  switch (type) {
-    case AmountType::kScattering:
-      return "scattering_per_m.value";
-    case AmountType::kExtinction:
-      return "extinction_per_m.value";
-    case AmountType::kOpticalDepth:
-      return "optical_depth.value";
-    case AmountType::kColumn:
-      break;
-  }
-  return "column_du";
 }
 
 void validate_amount(const Constituent<double>& c, const std::string& path) {
@@ -164,6 +148,26 @@ void validate_name(const Atmosphere<double>& atmosphere, const std::string& name
 
 }  // namespace
 
+void expect(bool holds, std::string_view path, double value, std::string_view expectation) {
+  if (!holds || !std::isfinite(value)) {
+    throw std::invalid_argument(fmt::format("{} = {}: expected {}", path, value, expectation));
+  }
+}
+
+std::string_view amount_path(AmountType type) {
+  switch (type) {
+    case AmountType::kScattering:
+      return "scattering_per_m.value";
+    case AmountType::kExtinction:
+      return "extinction_per_m.value";
+    case AmountType::kOpticalDepth:
+      return "optical_depth.value";
+    case AmountType::kColumn:
+      break;
+  }
+  return "column_du";
+}
+
 void fail_without_constituent(std::string_view name) {
   throw std::invalid_argument(fmt::format("the atmosphere has no constituent \"{}\"", name));
 }
@@ -186,9 +190,9 @@ void validate(const Atmosphere<double>& atmosphere) {
   const double bottom = atmosphere.bottom_radius_m, top = atmosphere.top_radius_m;
   expect(bottom >= kLeastRadius && bottom <= kMostRadius, "planet.bottom_radius_m", bottom,
          fmt::format("a radius from {} to {} m", kLeastRadius, kMostRadius));
-  expect(top >= bottom + kThinnest && top <= 2 * bottom, "planet.top_radius_m", top,
-         fmt::format("a radius from bottom_radius_m + {} = {} m to twice the bottom radius",
-                     kThinnest, bottom + kThinnest));
+  expect(top >= bottom + kThinnest && top <= kHighestTop * bottom, "planet.top_radius_m", top,
+         fmt::format("a radius from bottom_radius_m + {} = {} m to {} times the bottom radius",
+                     kThinnest, bottom + kThinnest, kHighestTop));
   if (atmosphere.constituents.size() > kMostConstituents) {
     fail_text("constituents", fmt::format("{} of them", atmosphere.constituents.size()),
               fmt::format("at most {}", kMostConstituents));
@@ -206,6 +210,7 @@ void validate(const Atmosphere<double>& atmosphere) {
   const double albedo = atmosphere.ground_albedo;
   expect(albedo >= 0.0 && albedo <= 1.0, "ground.albedo", albedo, "an albedo from 0 to 1");
   validate(atmosphere.star);
+  validate_solver_limits(atmosphere);
 }
 
 }  // namespace skyfit

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/atmosphere/linear_profile.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +12,11 @@ namespace {
 
 std::optional<TableFault> profile_fault(const TwoColumns& table) {
   if (auto fault = ascending_fault(kProfileFormat, table, 0)) return fault;
+  // Every row is looked at for every ray of the solver: 2000 cost seconds.
+  constexpr std::size_t kMostRows = 2000;
+  if (table.x.size() > kMostRows)
+    return TableFault{
+        0, {}, fmt::format("{} values", table.x.size()), fmt::format("at most {}", kMostRows)};
   for (std::size_t i = 0; i < table.y.size(); ++i) {
     if (!(table.y[i] >= 0) || !std::isfinite(table.y[i])) {
       return TableFault{1, i, {}, "a density >= 0"};

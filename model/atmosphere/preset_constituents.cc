@@ -44,9 +44,13 @@ void read_amount(const PresetReader& object, const PresetTables& tables, Constit
   }
   if (found == nullptr) object.fail_missing(kAmountNames);
   c.amount_type = found->type;
+  if (object.has("absorber") &&
+      (c.amount_type != AmountType::kColumn || object.text("absorber") != "ozone"))
+    object.fail_value("absorber", "ozone beside column_du, the only gas of known cross section");
   if (c.amount_type == AmountType::kColumn) {
-    if (object.has("absorber") && object.text("absorber") != "ozone")
-      object.fail_value("absorber", "ozone, the only gas whose cross section is known");
+    for (const char* const field : {"single_scattering_albedo", "site_pressure_hpa"}) {
+      if (object.has(field)) object.fail_value(field, "none beside column_du");
+    }
     c.amount = object.number(found->name);
     c.single_scattering_albedo = 0;
     return;
@@ -235,7 +239,7 @@ ordered_json constituent_to_json(const Constituent<double>& c) {
   } else {
     object["single_scattering_albedo"] = c.single_scattering_albedo;
   }
-  if (c.site_pressure_hpa != kStandardPressureHpa)
+  if (c.amount_type != AmountType::kColumn && c.site_pressure_hpa != kStandardPressureHpa)
     object["site_pressure_hpa"] = c.site_pressure_hpa;
   object["profile"] = to_json(c.profile);
   if (scatters(c)) object["phase"] = to_json(c.phase);

@@ -12,6 +12,7 @@ namespace skyfit {
 namespace {
 
 constexpr double kShortest = 360, kLongest = 830;  // nm: what luminance and colour need
+constexpr double kBrightest = 1e9;  // W m^-2 nm^-1; sums over wavelengths stay finite in float
 
 std::optional<TableFault> irradiance_fault(const TwoColumns& table) {
   if (auto fault = ascending_fault(kIrradianceFormat, table, {})) return fault;
@@ -21,8 +22,9 @@ std::optional<TableFault> irradiance_fault(const TwoColumns& table) {
     return TableFault{
         0, table.x.size() - 1, {}, fmt::format("a wavelength >= {} nm, the last", kLongest)};
   for (std::size_t i = 0; i < table.y.size(); ++i) {
-    if (!(table.y[i] >= 0) || !std::isfinite(table.y[i]))
-      return TableFault{1, i, {}, "an irradiance >= 0 W m^-2 nm^-1"};
+    if (!(table.y[i] >= 0 && table.y[i] <= kBrightest))
+      return TableFault{
+          1, i, {}, fmt::format("an irradiance from 0 to {} W m^-2 nm^-1", kBrightest)};
   }
   return {};
 }

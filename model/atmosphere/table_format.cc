@@ -14,6 +14,11 @@ std::optional<TableFault> ascending_fault(const TableFormat& format, const TwoCo
   if (x.size() < 2) {
     return TableFault{0, {}, fmt::format("{} values", x.size()), "at least 2"};
   }
+  constexpr std::size_t kMostRows = 100'000;
+  if (x.size() > kMostRows) {
+    return TableFault{
+        0, {}, fmt::format("{} values", x.size()), fmt::format("at most {}", kMostRows)};
+  }
   if (table.y.size() != x.size()) {
     return TableFault{1,
                       {},

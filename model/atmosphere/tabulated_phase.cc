@@ -82,6 +82,7 @@ TabulatedPhase::TabulatedPhase(TwoColumns table) : table_(std::move(table)) {
   log_phase_ = logarithms(table_.y);
   const double excess = std::log(moments(1).front());
   for (double& value : log_phase_) value -= excess;
+  last_moment_ = moments(kLastMoment + 1).back();
 }
 
 double TabulatedPhase::phase(double angle) const {

@@ -28,10 +28,14 @@ class TabulatedPhase {
 
   // Legendre moments chi_0 = 1 .. chi_{count - 1}.
   std::vector<double> moments(int count) const;
+  // chi of kLastMoment, kept: how much of a forward peak the solver cuts off at most.
+  static constexpr int kLastMoment = 32;
+  double last_moment() const { return last_moment_; }
 
  private:
   TwoColumns table_;
   std::vector<double> angle_, log_phase_;  // radians, normalised
+  double last_moment_ = 0;
 };
 
 // A phase function for each of some wavelengths; between them its logarithm is linear in the

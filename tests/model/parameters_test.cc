@@ -145,13 +145,13 @@ TEST(Validate, NamesThePathTheValueAndTheExpectation) {
   EXPECT_EQ(message_of([](auto& a) { a.at("rayleigh").profile.scale_height_m = 0; }),
             "rayleigh.profile.scale_height_m = 0: expected a height from 1 to 10000000 m");
   EXPECT_EQ(message_of([](auto& a) { a.at("mie").phase.g = 1; }),
-            "mie.phase.g = 1: expected an asymmetry from -0.999 to 0.999");
+            "mie.phase.g = 1: expected an asymmetry from -0.8 to 0.999");
   EXPECT_EQ(message_of([](auto& a) { a.ground_albedo = kNan; }),
             "ground.albedo = nan: expected an albedo from 0 to 1");
   EXPECT_EQ(
       message_of([](auto& a) { a.top_radius_m = a.bottom_radius_m; }),
       "planet.top_radius_m = 6360000: expected a radius from bottom_radius_m + 100 = 6360100 m "
-      "to twice the bottom radius");
+      "to 1.3 times the bottom radius");
   EXPECT_EQ(message_of([](auto& a) { a.at("mie").angstrom_exponent = kInfinity; }),
             "mie.scattering_per_m.exponent = inf: expected an exponent from -20 to 20");
   EXPECT_EQ(message_of([](auto& a) { a.at("mie").single_scattering_albedo = 0; }),

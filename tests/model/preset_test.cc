@@ -240,7 +240,7 @@ TEST(Preset, UnphysicalValuesAreNamed) {
       complaint(with("4e-6", "-4e-6")),
       "my.json:10: mie.scattering_per_m.value = -4e-06: expected a coefficient from 0 to 10 1/m");
   EXPECT_EQ(complaint(with("0.76", "1.0")),
-            "my.json:13: mie.phase.g = 1: expected an asymmetry from -0.999 to 0.999");
+            "my.json:13: mie.phase.g = 1: expected an asymmetry from -0.8 to 0.999");
 }
 
 TEST(Preset, OtherVersionIsRefused) {
