@@ -119,19 +119,19 @@ HWY_INLINE V tangent_height(D d, V radius, V height, V mu) {
 // Calls f(first, lanes) for blocks of points; the last may be short.
 template <class F>
 HWY_INLINE void for_blocks(D d, std::size_t count, const F& f) {
-  const std::size_t lanes = hn::Batch(d);
+  const std::size_t lanes = hn::Lanes(d);
   for (std::size_t i = 0; i < count; i += lanes) f(i, std::min(lanes, count - i));
 }
 
 HWY_INLINE V load(D d, const double* p, std::size_t lanes) {
-  if (lanes == hn::Batch(d)) return hn::LoadU(d, p);
+  if (lanes == hn::Lanes(d)) return hn::LoadU(d, p);
   HWY_ALIGN double block[HWY_MAX_BYTES / sizeof(double)];
-  for (std::size_t i = 0; i < hn::Batch(d); ++i) block[i] = p[std::min(i, lanes - 1)];
+  for (std::size_t i = 0; i < hn::Lanes(d); ++i) block[i] = p[std::min(i, lanes - 1)];
   return hn::Load(d, block);
 }
 
 HWY_INLINE void store(D d, V v, double* p, std::size_t lanes) {
-  if (lanes == hn::Batch(d)) return hn::StoreU(v, d, p);
+  if (lanes == hn::Lanes(d)) return hn::StoreU(v, d, p);
   HWY_ALIGN double block[HWY_MAX_BYTES / sizeof(double)];
   hn::Store(v, d, block);
   std::copy_n(block, lanes, p);

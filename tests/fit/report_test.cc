@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fit/fit.h"
-#include "fit/result/derived.h"
+#include "model/atmosphere/derived.h"
 #include "tests/fit/synthetic.h"
 
 namespace skyfit::fit {
