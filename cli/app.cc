@@ -32,6 +32,7 @@ void add_commands(CLI::App& app) {
   app.require_subcommand(0, 1);  // none at all is refused by run(), with a better message
   app.get_formatter()->column_width(34);
   add_fit_command(app);
+  add_report_command(app);
   add_sky_command(app);
   add_plot_command(app);
   add_render_command(app);

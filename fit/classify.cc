@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "fit/problem/observations.h"
+#include "fit/problem/likelihood.h"
 #include "fit/solve/least_squares.h"
 
 namespace skyfit::fit {

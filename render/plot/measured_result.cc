@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/plot/measured_result.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
-#include <stdexcept>
 
 #include "data_refs/samples.h"
 #include "data_refs/spectra.h"
@@ -16,41 +11,7 @@
 namespace skyfit::plot {
 namespace {
 
-using nlohmann::json;
 constexpr double kRadian = std::numbers::pi / 180;
-constexpr std::string_view kMeasuredFile = "measured.csv", kReportFile = "report.json";
-
-double number_or_nan(const json& value) {
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
-void read_report(const std::filesystem::path& file, MeasuredOutcome& outcome) {
-  std::ifstream stream(file);
-  if (!stream)
-    throw std::runtime_error(
-        fmt::format("{}: cannot be read, expected what skyfit fit left", file.string()));
-  try {
-    const json report = json::parse(stream);
-    const json& reference = report.at("reference");
-    outcome.title = reference.at("name").get<std::string>();
-    outcome.spectral = reference.at("quantity").get<std::string>() != "luminance_cd_m2";
-    for (const json& scan : report.at("scan_results")) {
-      outcome.scans.push_back({scan.at("name"), scan.at("time_utc"),
-                               number_or_nan(scan.at("luminance_error_percent")),
-                               number_or_nan(scan.at("spectral_error_percent"))});
-    }
-    for (const json& row : report.at("unknowns")) {
-      outcome.unknowns.push_back({row.at("name"), row.at("unit"),
-                                  row.at("scan").is_number() ? row.at("scan").get<int>() : 0,
-                                  row.at("fitted"), number_or_nan(row.at("sigma"))});
-    }
-    report.at("covariance_unknowns").get_to(outcome.covariance_unknowns);
-    if (report.at("covariance").is_array()) report.at("covariance").get_to(outcome.covariance);
-  } catch (const json::exception& error) {
-    throw std::invalid_argument(fmt::format(
-        "{}: {}: expected the report of a fit of measured skies", file.string(), error.what()));
-  }
-}
 
 // Nanometres that each wavelength stands for.
 std::map<double, double> widths_of(const std::vector<MeasuredSample>& samples) {
@@ -68,23 +29,6 @@ std::map<double, double> widths_of(const std::vector<MeasuredSample>& samples) {
 }
 
 }  // namespace
-
-bool is_measured_result(const std::filesystem::path& directory) {
-  return std::filesystem::exists(directory / kMeasuredFile);
-}
-
-MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory) {
-  MeasuredOutcome outcome;
-  read_report(directory / kReportFile, outcome);
-  outcome.samples = read_measured_csv(directory / kMeasuredFile);
-  for (const MeasuredSample& sample : outcome.samples) {
-    if (static_cast<std::size_t>(sample.scan) > outcome.scans.size())
-      throw std::invalid_argument(fmt::format("{}: scan = {}: expected one of the {} scans of {}",
-                                              (directory / kMeasuredFile).string(), sample.scan,
-                                              outcome.scans.size(), kReportFile));
-  }
-  return outcome;
-}
 
 DirectionKey direction_key(int scan, double sun_zenith_deg, double view_zenith_deg,
                            double relative_azimuth_deg) {
