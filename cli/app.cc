@@ -50,6 +50,7 @@ void add_commands(CLI::App& app) {
          "only those in the folder of the file that names them")
       ->trigger_on_parse();
   add_fit_command(app);
+  add_report_command(app);
   add_sky_command(app);
   add_plot_command(app);
   add_render_command(app);

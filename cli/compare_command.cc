@@ -18,7 +18,7 @@
 #include "data_refs/spectra.h"
 #include "data_refs/truth.h"
 #include "fit/model_comparison.h"
-#include "fit/problem/residuals.h"
+#include "fit/problem/sky_values.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "render/plot/comparison.h"
@@ -78,14 +78,14 @@ refs::Reference solved_reference(const CompareOptions& options, const Preset& pr
   reference.name = kOurs;
   reference.description = fmt::format("the model \"reference\" with the preset {}", preset.name);
   reference.quantity = refs::Quantity::kLuminance;
-  std::vector<SkyPoint> points;
-  for (const refs::Sample& sample : reference.samples) points.push_back(fit::sky_point(sample));
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   const auto model = make_sky_model("reference", spectra, options.threads);
-  const fit::Luminance luminance =
-      fit::model_luminance(*model, luminance_rule(spectra), preset.atmosphere, points, {});
-  for (std::size_t i = 0; i < reference.samples.size(); ++i)
-    reference.samples[i].value = luminance.value(static_cast<Eigen::Index>(i));
+  const fit::Dataset data = fit::dataset(reference, spectra, {true, 0, {}, 0});
+  const fit::SkyState state =
+      fit::start_state(preset.atmosphere, static_cast<int>(data.scans.size()));
+  const fit::SampleValues values = fit::sky_values(*model, data, state, {});
+  for (std::size_t i = 0; i < data.samples.size(); ++i)
+    reference.samples[data.samples[i].index].value = values.value(static_cast<Eigen::Index>(i));
   return reference;
 }
 

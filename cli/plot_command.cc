@@ -9,6 +9,7 @@
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/fit_files.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "data_refs/spectra.h"
@@ -21,10 +22,12 @@
 namespace skyfit::cli {
 namespace {
 
+constexpr std::string_view kComparison = "comparison";
+
 struct PlotOptions {
   std::vector<std::string> directories, out;
-  std::string figure;  // of measured skies
-  std::string model;   // of the maps; empty: that of each fit
+  std::string figure;
+  std::string model;  // of the maps; empty: that of each fit
   int scan = 1;
   int threads = default_threads();
 };
@@ -32,7 +35,7 @@ struct PlotOptions {
 void draw_measured(const PlotOptions& options, const std::vector<std::filesystem::path>& files) {
   std::vector<plot::MeasuredOutcome> fits;
   for (const std::string& directory : options.directories)
-    fits.push_back(plot::read_measured_outcome(directory));
+    fits.push_back(read_measured_outcome(directory));
   const std::string name =
       options.figure.empty() ? std::string(plot::measured_figure_names().front()) : options.figure;
   plot::write_figure(
@@ -42,14 +45,16 @@ void draw_measured(const PlotOptions& options, const std::vector<std::filesystem
 void run_plot(const PlotOptions& options) {
   require_output_files(options.out, {".svg", ".png", ".pdf"});
   const std::vector<std::filesystem::path> files(options.out.begin(), options.out.end());
-  const auto measured = std::ranges::count_if(
-      options.directories, [](const std::string& d) { return plot::is_measured_result(d); });
-  if (measured == static_cast<std::ptrdiff_t>(options.directories.size()))
+  const bool comparison = options.figure == kComparison;
+  const auto absolute = std::ranges::count_if(options.directories, [](const std::string& d) {
+    return has_absolute_values(read_fit(d).result);
+  });
+  if (!comparison && absolute == static_cast<std::ptrdiff_t>(options.directories.size()))
     return draw_measured(options, files);
-  if (measured > 0 || !options.figure.empty()) {
+  if (!comparison && (absolute > 0 || !options.figure.empty())) {
     throw UsageError(options.figure.empty() ? "directories" : "--figure",
                      options.figure.empty() ? options.directories.front() : options.figure,
-                     "expected fits of measured skies only");
+                     "expected fits of absolute or spectral skies only");
   }
   std::vector<plot::FitOutcome> fits;
   for (const std::string& directory : options.directories)
@@ -79,7 +84,7 @@ void add_plot_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--figure", options->figure,
-                   fmt::format("Of a fit of measured skies: {}",
+                   fmt::format("{}, or of absolute and spectral skies: {}", kComparison,
                                fmt::join(plot::measured_figure_names(), ", ")))
       ->type_name("NAME");
   command

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fit/result/preset_record.h"
+#include "fit/result/record.h"
 #include "model/sky_model.h"
 
 namespace skyfit::cli {

@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <tuple>
 
-#include "fit/problem/observations.h"
+#include "fit/problem/likelihood.h"
 #include "fit/solve/least_squares.h"
+#include "model/base/units.h"
 
 namespace skyfit::fit {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kCoefficients = 5;
 constexpr std::size_t kStarts = 3;  // the free fit starts from so many of the nearest types
 
@@ -48,7 +47,7 @@ Directions directions_of(const refs::Reference& reference, const SpectralData& s
     throw std::invalid_argument(fmt::format(
         "{}: no direction with weight is farther than {:.6g} deg from the sun, expected "
         "at least one",
-        reference.name, exclude_sun * kDegrees));
+        reference.name, exclude_sun * kDegreesPerRadian));
   }
   Directions result;
   std::vector<double> logs;
@@ -64,7 +63,8 @@ Directions directions_of(const refs::Reference& reference, const SpectralData& s
       const std::string name =
           known ? reference.scans[static_cast<std::size_t>(last_scan)].name : std::string();
       result.names.push_back(
-          name.empty() ? fmt::format("sun zenith {:.4g} deg", sum.at.sun_zenith * kDegrees) : name);
+          name.empty() ? fmt::format("sun zenith {:.4g} deg", sum.at.sun_zenith * kDegreesPerRadian)
+                       : name);
     }
     result.at.push_back(sum.at);
     result.scan.push_back(static_cast<int>(result.names.size()) - 1);
@@ -107,7 +107,7 @@ class CieFormula : public ResidualFunction {
     for (const auto& [lower, upper] : kBounds) {
       if (free_coefficients) variables_.push_back({lower, upper, false, std::nullopt});
     }
-    constexpr double kLargestOffset = 60 / kDegrees;
+    constexpr double kLargestOffset = 60 / kDegreesPerRadian;
     for (std::size_t s = 0; s < directions.names.size() && free_azimuth; ++s)
       variables_.push_back({-kLargestOffset, kLargestOffset, false, std::nullopt});
   }
@@ -204,7 +204,7 @@ SkyMatch free_match(const Directions& directions, std::vector<SkyMatch> types, b
 
 nlohmann::json match_json(const SkyMatch& match) {
   nlohmann::json offsets = nlohmann::json::array();
-  for (const double offset : match.azimuth_offset) offsets.push_back(offset * kDegrees);
+  for (const double offset : match.azimuth_offset) offsets.push_back(offset * kDegreesPerRadian);
   return {{"type", match.sky.type},
           {"description", match.sky.description},
           {"rms_log_percent", match.rms_log_percent},
@@ -259,7 +259,7 @@ std::string classification_text(const Classification& classification) {
     const SkyMatch& match = classification.types[static_cast<std::size_t>(nearest - 1)];
     text += fmt::format("{}: nearest type {}, {:.3g} %; azimuth offset {:.3g} deg\n",
                         classification.scans[s], nearest, match.rms_of_scan[s],
-                        match.azimuth_offset[s] * kDegrees);
+                        match.azimuth_offset[s] * kDegreesPerRadian);
   }
   return text;
 }

@@ -2,245 +2,321 @@
 #include "fit/fit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
+#include <utility>
 
-#include "fit/problem/free_parameters.h"
-#include "fit/result/preset_record.h"
-#include "fit/result/rms.h"
+#include "fit/problem/problem.h"
+#include "fit/result/record.h"
 #include "fit/solve/multi_start.h"
+#include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/noise.h"
-#include "fit/uncertainty/uncertainty.h"
+#include "model/base/units.h"
 
 namespace skyfit::fit {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr int kCoarseIterations = 15;      // what does not settle by then is compared as it is
-constexpr double kCoarseTolerance = 1e-3;  // relative change of the cost
-constexpr double kTolerance = 1e-7;
-constexpr double kNoiseAgrees = 0.05;  // relative change of sigma_log that is not worth a refit
-constexpr int kNoiseRounds = 4;
 
-struct Task {
-  const refs::Reference& reference;
-  const SkyModel& model;
-  const FitOptions& options;
-  LuminanceRule rule, coarse_rule;  // the latter while searching among the starts
-  Observations observations;
-  Atmosphere<double> start;  // as given
-  std::vector<FreeParameter> parameters;
-  std::vector<Start> starts;
-
-  Problem problem(const LuminanceRule& with_rule, double sigma_log) const {
-    return {&model, &with_rule, &observations, &parameters, sigma_log};
-  }
-  Luminance all_samples(const Atmosphere<double>& atmosphere,
-                        const std::vector<Parameter>& derivatives) const {
-    std::vector<SkyPoint> points;
-    for (const refs::Sample& sample : reference.samples) points.push_back(sky_point(sample));
-    return model_luminance(model, rule, atmosphere, points, derivatives);
-  }
-  void report(double fraction, const std::string& status) const {
-    if (options.progress) options.progress(fraction, status);
-  }
+// How far the solver goes. Logarithms of a luminance are cheap and their minimum flat; spectra of a
+// day cost a hundred times as much, so that their noise is estimated from few wavelengths.
+struct Schedule {
+  int search_iterations;               // what does not settle by then is compared as it is
+  double search_tolerance, tolerance;  // relative change of the cost
+  double search_factor;                // on sigma while searching
+  int noise_rounds;
+  // The first rounds take residuals as independent: those of a poor fit agree more, and a factor
+  // from that would let the priors keep it poor.
+  int independent_rounds;
+  bool rounds_with_all;  // wavelengths
 };
 
-void check_counts(const Task& task) {
-  const int count = task.observations.count();
-  const auto exclude_deg = task.options.exclude_sun * 180 / std::numbers::pi;
-  if (count == 0) {
-    throw std::invalid_argument(
-        fmt::format("{}: no sample with weight is farther than {:.6g} deg from the sun, expected "
-                    "at least one",
-                    task.reference.name, exclude_deg));
+Schedule schedule_of(const Likelihood& likelihood) {
+  if (likelihood.link == Link::kLinear) return {30, 1e-4, 1e-5, 1, 5, 1, false};
+  const double first = likelihood.noise_is_known ? 1 : kFirstSigma / likelihood.noise.relative;
+  return {15, 1e-3, 1e-7, first, 4, 0, true};
+}
+
+class Fit {
+ public:
+  Fit(const refs::Reference& reference, const SpectralData& spectra, const SkyModel& model,
+      const FitOptions& options)
+      : reference_(reference), spectra_(spectra), model_(model), options_(options) {}
+
+  Result run() {
+    const auto begin = std::chrono::steady_clock::now();
+    const Problem as_stated = make_problem(reference_, spectra_, model_, options_);
+    result_.likelihood = as_stated.likelihood;
+    schedule_ = schedule_of(as_stated.likelihood);
+    const Eigen::VectorXd found = search(as_stated);
+    result_.reference = without_sun(as_stated, as_stated.state(found));
+    const Problem problem = make_problem(result_.reference, spectra_, model_, as_pointed(options_));
+    const Eigen::VectorXd scaled = refine(problem, found);
+    describe_problem(problem);
+    describe_values(problem, scaled);
+    describe_uncertainty(problem, scaled);
+    result_.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result_.preset = fitted_preset(result_);
+    report(1, "done");
+    return std::move(result_);
   }
-  const int unknowns = static_cast<int>(task.parameters.size()) + task.observations.scans;
-  if (count < unknowns) {
-    throw std::invalid_argument(fmt::format(
-        "{}: {} samples for {} free parameters and {} luminance scales: must be at "
-        "least {}",
-        task.reference.name, count, task.parameters.size(), task.observations.scans, unknowns));
+
+ private:
+  void report(double fraction, const std::string& status) const {
+    if (options_.progress) options_.progress(fraction, status);
   }
-}
 
-Task make_task(const refs::Reference& reference, const SpectralData& spectra, const SkyModel& model,
-               const FitOptions& options) {
-  validate(options);
-  check_lobes(options, model);
-  Task task{reference,
-            model,
-            options,
-            rule_of(reference, spectra),
-            rule_of(reference, spectra, true),
-            observe(reference, options.exclude_sun),
-            start_atmosphere(options),
-            {},
-            {}};
-  const Atmosphere<double> base = with_fixed_values(with_lobes(task.start, options.lobes), options);
-  task.parameters = choose_free_parameters(options, model, base);
-  task.starts = choose_starts(base, task.parameters, options.starts, options.start.has_value());
-  if (!options.start) task.start = task.starts.front().atmosphere;
-  for (const auto& [id, value] : options.fix) {
-    if (has_parameter(task.start, id)) set_parameter(task.start, id, value);
+  void count_work(const Minimum& minimum) {
+    result_.iterations += minimum.iterations;
+    result_.model_evaluations += minimum.evaluations;
+    result_.derivative_evaluations += minimum.derivative_evaluations;
   }
-  check_counts(task);
-  return task;
-}
 
-// What `solution` leaves, per sample, without weights.
-Noise noise_at(const Task& task, const Solution& solution, FitResult& result) {
-  ++result.model_evaluations;
-  const Luminance luminance =
-      model_luminance(task.model, task.rule, solution.atmosphere, task.observations.points, {});
-  const Eigen::VectorXd residual =
-      log_residuals(task.observations, luminance)
-          .residual.cwiseQuotient(task.observations.weight.cwiseSqrt());
-  return estimate_noise(task.observations, residual, static_cast<int>(task.parameters.size()));
-}
-
-void count_work(FitResult& result, int iterations, int evaluations, int derivative_evaluations) {
-  result.iterations += iterations;
-  result.model_evaluations += evaluations;
-  result.derivative_evaluations += derivative_evaluations;
-}
-
-Solution search(const Task& task, FitResult& result) {
-  const double sigma_log = task.observations.has_sigma ? 1 : kFirstSigmaLog;
-  MultiStart searched = solve_from(
-      task.starts, task.problem(task.coarse_rule, sigma_log),
-      {std::min(task.options.max_iterations, kCoarseIterations), kCoarseTolerance},
-      task.options.threads, [&](double share) {
-        task.report(0.7 * share, fmt::format("{:.0f} of {} starts",
-                                             share * static_cast<double>(task.starts.size()),
-                                             task.starts.size()));
-      });
-  count_work(result, searched.iterations, searched.evaluations, searched.derivative_evaluations);
-  result.starts = searched.summaries;
-  return searched.best;
-}
-
-// Refines the best start with the full rule and, where the reference has no sigma, repeats with the
-// sigma that the residuals show until the two agree.
-Solution refine(const Task& task, Solution solution, FitResult& result) {
-  const bool lobes_may_swap = lobes_interchangeable(task.parameters);
-  Noise noise{1, static_cast<double>(task.observations.count())};
-  if (!task.observations.has_sigma) noise = noise_at(task, solution, result);
-  for (int round = 0; round < kNoiseRounds; ++round) {
-    task.report(0.7 + 0.07 * round, "refining the best start");
-    if (lobes_may_swap) order_lobes(solution.atmosphere);
-    solution = minimise(task.problem(task.rule, noise.sigma_log), solution.atmosphere,
-                        {task.options.max_iterations, kTolerance});
-    count_work(result, solution.iterations, solution.evaluations, solution.derivative_evaluations);
-    if (task.observations.has_sigma) break;
-    const double before = noise.sigma_log;
-    noise = noise_at(task, solution, result);
-    if (std::abs(noise.sigma_log / before - 1) < kNoiseAgrees) break;
-  }
-  if (lobes_may_swap) order_lobes(solution.atmosphere);
-  result.sigma_from_residuals = !task.observations.has_sigma;
-  result.effective_samples = noise.effective_samples;
-  result.sigma_log_percent =
-      100 * (result.sigma_from_residuals
-                 ? noise.sigma_log
-                 : task.observations.sigma_log.norm() / std::sqrt(task.observations.count()));
-  return solution;
-}
-
-std::vector<FittedParameter> parameter_rows(const Task& task, const Atmosphere<double>& fitted,
-                                            const Uncertainty& uncertain) {
-  std::vector<FittedParameter> rows;
-  for (const Parameter& id : parameters_of(fitted)) {
-    FittedParameter row(id);
-    row.start = has_parameter(task.start, id) ? get_parameter(task.start, id) : kNan;
-    row.fitted = get_parameter(fitted, id);
-    for (std::size_t p = 0; p < task.parameters.size(); ++p) {
-      if (task.parameters[p].id != id) continue;
-      row.free = true;
-      row.sigma = uncertain.sigma[p];
-      row.at_bound = uncertain.at_bound[p];
-      row.identifiable = uncertain.identifiable[p];
-      row.prior = task.parameters[p].prior;
+  // The best start after a search with few wavelengths.
+  Eigen::VectorXd search(const Problem& problem) {
+    const SolverLimits limits{std::min(options_.max_iterations, schedule_.search_iterations),
+                              schedule_.search_tolerance};
+    const auto solve = [&](std::size_t s) {
+      const SkyState from = start_state(problem.starts[s].atmosphere, problem.scans());
+      return problem.solve(problem.coarse, scaled_values(problem.unknowns, from),
+                           schedule_.search_factor, limits);
+    };
+    const auto count = static_cast<double>(problem.starts.size());
+    const MultiStart searched =
+        solve_from(problem.starts.size(), solve, options_.threads, [&](double share) {
+          report(0.6 * share, fmt::format("{:.0f} of {:.0f} starts", share * count, count));
+        });
+    for (std::size_t s = 0; s < searched.minima.size(); ++s) {
+      const Minimum& minimum = searched.minima[s];
+      count_work(minimum);
+      result_.starts.push_back(
+          {problem.starts[s].name, minimum.cost, minimum.iterations, s == searched.best});
     }
-    rows.push_back(row);
+    return searched.minima[searched.best].scaled;
   }
-  return rows;
-}
 
-// exp of the profiled log scales, per sample of the reference.
-std::vector<double> sample_scales(const Task& task, const Eigen::VectorXd& log_scale) {
-  std::map<int, double> of_scan;
-  for (int s = 0; s < task.observations.scans; ++s) {
-    of_scan[task.observations.scan_name[s]] = std::exp(log_scale(s));
+  // The samples that are not fitted because they truly look too close to the sun.
+  refs::Reference without_sun(const Problem& problem, const SkyState& state) const {
+    constexpr double kRounding = 1e-9;  // radians: a sample on the rim of the cone stays in
+    refs::Reference result = reference_;
+    for (refs::Sample& sample : result.samples) {
+      const auto scan = static_cast<std::size_t>(
+          std::ranges::find(problem.all.scans, sample.scan, &ScanInfo::number) -
+          problem.all.scans.begin());
+      const SkyPoint point =
+          pointed(sky_point(sample), problem.all.scans[scan].sun_azimuth + sample.sun_azimuth_since,
+                  state.instrument[scan]);
+      refs::Sample at = sample;
+      at.view_zenith = point.view_zenith;
+      at.relative_azimuth = point.relative_azimuth;
+      if (sample.weight == 0 || refs::scattering_angle(at) >= options_.exclude_sun - kRounding)
+        continue;
+      sample.weight = 0;
+      sample.zero_weight_reason =
+          fmt::format("within {:.4g} deg of the sun", options_.exclude_sun * kDegreesPerRadian);
+    }
+    return result;
   }
-  std::vector<double> result;
-  for (const refs::Sample& sample : task.reference.samples) {
-    const auto found = of_scan.find(sample.scan);
-    result.push_back(found == of_scan.end() ? kNan : found->second);
-  }
-  return result;
-}
 
-void describe_start(const Task& task, FitResult& result) {
-  const Luminance luminance = task.all_samples(task.start, {});
-  ++result.model_evaluations;
-  result.start_model.assign(luminance.value.begin(), luminance.value.end());
-  result.start_rms = rms_summary(task.reference, luminance, task.options.exclude_sun);
-  result.start_per_sun = rms_per_sun(task.reference, luminance, task.options.exclude_sun);
-  result.start_scale = sample_scales(
-      task, log_residuals(task.observations, select(luminance, task.observations)).log_scale);
-}
-
-void describe_fit(const Task& task, const Solution& solution, FitResult& result) {
-  const Luminance luminance = task.all_samples(solution.atmosphere, ids(task.parameters));
-  ++result.derivative_evaluations;
-  const LogResiduals residuals =
-      log_residuals(task.observations, select(luminance, task.observations));
-  const double sigma_log = result.sigma_from_residuals ? result.sigma_log_percent / 100 : 1;
-  const Uncertainty uncertain =
-      uncertainty(task.parameters, solution.atmosphere, residuals.jacobian / sigma_log);
-  result.parameters = parameter_rows(task, solution.atmosphere, uncertain);
-  for (const int p : uncertain.inside) {
-    result.covariance_parameters.push_back(task.parameters[p].id);
+  Noise noise_at(const Problem& problem, const Dataset& data, const Eigen::VectorXd& scaled) {
+    ++result_.model_evaluations;
+    return estimate_noise(data, problem.likelihood, problem.residuals(data, scaled, 1),
+                          static_cast<int>(problem.unknowns.size()) + problem.profiled_scales());
   }
-  result.covariance = uncertain.covariance;
-  result.correlation = uncertain.correlation;
-  result.condition_number = uncertain.condition_number;
-  result.fitted_model.assign(luminance.value.begin(), luminance.value.end());
-  result.fitted_rms = rms_summary(task.reference, luminance, task.options.exclude_sun);
-  result.rms_log_percent = result.fitted_rms.all;
-  result.per_sun = rms_per_sun(task.reference, luminance, task.options.exclude_sun);
-  result.scale = sample_scales(task, residuals.log_scale);
-  result.samples = task.observations.count();
-  result.scans = task.observations.scans;
-  const double freedom =
-      result.samples - result.scans - static_cast<double>(ids(task.parameters).size());
-  result.chi_square_per_dof =
-      freedom > 0 ? residuals.residual.squaredNorm() / (sigma_log * sigma_log) / freedom : kNan;
-}
+
+  Eigen::VectorXd refine(const Problem& problem, Eigen::VectorXd scaled) {
+    constexpr double kFactorAgrees = 0.05;  // relative change that is not worth a refit
+    const auto solve = [&](const Dataset& data, double factor) {
+      const Minimum minimum = problem.solve(data, problem.with_ordered_lobes(scaled), factor,
+                                            {options_.max_iterations, schedule_.tolerance});
+      count_work(minimum);
+      scaled = minimum.scaled;
+      result_.converged = minimum.converged;
+      result_.termination = minimum.termination;
+    };
+    noise_.effective_samples = static_cast<double>(problem.fitted.samples.size());
+    if (problem.likelihood.noise_is_known) {
+      report(0.6, "refining the best start");
+      solve(problem.fitted, 1);
+      return problem.with_ordered_lobes(scaled);
+    }
+    const Dataset& rounds_data = schedule_.rounds_with_all ? problem.fitted : problem.coarse;
+    double factor = 1;
+    bool agrees = false;
+    for (int round = 0; round < schedule_.noise_rounds; ++round) {
+      report(0.6 + 0.05 * round, "refining the best start");
+      noise_ = noise_at(problem, rounds_data, scaled);
+      const double before = std::exchange(
+          factor, round < schedule_.independent_rounds ? noise_.independent_factor : noise_.factor);
+      agrees =
+          round > schedule_.independent_rounds && std::abs(factor / before - 1) < kFactorAgrees;
+      if (agrees) break;
+      solve(rounds_data, factor);
+    }
+    if (!schedule_.rounds_with_all) {
+      report(0.85, "refining with all wavelengths");
+      noise_ = noise_at(problem, problem.fitted, scaled);
+      solve(problem.fitted, noise_.factor);
+    } else if (!agrees) {
+      noise_ = noise_at(problem, problem.fitted, scaled);
+    }
+    return problem.with_ordered_lobes(scaled);
+  }
+
+  void describe_problem(const Problem& problem) {
+    result_.pointing = pointing_of(options_, reference_);
+    result_.exclude_sun = options_.exclude_sun;
+    result_.model_name = model_.name();
+    result_.start_name = options_.start ? options_.start->name : "defaults";
+    result_.version = SKYFIT_VERSION;
+    result_.samples_left_out = refs::samples_left_out(result_.reference);
+    result_.samples = static_cast<int>(problem.fitted.samples.size());
+    result_.directions = static_cast<int>(problem.fitted.lines_of_sight.size());
+    result_.sigma_factor = noise_.factor;
+    result_.effective_samples = noise_.effective_samples;
+    double squares = 0;
+    for (const Sample& sample : problem.fitted.samples)
+      squares += std::pow(sample.sigma / sample.value, 2);
+    result_.sigma_percent = 100 * noise_.factor * std::sqrt(squares / result_.samples);
+  }
+
+  void describe_values(const Problem& problem, const Eigen::VectorXd& scaled) {
+    const SkyState start = problem.with_profiled_scales(problem.given, problem.fitted),
+                   fitted = problem.with_profiled_scales(problem.state(scaled), problem.fitted);
+    const std::size_t count = reference_.samples.size();
+    result_.start_model = reference_values(problem, start, count);
+    result_.model = reference_values(problem, fitted, count);
+    result_.model_evaluations += problem.likelihood.scale == Scale::kProfiled ? 4 : 2;
+    const refs::Reference& counted = result_.reference;
+    result_.start_errors = errors_of(counted, result_.start_model, spectra_);
+    result_.errors = errors_of(counted, result_.model, spectra_);
+    result_.start_rms = rms_summary(reference_, result_.start_model, options_.exclude_sun);
+    result_.rms = rms_summary(reference_, result_.model, options_.exclude_sun);
+    for (std::size_t s = 0; s < problem.fitted.scans.size(); ++s) {
+      const ScanInfo& info = problem.fitted.scans[s];
+      ScanOutcome outcome{info,
+                          fitted.atmosphere[s],
+                          fitted.instrument[s],
+                          errors_of(counted, result_.start_model, spectra_, info.number),
+                          errors_of(counted, result_.model, spectra_, info.number),
+                          0,
+                          0};
+      const int scan = static_cast<int>(s);
+      outcome.directions = static_cast<int>(
+          std::ranges::count(problem.fitted.lines_of_sight, scan, &LineOfSight::scan));
+      outcome.samples =
+          static_cast<int>(std::ranges::count_if(problem.fitted.samples, [&](const Sample& sample) {
+            return problem.fitted.scan_of(sample) == scan;
+          }));
+      result_.scans.push_back(outcome);
+    }
+  }
+
+  // The fit weighs with sigma * factor; under the linear link the residuals vary as the noise says.
+  Uncertainty uncertainty_at(const Problem& problem, const Eigen::VectorXd& scaled,
+                             const Whitened& white) const {
+    const std::vector<Variable> variables(problem.unknowns.begin(), problem.unknowns.end());
+    const Eigen::MatrixXd& jacobian = white.jacobian_per_unit;
+    const Uncertainty independent = uncertainty(variables, scaled, jacobian);
+    const bool correlated = noise_.length != 0 || noise_.wavelength_correlation != 0;
+    if (problem.likelihood.link == Link::kLog || !correlated) return independent;
+    const double variance = std::pow(noise_.independent_factor / noise_.factor, 2);
+    return with_correlated_residuals(
+        independent, variables, scaled,
+        variance * jacobian.transpose() * times_correlation(problem.fitted, noise_, jacobian));
+  }
+
+  void describe_uncertainty(const Problem& problem, const Eigen::VectorXd& scaled) {
+    const SkyState fitted = problem.state(scaled);
+    const SampleValues values =
+        sky_values(*problem.model, problem.fitted, fitted, problem.unknowns);
+    ++(problem.unknowns.empty() ? result_.model_evaluations : result_.derivative_evaluations);
+    const Whitened white = whiten(problem.fitted, problem.likelihood, values, noise_.factor);
+    const Uncertainty uncertain = uncertainty_at(problem, scaled, white);
+    describe_unknowns(problem, fitted, uncertain);
+    const double freedom =
+        result_.samples - static_cast<double>(problem.unknowns.size()) - problem.profiled_scales();
+    result_.chi_square_per_dof =
+        freedom > 0 ? white.residual.squaredNorm() * std::pow(noise_.factor, 2) / freedom : kNan;
+    const std::vector<double> weights = problem.loss_weights(white.residual);
+    result_.loss_weight.assign(result_.model.size(), kNan);
+    result_.sigma.assign(result_.model.size(), kNan);
+    for (const Sample& sample : problem.fitted.samples) {
+      result_.loss_weight[sample.index] = weights[static_cast<std::size_t>(sample.line_of_sight)];
+      result_.sigma[sample.index] = sample.sigma * noise_.independent_factor;
+    }
+    result_.downweighted = static_cast<int>(
+        std::ranges::count_if(result_.loss_weight, [](double w) { return w < 0.5; }));
+  }
+
+  void describe_unknowns(const Problem& problem, const SkyState& fitted,
+                         const Uncertainty& uncertain) {
+    Eigen::VectorXd units(static_cast<Eigen::Index>(uncertain.inside.size()));
+    const auto start_of = [&](const Parameter& id, int scan) {
+      const Atmosphere<double>& given =
+          problem.given.atmosphere[scan == kAllScans ? 0 : static_cast<std::size_t>(scan)];
+      return has_parameter(given, id) ? get_parameter(given, id) : kNan;
+    };
+    for (std::size_t u = 0; u < problem.unknowns.size(); ++u) {
+      const Unknown& unknown = problem.unknowns[u];
+      const double unit = unknown.unit_value();
+      const Parameter* parameter = std::get_if<Parameter>(&unknown.what);
+      const double start = parameter != nullptr ? start_of(*parameter, unknown.scan)
+                                                : get_unknown(problem.given, unknown);
+      result_.unknowns.push_back({unknown, start / unit, get_unknown(fitted, unknown) / unit,
+                                  uncertain.sigma[u] / unit, uncertain.at_bound[u],
+                                  uncertain.identifiable[u]});
+    }
+    for (std::size_t k = 0; k < uncertain.inside.size(); ++k) {
+      result_.covariance_unknowns.push_back(uncertain.inside[k]);
+      units(static_cast<Eigen::Index>(k)) =
+          1 / problem.unknowns[static_cast<std::size_t>(uncertain.inside[k])].unit_value();
+    }
+    result_.correlation = uncertain.correlation;
+    if (uncertain.covariance.size() > 0)
+      result_.covariance = units.asDiagonal() * uncertain.covariance * units.asDiagonal();
+    result_.condition_number = uncertain.condition_number;
+    for (const Parameter& id : parameters_of(fitted.atmosphere.front())) {
+      const bool free = std::ranges::any_of(problem.unknowns, [&](const Unknown& unknown) {
+        return unknown.what == std::variant<Parameter, Instrument>(id);
+      });
+      if (!free)
+        result_.fixed.push_back(
+            {id, start_of(id, kAllScans), get_parameter(fitted.atmosphere.front(), id)});
+    }
+  }
+
+  const refs::Reference& reference_;
+  const SpectralData& spectra_;
+  const SkyModel& model_;
+  const FitOptions& options_;
+  Schedule schedule_{};
+  Noise noise_;
+  Result result_;
+};
 
 }  // namespace
 
-FitResult fit_atmosphere(const refs::Reference& reference, const SpectralData& spectra,
-                         const SkyModel& model, const FitOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Task task = make_task(reference, spectra, model, options);
-  FitResult result;
-  describe_start(task, result);
-  const Solution solution = refine(task, search(task, result), result);
-  result.converged = solution.converged;
-  result.termination = solution.termination;
-  describe_fit(task, solution, result);
-  result.preset = fitted_preset(solution.atmosphere, reference, model, options, result);
-  task.report(1, brief_report(result));
-  result.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+const UnknownRow& Result::unknown(std::string_view name) const {
+  std::vector<std::string> known;
+  for (const UnknownRow& row : unknowns) {
+    known.push_back(row.unknown.name());
+    if (known.back() == name) return row;
+  }
+  throw std::invalid_argument(fmt::format("fit: {}: not an unknown of this fit, expected one of {}",
+                                          name, fmt::join(known, ", ")));
+}
+
+Result fit_atmosphere(const refs::Reference& reference, const SpectralData& spectra,
+                      const SkyModel& model, const FitOptions& options) {
+  validate(options);
+  return Fit(reference, spectra, model, options).run();
 }
 
 }  // namespace skyfit::fit

@@ -9,15 +9,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 #include <stdexcept>
 
 #include "fit/problem/free_parameters.h"
-#include "fit/problem/observations.h"
-#include "fit/problem/residuals.h"
 #include "fit/problem/starts.h"
-#include "fit/result/preset_record.h"
+#include "fit/result/errors.h"
+#include "fit/result/record.h"
+#include "model/base/units.h"
 
 namespace skyfit::fit {
 namespace {
@@ -27,39 +26,44 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+// What the model can tell of one scan, or of all.
+Eigen::VectorXd values_of(const SkyModel& model, const Dataset& data,
+                          const Atmosphere<double>& atmosphere) {
+  const SkyState state = start_state(atmosphere, static_cast<int>(data.scans.size()));
+  return sky_values(model, data, state, {}).value;
+}
+
 // The reference with weight 0 on what the model cannot do: scans that it refuses, samples where it
 // is not bright. `problem` says which.
 refs::Reference possible_part(refs::Reference reference, const SkyModel& model,
-                              const LuminanceRule& rule, const Atmosphere<double>& atmosphere,
+                              const SpectralData& spectra, const Atmosphere<double>& atmosphere,
                               std::string& problem) {
-  std::map<int, std::vector<std::size_t>> scans;
-  for (std::size_t i = 0; i < reference.samples.size(); ++i)
-    scans[reference.samples[i].scan].push_back(i);
+  const Dataset all = dataset(reference, spectra, {true, 0, {}, 0});
   int dark = 0;
   std::map<std::string, int> refusals;  // suns by reason
-  for (const auto& [scan, samples] : scans) {
-    std::vector<SkyPoint> points;
-    for (const std::size_t i : samples) points.push_back(sky_point(reference.samples[i]));
+  const auto leave_out = [&](const Sample& sample, std::string_view reason) {
+    reference.samples[sample.index].weight = 0;
+    reference.samples[sample.index].zero_weight_reason = reason;
+  };
+  for (std::size_t scan = 0; scan < all.scans.size(); ++scan) {
+    const Dataset own = only_scan(all, static_cast<int>(scan));
     try {
-      const Luminance luminance = model_luminance(model, rule, atmosphere, points, {});
-      for (std::size_t k = 0; k < samples.size(); ++k) {
-        refs::Sample& sample = reference.samples[samples[k]];
-        if (luminance.value(static_cast<Eigen::Index>(k)) > 0 || sample.weight == 0) continue;
-        sample.weight = 0;
-        sample.zero_weight_reason = "the model is dark there";
+      const Eigen::VectorXd value = values_of(model, own, atmosphere);
+      for (std::size_t k = 0; k < own.samples.size(); ++k) {
+        if (value(static_cast<Eigen::Index>(k)) > 0 ||
+            reference.samples[own.samples[k].index].weight == 0)
+          continue;
+        leave_out(own.samples[k], "the model is dark there");
         ++dark;
       }
     } catch (const std::logic_error& cannot) {  // a point or an atmosphere that it refuses
-      for (const std::size_t i : samples) {
-        reference.samples[i].weight = 0;
-        reference.samples[i].zero_weight_reason = cannot.what();
-      }
+      for (const Sample& sample : own.samples) leave_out(sample, cannot.what());
       ++refusals[cannot.what()];
     }
   }
   for (const auto& [reason, suns] : refusals) {
     problem += fmt::format("{}{} of {} suns refused: {}", problem.empty() ? "" : "; ", suns,
-                           scans.size(), reason);
+                           all.scans.size(), reason);
   }
   if (dark > 0) {
     problem +=
@@ -68,36 +72,37 @@ refs::Reference possible_part(refs::Reference reference, const SkyModel& model,
   return reference;
 }
 
+// Every scan with its own scale, which is profiled out of the logarithms.
+constexpr Likelihood kCompared{Link::kLog, Scale::kProfiled, {}, false, Loss::kNone, 3};
+
 ModelErrors errors_of(const refs::Reference& reference, const SkyModel& model,
-                      const LuminanceRule& rule, const Atmosphere<double>& atmosphere,
-                      const Observations& observations) {
-  Luminance all{Eigen::VectorXd::Constant(static_cast<Eigen::Index>(reference.samples.size()),
-                                          std::numeric_limits<double>::quiet_NaN()),
-                {}};
-  all.value(observations.sample) =
-      model_luminance(model, rule, atmosphere, observations.points, {}).value;
-  all.derivative.resize(all.value.size(), 0);
-  const LogResiduals residuals = log_residuals(observations, select(all, observations));
+                      const Atmosphere<double>& atmosphere, const Dataset& compared) {
+  const Eigen::VectorXd value = values_of(model, compared, atmosphere);
+  const Whitened white = whiten(compared, kCompared, {value, Eigen::MatrixXd(value.size(), 0)}, 1);
   ModelErrors errors;
-  errors.samples = observations.count();
-  const Eigen::VectorXd error = residuals.residual.cwiseQuotient(observations.weight.cwiseSqrt());
-  errors.rms_log_percent =
-      100 * std::sqrt(residuals.residual.squaredNorm() / observations.weight.sum());
-  errors.scale = std::exp(residuals.log_scale.mean());
-  Eigen::Index worst = 0;
-  error.cwiseAbs().maxCoeff(&worst);
-  errors.worst_percent = 100 * error(worst);
-  errors.worst = observations.sample[static_cast<std::size_t>(worst)];
-  std::map<int, double> scale_of;
-  for (int s = 0; s < observations.scans; ++s)
-    scale_of[observations.scan_name[static_cast<std::size_t>(s)]] =
-        std::exp(residuals.log_scale(s));
-  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    const auto scale = scale_of.find(reference.samples[i].scan);
-    errors.model.push_back(scale == scale_of.end()
-                               ? std::numeric_limits<double>::quiet_NaN()
-                               : scale->second * all.value(static_cast<Eigen::Index>(i)));
+  errors.samples = static_cast<int>(compared.samples.size());
+  errors.model.assign(reference.samples.size(), std::numeric_limits<double>::quiet_NaN());
+  double squares = 0, weights = 0, log_scales = 0, scans = 0;
+  for (std::size_t k = 0; k < compared.samples.size(); ++k) {
+    const Sample& sample = compared.samples[k];
+    const double model_value =
+        white.scale(compared.scan_of(sample)) * value(static_cast<Eigen::Index>(k));
+    errors.model[sample.index] = model_value;
+    const double error = std::log(model_value / sample.value);
+    const double weight = reference.samples[sample.index].weight;
+    squares += weight * error * error;
+    weights += weight;
+    if (100 * std::abs(error) <= std::abs(errors.worst_percent)) continue;
+    errors.worst_percent = 100 * error;
+    errors.worst = sample.index;
   }
+  errors.rms_log_percent = 100 * std::sqrt(squares / weights);
+  for (const double scale : white.scale) {
+    if (!std::isfinite(scale)) continue;
+    log_scales += std::log(scale);
+    ++scans;
+  }
+  errors.scale = std::exp(log_scales / scans);
   return errors;
 }
 
@@ -116,21 +121,21 @@ double least_seconds(const Work& work) {
 
 // What the model can do of the reference, with an atmosphere.
 std::optional<ModelErrors> evaluated(const refs::Reference& reference, const SkyModel& model,
-                                     const LuminanceRule& rule,
+                                     const SpectralData& spectra,
                                      const Atmosphere<double>& atmosphere, double exclude_sun,
                                      std::string& problem, ModelComparison& row) {
   const Clock::time_point begin = Clock::now();
-  const std::size_t bytes = model.prepare(atmosphere, rule.nodes);
+  const std::vector<WavelengthNode> nodes = dataset(reference, spectra, {true, 0, {}, 0}).nodes;
+  const std::size_t bytes = model.prepare(atmosphere, nodes);
   const double precompute_seconds = bytes > 0 ? seconds_since(begin) : 0;
-  const Observations observations =
-      observe(possible_part(reference, model, rule, atmosphere, problem), exclude_sun);
-  if (observations.count() == 0) return {};
+  const refs::Reference possible = possible_part(reference, model, spectra, atmosphere, problem);
+  const Dataset compared = dataset(possible, spectra, {false, exclude_sun, {}, 0});
+  if (compared.samples.empty()) return {};
   row.table_bytes = bytes;
   row.precompute_seconds = precompute_seconds;
-  row.seconds_per_direction =
-      least_seconds([&] { model.radiance(atmosphere, rule.nodes, observations.points, {}); }) /
-      observations.count();
-  return errors_of(reference, model, rule, atmosphere, observations);
+  row.seconds_per_direction = least_seconds([&] { values_of(model, compared, atmosphere); }) /
+                              static_cast<double>(compared.lines_of_sight.size());
+  return errors_of(possible, model, atmosphere, compared);
 }
 
 // One row of the table as text fields, in the order of kColumns.
@@ -148,8 +153,6 @@ constexpr std::string_view kColumns[] = {"model",
                                          "tables_mb",
                                          "remark"};
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-
 nlohmann::json fields(const refs::Reference& reference, const ModelComparison& row, bool fitted) {
   const std::optional<ModelErrors>& errors = fitted ? row.fitted : row.unfitted;
   nlohmann::json line = {{"model", row.model}, {"state", fitted ? "fitted" : "unfitted"}};
@@ -159,9 +162,9 @@ nlohmann::json fields(const refs::Reference& reference, const ModelComparison& r
     line["rms_log_percent"] = errors->rms_log_percent;
     line["scale"] = errors->scale;
     line["worst_percent"] = errors->worst_percent;
-    line["worst_sun_zenith_deg"] = worst.sun_zenith * kDegrees;
-    line["worst_view_zenith_deg"] = worst.view_zenith * kDegrees;
-    line["worst_relative_azimuth_deg"] = worst.relative_azimuth * kDegrees;
+    line["worst_sun_zenith_deg"] = worst.sun_zenith * kDegreesPerRadian;
+    line["worst_view_zenith_deg"] = worst.view_zenith * kDegreesPerRadian;
+    line["worst_relative_azimuth_deg"] = worst.relative_azimuth * kDegreesPerRadian;
     line["precompute_s"] = row.precompute_seconds;
     line["time_per_direction_us"] = 1e6 * row.seconds_per_direction;
     line["tables_mb"] = 1e-6 * static_cast<double>(row.table_bytes);
@@ -229,28 +232,30 @@ ModelComparison compare_model(const refs::Reference& reference, const SpectralDa
                               double exclude_sun, const FitOptions* options) {
   ModelComparison row;
   row.model = std::string(model.name());
-  const Observations observations = observe(reference, exclude_sun);
-  if (observations.count() == 0) {
+  if (dataset(reference, spectra, {false, exclude_sun, {}, 0}).samples.empty()) {
     throw std::invalid_argument(
         fmt::format("{}: no sample with weight is farther than {:.6g} deg from the sun, expected "
                     "at least one",
-                    reference.name, exclude_sun * kDegrees));
+                    reference.name, exclude_sun * kDegreesPerRadian));
   }
-  const LuminanceRule rule = rule_of(reference, spectra);
-  row.unfitted = evaluated(reference, model, rule, atmosphere, exclude_sun, row.problem, row);
+  row.unfitted = evaluated(reference, model, spectra, atmosphere, exclude_sun, row.problem, row);
   if (options == nullptr) return row;
   try {
-    FitOptions with_lobes = *options;
-    with_lobes.lobes = model.lobes();
+    FitOptions own = *options;
+    own.lobes = model.lobes();
+    own.link = kCompared.link;
+    own.scale = kCompared.scale;
+    own.pointing = Pointing::kStated;
     std::string refused;
-    const Atmosphere<double> base = start_atmosphere(with_lobes);
+    const Atmosphere<double> base = start_atmosphere(own);
     const Start start =
-        choose_starts(base, choose_free_parameters(with_lobes, model, base), 1, false).front();
+        choose_starts(base, choose_free_parameters(own, model, base), 1, false).front();
     const refs::Reference possible =
-        possible_part(reference, model, rule, start.atmosphere, refused);
-    if (observe(possible, exclude_sun).count() == 0) throw std::invalid_argument(refused);
-    row.fit = fit_atmosphere(possible, spectra, model, with_lobes);
-    row.fitted = evaluated(reference, model, rule, row.fit->preset.atmosphere, exclude_sun,
+        possible_part(reference, model, spectra, start.atmosphere, refused);
+    if (dataset(possible, spectra, {false, exclude_sun, {}, 0}).samples.empty())
+      throw std::invalid_argument(refused);
+    row.fit = fit_atmosphere(possible, spectra, model, own);
+    row.fitted = evaluated(reference, model, spectra, row.fit->preset.atmosphere, exclude_sun,
                            row.fit_problem, row);
   } catch (const std::exception& cannot) {
     row.fit_problem = cannot.what();

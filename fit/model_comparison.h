@@ -19,7 +19,7 @@ struct ModelErrors {
                               // reference in its own unit
   double worst_percent = 0;   // 100 log, of the largest error
   std::size_t worst = 0;      // its sample
-  std::vector<double> model;  // per sample of the reference, with its scan's scale
+  std::vector<double> model;  // per sample that is compared, with its scan's scale; else NaN
 };
 
 struct ModelComparison {
@@ -28,7 +28,7 @@ struct ModelComparison {
   std::optional<ModelErrors> unfitted;
   std::optional<ModelErrors> fitted;
   std::string fit_problem;  // why it could not be fitted
-  std::optional<FitResult> fit;
+  std::optional<Result> fit;
   double precompute_seconds = 0;     // of the model's tables, for the nodes of the reference
   std::size_t table_bytes = 0;       // in double precision
   double seconds_per_direction = 0;  // of all nodes; of a model without tables, everything

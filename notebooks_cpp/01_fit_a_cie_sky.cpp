@@ -22,6 +22,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
+#include "fit/result/report.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
 #include "notebooks_cpp/notebook.h"
@@ -153,15 +154,15 @@ void run_notebook(notebook::Page& page) {
   fit::FitOptions options;
   options.threads = threads;
   options.lobes = 1;
-  const fit::FitResult one_lobe = fit::fit_atmosphere(reference, spectra, *model, options);
+  const fit::Result one_lobe = fit::fit_atmosphere(reference, spectra, *model, options);
   options.lobes = 2;
-  const fit::FitResult two_lobes = fit::fit_atmosphere(reference, spectra, *model, options);
+  const fit::Result two_lobes = fit::fit_atmosphere(reference, spectra, *model, options);
 
   std::cout << "one lobe:  " << fit::brief_report(one_lobe)
             << "\ntwo lobes: " << fit::brief_report(two_lobes) << "\n\n";
-  check(one_lobe.rms_log_percent <= 9, "one lobe comes within 9 %");
-  check(two_lobes.rms_log_percent <= 5, "two lobes come within 5 %");
-  check(two_lobes.rms_log_percent < unfitted_percent / 4, "the fit is worth a factor of four");
+  check(one_lobe.errors.rms_log <= 9, "one lobe comes within 9 %");
+  check(two_lobes.errors.rms_log <= 5, "two lobes come within 5 %");
+  check(two_lobes.errors.rms_log < unfitted_percent / 4, "the fit is worth a factor of four");
 
   // %% [markdown]
   // ## What the sky has told, and what it has not
@@ -185,8 +186,8 @@ void run_notebook(notebook::Page& page) {
   // %%
   page.cell();
   const auto samples =
-      plot::compared_samples(reference, {two_lobes.fitted_model, two_lobes.scale},
-                             {two_lobes.start_model, two_lobes.start_scale}, options.exclude_sun);
+      plot::compared_samples(reference, two_lobes.model, two_lobes.start_model,
+                             options.exclude_sun);
   const plot::FitOutcome outcome{"two lobes", two_lobes.preset, samples};
   const plot::Comparison comparison = plot::comparison_of(
       {&outcome, 1}, spectra, [&](std::string_view) -> const SkyModel& { return *model; });
@@ -214,7 +215,7 @@ void run_notebook(notebook::Page& page) {
   std::cout << shown.dump(2) << '\n';
   const auto again =
       plot::evaluated_samples(reference, read_back.atmosphere, spectra, *model, cone);
-  check(std::abs(plot::rms_log_percent(again) - two_lobes.rms_log_percent) < 1e-6,
+  check(std::abs(plot::rms_log_percent(again) - two_lobes.errors.rms_log) < 1e-6,
         "the preset that was read back fits as well as the fit said");
 
   // %% [markdown]

@@ -110,16 +110,16 @@ void run_notebook(notebook::Page& page) {
   options.max_iterations = 4;
   std::vector<std::pair<std::string, Atmosphere<double>>> fitted;
   for (const std::string name : {"bruneton", "bodare"}) {
-    const fit::FitResult result =
+    const fit::Result result =
         fit::fit_atmosphere(cie, refs::standard_spectral_data(), *model_named(name), options);
     const Constituent<double>& mie = result.preset.atmosphere.at("mie");
     std::cout << fmt::format(
         "{:<10}{:6.2f} % (from {:.2f} %): optical depth {:.3f} at 550 nm, g {:.3f}, single "
         "scattering albedo {:.3f}\n",
-        name, result.rms_log_percent, result.start_rms.all,
+        name, result.errors.rms_log, result.start_rms.all,
         mie.amount / mie.single_scattering_albedo * mie.profile.scale_height_m, mie.phase.g,
         mie.single_scattering_albedo);
-    check(result.rms_log_percent < 15, "the fitted " + name + " is near the CIE's sky");
+    check(result.errors.rms_log < 15, "the fitted " + name + " is near the CIE's sky");
     fitted.emplace_back(name, result.preset.atmosphere);
   }
   plot::write_comparison(figure_of("The classical figure, fitted", cie, fitted),
@@ -139,7 +139,7 @@ void run_notebook(notebook::Page& page) {
     fit::FitOptions everything;
     everything.threads = kThreads;
     return fit::fit_atmosphere(cie, refs::standard_spectral_data(), *model_named(name), everything)
-        .rms_log_percent;
+        .errors.rms_log;
   };
   const double multiple = all_free("reference"), single = all_free("oneil");
   std::cout << fmt::format(

@@ -155,35 +155,10 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
     check_start(parameter, get_parameter(atmosphere, id));
     result.push_back(parameter);
   }
-  if (result.empty()) {
+  if (result.empty() && !(options.free && options.free->empty())) {
     throw std::invalid_argument("fit.free: nothing is free, at least one parameter must be");
   }
   return result;
-}
-
-std::vector<Parameter> ids(const std::vector<FreeParameter>& parameters) {
-  std::vector<Parameter> result;
-  for (const FreeParameter& parameter : parameters) result.push_back(parameter.id);
-  return result;
-}
-
-Eigen::VectorXd scaled_values(const std::vector<FreeParameter>& parameters,
-                              const Atmosphere<double>& atmosphere) {
-  Eigen::VectorXd result(parameters.size());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const double scaled = parameters[i].scaled(get_parameter(atmosphere, parameters[i].id));
-    result(i) = std::clamp(scaled, 0.0, 1.0);
-  }
-  return result;
-}
-
-Atmosphere<double> with_scaled_values(Atmosphere<double> atmosphere,
-                                      const std::vector<FreeParameter>& parameters,
-                                      const double* scaled) {
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    set_parameter(atmosphere, parameters[i].id, parameters[i].value(scaled[i]));
-  }
-  return atmosphere;
 }
 
 bool lobes_interchangeable(const std::vector<FreeParameter>& parameters) {

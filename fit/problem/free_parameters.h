@@ -4,11 +4,10 @@
 // otherwise, 0 at the lower and 1 at the upper bound.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
-#include "fit/fit.h"
+#include "fit/problem/options.h"
 #include "fit/problem/variable.h"
 
 namespace skyfit::fit {
@@ -37,20 +36,12 @@ Atmosphere<double> with_lobes(const Atmosphere<double>& atmosphere, int lobes);
 // Throws std::invalid_argument when the model has fewer lobes than the options ask for.
 void check_lobes(const FitOptions& options, const SkyModel& model);
 
-// Of those that the model can fit. Throws std::invalid_argument when nothing is free, when options
+// Of those that the model can fit. Throws std::invalid_argument when options
 // name a parameter that the atmosphere does not have or the model cannot fit, or contradict
 // each other, when a prior's parameter is not free, and when
 // the value of a free parameter is outside its bounds.
 std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, const SkyModel& model,
                                                   const Atmosphere<double>& atmosphere);
-
-std::vector<Parameter> ids(const std::vector<FreeParameter>& parameters);
-
-Eigen::VectorXd scaled_values(const std::vector<FreeParameter>& parameters,
-                              const Atmosphere<double>& atmosphere);
-Atmosphere<double> with_scaled_values(Atmosphere<double> atmosphere,
-                                      const std::vector<FreeParameter>& parameters,
-                                      const double* scaled);
 
 // Whether exchanging the two lobes leaves the problem as it is: g1, g2 and weight are free and have
 // no prior.

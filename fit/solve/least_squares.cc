@@ -174,6 +174,18 @@ void add_blocks(const LeastSquares& problem, Prepared& prepared, ceres::Problem&
 
 }  // namespace
 
+std::string_view loss_name(Loss loss) {
+  switch (loss) {
+    case Loss::kHuber:
+      return "huber";
+    case Loss::kCauchy:
+      return "cauchy";
+    case Loss::kNone:
+      break;
+  }
+  return "none";
+}
+
 Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start,
                  const SolverLimits& limits) {
   Prepared prepared(problem, start);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fit/problem/variable.h"
@@ -29,6 +30,7 @@ class ResidualFunction {
 // rho(s) of the mean square s of a block's residuals; blocks then weigh as many residuals as they
 // have.
 enum class Loss { kNone, kHuber, kCauchy };
+std::string_view loss_name(Loss loss);  // "none", "huber", "cauchy"
 
 struct LeastSquares {
   ResidualFunction* function;

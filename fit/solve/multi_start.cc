@@ -12,64 +12,54 @@ namespace skyfit::fit {
 namespace {
 
 struct Attempt {
-  Solution solution;
+  Minimum minimum;
   std::exception_ptr failure;
 };
 
-Attempt attempt(const Problem& problem, const Start& start, const SolverLimits& limits) {
+Attempt attempt(const std::function<Minimum(std::size_t)>& solve, std::size_t start) {
   Attempt result;
   try {
-    result.solution = minimise(problem, start.atmosphere, limits);
+    result.minimum = solve(start);
   } catch (...) {
     result.failure = std::current_exception();
-    result.solution.cost = std::numeric_limits<double>::infinity();
+    result.minimum.cost = std::numeric_limits<double>::infinity();
   }
   return result;
 }
 
-MultiStart summarise(const std::vector<Start>& starts, const std::vector<Attempt>& attempts) {
-  const auto best = std::min_element(
-      attempts.begin(), attempts.end(),
-      [](const Attempt& a, const Attempt& b) { return a.solution.cost < b.solution.cost; });
+MultiStart best_of(const std::vector<Attempt>& attempts) {
+  const auto best =
+      std::ranges::min_element(attempts, {}, [](const Attempt& a) { return a.minimum.cost; });
   if (best->failure) std::rethrow_exception(best->failure);
   MultiStart result;
-  result.best = best->solution;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const Solution& solution = attempts[i].solution;
-    result.summaries.push_back(
-        {starts[i].name, solution.cost, solution.iterations, &attempts[i] == &*best});
-    result.iterations += solution.iterations;
-    result.evaluations += solution.evaluations;
-    result.derivative_evaluations += solution.derivative_evaluations;
-  }
+  for (const Attempt& one : attempts) result.minima.push_back(one.minimum);
+  result.best = static_cast<std::size_t>(best - attempts.begin());
   return result;
 }
 
 }  // namespace
 
-MultiStart solve_from(const std::vector<Start>& starts, const Problem& problem,
-                      const SolverLimits& limits, int threads,
-                      const std::function<void(double)>& progress) {
-  std::vector<Attempt> attempts(starts.size());
+MultiStart solve_from(std::size_t starts, const std::function<Minimum(std::size_t)>& solve,
+                      int threads, const std::function<void(double)>& progress) {
+  std::vector<Attempt> attempts(starts);
   std::atomic<std::size_t> next = 0;
   std::mutex progress_mutex;
   std::size_t finished = 0;
   const auto work = [&] {
-    for (std::size_t i = next++; i < starts.size(); i = next++) {
-      attempts[i] = attempt(problem, starts[i], limits);
+    for (std::size_t i = next++; i < starts; i = next++) {
+      attempts[i] = attempt(solve, i);
       const std::lock_guard lock(progress_mutex);
       ++finished;
-      if (progress) progress(static_cast<double>(finished) / static_cast<double>(starts.size()));
+      if (progress) progress(static_cast<double>(finished) / static_cast<double>(starts));
     }
   };
   {
     std::vector<std::jthread> workers;
-    const std::size_t count =
-        std::min<std::size_t>(starts.size(), static_cast<std::size_t>(threads));
+    const std::size_t count = std::min(starts, static_cast<std::size_t>(threads));
     for (std::size_t k = 1; k < count; ++k) workers.emplace_back(work);
     work();
   }
-  return summarise(starts, attempts);
+  return best_of(attempts);
 }
 
 }  // namespace skyfit::fit

@@ -3,25 +3,21 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
-#include "fit/problem/solver.h"
-#include "fit/problem/starts.h"
+#include "fit/solve/least_squares.h"
 
 namespace skyfit::fit {
 
 struct MultiStart {
-  std::vector<StartSummary> summaries;  // in the order of the starts
-  Solution best;
-  int iterations = 0, evaluations = 0, derivative_evaluations = 0;  // of all starts
+  std::vector<Minimum> minima;  // in the order of the starts; of infinite cost where it failed
+  std::size_t best = 0;
 };
 
-// `threads` starts are solved at the same time; the result does not depend on it. A start whose
-// solution fails has an infinite cost; when all fail, the first failure is thrown. `progress` gets
-// the finished share, from one thread at a time.
-MultiStart solve_from(const std::vector<Start>& starts, const Problem& problem,
-                      const SolverLimits& limits, int threads,
-                      const std::function<void(double)>& progress);
+// Calls `solve` with 0 .. starts - 1, `threads` at the same time; the result does not depend on
+// it. A start whose solution throws has an infinite cost; when all do, the first exception is
+// thrown. `progress` gets the finished share, from one thread at a time; it may be empty.
+MultiStart solve_from(std::size_t starts, const std::function<Minimum(std::size_t)>& solve,
+                      int threads, const std::function<void(double)>& progress);
 
 }  // namespace skyfit::fit

@@ -14,12 +14,6 @@ Eigen::Vector3d direction(const SkyPoint& point) {
           std::cos(point.view_zenith)};
 }
 
-// Angles between the view directions of one scan, radians, and its residuals.
-struct Scan {
-  Eigen::MatrixXd angle;
-  Eigen::VectorXd residual;
-};
-
 Eigen::MatrixXd angles_between(const std::vector<SkyPoint>& points) {
   const auto count = static_cast<Eigen::Index>(points.size());
   Eigen::Matrix3Xd directions(3, count);
@@ -35,77 +29,157 @@ Eigen::MatrixXd angles_between(const std::vector<SkyPoint>& points) {
   return angle;
 }
 
-std::vector<Scan> split(const Observations& observations, const Eigen::VectorXd& residual) {
-  std::vector<std::vector<int>> members(observations.scans);
-  for (int i = 0; i < observations.count(); ++i) members[observations.scan[i]].push_back(i);
-  std::vector<Scan> result;
-  for (const std::vector<int>& member : members) {
-    std::vector<SkyPoint> points;
-    for (const int i : member) points.push_back(observations.points[i]);
-    result.push_back({angles_between(points), residual(member)});
-  }
-  return result;
-}
-
-// docs/theory (12.2).
-// exp(-angle / length) from the products of nearest neighbours; 0 when they do not agree.
-double length_of(const std::vector<Scan>& scans) {
-  double products = 0, squares = 0, angles = 0;
-  int pairs = 0;
-  for (const Scan& scan : scans) {
-    for (Eigen::Index i = 0; i < scan.residual.size() && scan.residual.size() > 1; ++i) {
-      Eigen::VectorXd others = scan.angle.col(i);
-      others(i) = 10;  // not itself
-      Eigen::Index nearest = 0;
-      angles += others.minCoeff(&nearest);
-      products += scan.residual(i) * scan.residual(nearest);
-      squares += 0.5 * (std::pow(scan.residual(i), 2) + std::pow(scan.residual(nearest), 2));
-      ++pairs;
-    }
-  }
-  if (pairs == 0 || !(products > 0) || !(squares > 0)) return 0;
-  const double correlation = std::min(products / squares, 0.999);
-  return -(angles / pairs) / std::log(correlation);
-}
-
-// docs/theory (12.3).
-double effective_count(const std::vector<Scan>& scans, double length) {
-  double result = 0;
-  for (const Scan& scan : scans) {
-    const double count = static_cast<double>(scan.residual.size());
-    if (!(length > 0)) {
-      result += count;
-      continue;
-    }
-    result += count * count / (scan.angle.array() / -length).exp().sum();
-  }
-  return result;
-}
-
-}  // namespace
-
-double correlation_length(const Observations& observations, const Eigen::VectorXd& residual) {
-  return length_of(split(observations, residual));
-}
-
+// exp(-angle / length) between the directions; the unit matrix for a length of 0.
 Eigen::MatrixXd angular_correlation(const std::vector<SkyPoint>& points, double length) {
   const auto count = static_cast<Eigen::Index>(points.size());
   if (!(length > 0)) return Eigen::MatrixXd::Identity(count, count);
   return (angles_between(points).array() / -length).exp();
 }
 
+// First line of sight of each scan that has one, and the number of them at the end.
+std::vector<std::size_t> scan_borders(const Dataset& data) {
+  std::vector<std::size_t> borders;
+  const std::vector<LineOfSight>& lines = data.lines_of_sight;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    if (line == 0 || lines[line].scan != lines[line - 1].scan) borders.push_back(line);
+  }
+  borders.push_back(lines.size());
+  return borders;
+}
+
+std::vector<SkyPoint> directions_of(const Dataset& data, std::size_t first, std::size_t last) {
+  std::vector<SkyPoint> points;
+  for (std::size_t line = first; line < last; ++line)
+    points.push_back(data.lines_of_sight[line].stated);
+  return points;
+}
+
+// Mean residual of each line of sight.
+Eigen::VectorXd means_of(const Dataset& data, const Eigen::VectorXd& residual) {
+  Eigen::VectorXd sum =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(data.lines_of_sight.size()));
+  Eigen::VectorXd count = sum;
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    sum(data.samples[i].line_of_sight) += residual(static_cast<Eigen::Index>(i));
+    count(data.samples[i].line_of_sight) += 1;
+  }
+  return sum.cwiseQuotient(count.cwiseMax(1));
+}
+
+// docs/theory (12.2).
+// exp(-angle / length) from the products of nearest neighbours; 0 when they do not agree.
+double length_of(const Dataset& data, const Eigen::VectorXd& residual) {
+  const Eigen::VectorXd mean = means_of(data, residual);
+  const std::vector<std::size_t> borders = scan_borders(data);
+  double products = 0, squares = 0, angles = 0;
+  int pairs = 0;
+  for (std::size_t s = 0; s + 1 < borders.size(); ++s) {
+    if (borders[s + 1] - borders[s] < 2) continue;
+    const Eigen::MatrixXd angle = angles_between(directions_of(data, borders[s], borders[s + 1]));
+    const auto first = static_cast<Eigen::Index>(borders[s]);
+    for (Eigen::Index i = 0; i < angle.cols(); ++i) {
+      Eigen::VectorXd others = angle.col(i);
+      others(i) = 10;  // not itself
+      Eigen::Index nearest = 0;
+      angles += others.minCoeff(&nearest);
+      const double own = mean(first + i), neighbour = mean(first + nearest);
+      products += own * neighbour;
+      squares += 0.5 * (own * own + neighbour * neighbour);
+      ++pairs;
+    }
+  }
+  if (pairs == 0 || !(products > 0) || !(squares > 0)) return 0;
+  return -(angles / pairs) / std::log(std::min(products / squares, 0.999));
+}
+
+double wavelength_correlation(const Dataset& data, const Eigen::VectorXd& residual) {
+  double products = 0, squares = 0;
+  for (std::size_t i = 0; i + 1 < data.samples.size(); ++i) {
+    if (data.channels.size() < 2) break;
+    if (data.samples[i].line_of_sight != data.samples[i + 1].line_of_sight) continue;
+    const double a = residual(static_cast<Eigen::Index>(i)),
+                 b = residual(static_cast<Eigen::Index>(i + 1));
+    products += a * b;
+    squares += 0.5 * (a * a + b * b);
+  }
+  return products > 0 && squares > 0 ? std::min(products / squares, 0.999) : 0;
+}
+
+// docs/theory (12.3).
+double share_of_directions(const Dataset& data, double length) {
+  const std::vector<std::size_t> borders = scan_borders(data);
+  double independent = 0;
+  for (std::size_t s = 0; s + 1 < borders.size(); ++s) {
+    const auto count = static_cast<double>(borders[s + 1] - borders[s]);
+    independent +=
+        count * count /
+        angular_correlation(directions_of(data, borders[s], borders[s + 1]), length).sum();
+  }
+  return independent / static_cast<double>(data.lines_of_sight.size());
+}
+
+double share_of_wavelengths(const Dataset& data, double correlation) {
+  double pairs = 0, wavelengths = 0;
+  for (const int count : data.samples_per_line_of_sight()) {
+    wavelengths += count;
+    pairs += count;
+    for (int lag = 1; lag < count; ++lag) pairs += 2 * (count - lag) * std::pow(correlation, lag);
+  }
+  return wavelengths / pairs;
+}
+
+}  // namespace
+
 // docs/theory (12.1).
-Noise estimate_noise(const Observations& observations, const Eigen::VectorXd& residual,
-                     int free_parameters) {
-  const double count = observations.count();
-  const double variance = observations.weight.dot(residual.cwiseAbs2()) / observations.weight.sum();
-  const double freedom = std::max(1.0, count - observations.scans - free_parameters);
+Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
+                     const Eigen::VectorXd& residual, int unknowns) {
+  const auto count = static_cast<double>(data.samples.size());
   Noise noise;
-  const std::vector<Scan> scans = split(observations, residual);
-  noise.effective_samples = effective_count(scans, length_of(scans));
-  noise.sigma_log = std::max(
-      kSmallestSigmaLog, std::sqrt(variance * count / freedom * count / noise.effective_samples));
+  noise.length = length_of(data, residual);
+  noise.wavelength_correlation = wavelength_correlation(data, residual);
+  const double of_wavelengths = share_of_wavelengths(data, noise.wavelength_correlation);
+  const double of_all = share_of_directions(data, noise.length) * of_wavelengths;
+  noise.effective_samples = std::max(1.0, count * of_all);
+  const double freedom = std::max(1.0, count - unknowns);
+  noise.independent_factor = std::sqrt(std::max(residual.squaredNorm() / freedom, 1e-12));
+  if (likelihood.link == Link::kLinear) {
+    noise.factor = noise.independent_factor / std::sqrt(of_wavelengths);
+  } else {
+    noise.factor = std::max(noise.independent_factor * std::sqrt(count / noise.effective_samples),
+                            kSmallestSigma / likelihood.noise.relative);
+  }
   return noise;
+}
+
+Eigen::MatrixXd times_correlation(const Dataset& data, const Noise& noise,
+                                  const Eigen::MatrixXd& columns) {
+  const auto channels = static_cast<Eigen::Index>(data.channels.size());
+  const auto lines = static_cast<Eigen::Index>(data.lines_of_sight.size());
+  Eigen::MatrixXd along(channels, channels);
+  for (Eigen::Index a = 0; a < channels; ++a) {
+    for (Eigen::Index b = 0; b < channels; ++b)
+      along(a, b) = std::pow(noise.wavelength_correlation, std::abs(a - b));
+  }
+  const std::vector<std::size_t> borders = scan_borders(data);
+  Eigen::MatrixXd result(columns.rows(), columns.cols());
+  for (Eigen::Index column = 0; column < columns.cols(); ++column) {
+    Eigen::MatrixXd grid = Eigen::MatrixXd::Zero(lines, channels);
+    for (std::size_t i = 0; i < data.samples.size(); ++i)
+      grid(data.samples[i].line_of_sight, data.samples[i].channel) +=
+          columns(static_cast<Eigen::Index>(i), column);
+    grid = grid * along;
+    for (std::size_t s = 0; s + 1 < borders.size(); ++s) {
+      const auto first = static_cast<Eigen::Index>(borders[s]),
+                 count = static_cast<Eigen::Index>(borders[s + 1] - borders[s]);
+      grid.middleRows(first, count) =
+          angular_correlation(directions_of(data, borders[s], borders[s + 1]), noise.length) *
+          grid.middleRows(first, count);
+    }
+    for (std::size_t i = 0; i < data.samples.size(); ++i)
+      result(static_cast<Eigen::Index>(i), column) =
+          grid(data.samples[i].line_of_sight, data.samples[i].channel);
+  }
+  return result;
 }
 
 }  // namespace skyfit::fit

@@ -1,36 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// The noise of a reference that does not state its own.
+// What the residuals say of the noise. The misfit of a smooth sky by another is not noise: it
+// agrees between neighbouring directions and wavelengths, and counting each sample as independent
+// would let the misfit override every prior. Within a scan the correlation is taken as
+// exp(-angle / length) * r^(wavelengths between), between scans as 0. length follows from nearest
+// neighbours among the lines of sight (their mean residuals), r from neighbouring wavelengths of a
+// line of sight.
 //
-// sigma_log^2 = sum(weight d^2) / sum(weight) * N / (N - scans - parameters) * N / N_eff,
-// d the logarithmic residuals with their scans' means subtracted. The misfit of a smooth sky by
-// another is not noise: neighbouring residuals agree, and counting each as independent would let
-// the misfit override every prior. N_eff counts the independent ones. The residuals are taken as an
-// exponentially correlated field, correlation(angle) = exp(-angle / length) within a scan and 0
-// between scans, whose length follows from the correlation of nearest neighbours; the mean of a
-// scan of n then counts as n^2 / sum_ij exp(-angle_ij / length) samples. White noise gives N.
+// N_eff = N * (share of independent lines of sight) * (share of independent wavelengths): of n, n^2
+// over the sum of the correlations of all pairs. White noise gives N.
+//
+// The factor on sigma with which the fit weighs data against priors is
+//   independent_factor = sqrt(chi^2 / (N - unknowns - profiled scales))
+// over the square root of a share: under the log link of N_eff / N; under the linear link of the
+// independent wavelengths alone, and the covariance allows for the lines of sight (covariance.h).
+// The two links differ because their noise does: a standard sky has none, so that all of its misfit
+// is systematic and must yield to priors; an instrument's is mostly its own.
 #pragma once
 
-#include "fit/problem/observations.h"
+#include <Eigen/Core>
+
+#include "fit/problem/likelihood.h"
 
 namespace skyfit::fit {
 
-// Where sigma_log starts before there are residuals, and the floor below which the model's own
-// numerics speak.
-inline constexpr double kFirstSigmaLog = 0.10;
-inline constexpr double kSmallestSigmaLog = 1e-3;
+// Under the log link and unknown noise: sigma of a sample before there are residuals, and the floor
+// below which the model's own numerics speak; relative.
+inline constexpr double kFirstSigma = 0.10;
+inline constexpr double kSmallestSigma = 1e-3;
 
 struct Noise {
-  double sigma_log;          // >= kSmallestSigmaLog; factor on observations.sigma_log
-  double effective_samples;  // 1 .. count
+  double factor = 1;                  // on sigma, see above
+  double independent_factor = 1;      // sqrt(chi^2 / degrees of freedom)
+  double effective_samples = 0;       // N_eff, 1 .. N
+  double length = 0;                  // radians; 0 where neighbours do not agree
+  double wavelength_correlation = 0;  // r
 };
 
-// `residual`: log(model) - log(reference) + log(scale) per sample, over observations.sigma_log.
-Noise estimate_noise(const Observations& observations, const Eigen::VectorXd& residual,
-                     int free_parameters);
+// `residual`: whitened with a factor of 1, one per sample. `unknowns`: with the profiled scales.
+Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
+                     const Eigen::VectorXd& residual, int unknowns);
 
-// The length of that field, radians; 0 where neighbours do not agree.
-double correlation_length(const Observations& observations, const Eigen::VectorXd& residual);
-// exp(-angle / length) between the view directions of points; the unit matrix for a length of 0.
-Eigen::MatrixXd angular_correlation(const std::vector<SkyPoint>& points, double length);
+// The correlation matrix of the samples times `columns`, [sample][.].
+Eigen::MatrixXd times_correlation(const Dataset& data, const Noise& noise,
+                                  const Eigen::MatrixXd& columns);
 
 }  // namespace skyfit::fit

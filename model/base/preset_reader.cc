@@ -167,6 +167,9 @@ PresetDocument::PresetDocument(std::string_view text, std::string_view source) :
   }
 }
 
+PresetDocument::PresetDocument(json value, std::string_view source)
+    : source_(source), json_(std::move(value)) {}
+
 PresetReader PresetDocument::root() const { return PresetReader(*this, json_, ""); }
 
 std::string PresetDocument::place(std::string_view path) const {

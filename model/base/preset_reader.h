@@ -23,6 +23,8 @@ std::string json_excerpt(const nlohmann::json& value);
 class PresetDocument {
  public:
   PresetDocument(std::string_view text, std::string_view source);
+  // A value that was read before: messages name fields, but no lines.
+  PresetDocument(nlohmann::json value, std::string_view source);
 
   // The outermost object; lives as long as the document.
   PresetReader root() const;

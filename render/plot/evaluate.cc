@@ -23,11 +23,10 @@ double counted_weight(const refs::Sample& sample, double exclude_sun) {
   return refs::scattering_angle(sample) < exclude_sun - kRounding ? 0.0 : sample.weight;
 }
 
-void expect_one_per_sample(const ScaledModel& model, std::size_t samples, const char* name) {
-  if (model.luminance.size() != samples || model.scale.size() != samples)
+void expect_one_per_sample(std::span<const double> values, std::size_t samples, const char* name) {
+  if (values.size() != samples)
     throw std::invalid_argument(
-        fmt::format("{}: {} luminances and {} scales: expected {}, one per sample", name,
-                    model.luminance.size(), model.scale.size(), samples));
+        fmt::format("{}: {} values: expected {}, one per sample", name, values.size(), samples));
 }
 
 std::vector<double> luminances(const refs::Reference& reference,
@@ -67,22 +66,22 @@ std::vector<double> scales(const refs::Reference& reference, const std::vector<d
 }  // namespace
 
 std::vector<ComparedSample> compared_samples(const refs::Reference& reference,
-                                             const ScaledModel& fitted, const ScaledModel& start,
+                                             std::span<const double> model,
+                                             std::span<const double> start_model,
                                              double exclude_sun) {
   const std::size_t count = reference.samples.size();
-  const bool with_start = !start.luminance.empty();
-  expect_one_per_sample(fitted, count, "fitted model");
-  if (with_start) expect_one_per_sample(start, count, "start model");
+  const bool with_start = !start_model.empty();
+  expect_one_per_sample(model, count, "fitted model");
+  if (with_start) expect_one_per_sample(start_model, count, "start model");
   std::vector<ComparedSample> compared;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& sample = reference.samples[i];
-    if (std::isnan(fitted.scale[i]) || !(sample.value > 0)) continue;
+    if (std::isnan(model[i]) || !(sample.value > 0)) continue;
     ComparedSample row{degrees(sample.sun_zenith), degrees(sample.view_zenith),
-                       degrees(sample.relative_azimuth), sample.value,
-                       fitted.scale[i] * fitted.luminance[i]};
+                       degrees(sample.relative_azimuth), sample.value, model[i]};
     row.residual = std::log(row.model / row.reference);
     row.weight = counted_weight(sample, exclude_sun);
-    if (with_start) row.start_model = start.scale[i] * start.luminance[i];
+    if (with_start) row.start_model = start_model[i];
     compared.push_back(row);
   }
   return compared;
@@ -92,9 +91,10 @@ std::vector<ComparedSample> evaluated_samples(const refs::Reference& reference,
                                               const Atmosphere<double>& atmosphere,
                                               const SpectralData& spectra, const SkyModel& model,
                                               double exclude_sun) {
-  const auto luminance = luminances(reference, atmosphere, spectra, model);
+  std::vector<double> luminance = luminances(reference, atmosphere, spectra, model);
   const auto scale = scales(reference, luminance, exclude_sun);
-  return compared_samples(reference, {luminance, scale}, {}, exclude_sun);
+  for (std::size_t i = 0; i < luminance.size(); ++i) luminance[i] *= scale[i];
+  return compared_samples(reference, luminance, {}, exclude_sun);
 }
 
 }  // namespace skyfit::plot

@@ -13,17 +13,13 @@
 
 namespace skyfit::plot {
 
-// Luminances (cd/m^2) and the factor of each sample's scan that brings them to the reference; one
-// entry per sample.
-struct ScaledModel {
-  std::span<const double> luminance, scale;
-};
-
-// Samples within `exclude_sun` (radians) of the sun get weight 0. Samples of a scan without a scale
-// (NaN) are left out. `start` may be empty. Throws std::invalid_argument when a span has not one
-// entry per sample.
+// `model` and `start_model` in the reference's unit, one value per sample, with the scale of the
+// sample's scan; `start_model` may be empty. Samples within `exclude_sun` (radians) of the sun get
+// weight 0; those without a model (NaN) or a positive value are left out. Throws
+// std::invalid_argument when a list has not one entry per sample.
 std::vector<ComparedSample> compared_samples(const refs::Reference& reference,
-                                             const ScaledModel& fitted, const ScaledModel& start,
+                                             std::span<const double> model,
+                                             std::span<const double> start_model,
                                              double exclude_sun);
 
 // The same with the atmosphere's luminance by the model. Every scan's scale is the one that leaves

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fit of measured skies leaves, as its figures read it: measured.csv and report.json.
+// What the figures of measured skies show of a fit.
 #pragma once
 
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -33,13 +32,6 @@ struct MeasuredOutcome {
   std::vector<std::string> covariance_unknowns;
   std::vector<std::vector<double>> covariance;  // empty when singular
 };
-
-// Whether the directory holds such a result.
-bool is_measured_result(const std::filesystem::path& directory);
-
-// Throws std::runtime_error or std::invalid_argument with one line that names the file and the line
-// or the field.
-MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory);
 
 // One direction of one scan with its luminance: of spectra the sum of 683 y_bar radiance over the
 // wavelengths at hand by the trapezoidal rule. cd/m^2.

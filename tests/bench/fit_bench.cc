@@ -22,9 +22,9 @@ void FitOfCie12(benchmark::State& state) {
   fit::FitOptions options;
   options.lobes = static_cast<int>(state.range(0));
   for (auto _ : state) {
-    const fit::FitResult result =
+    const fit::Result result =
         fit::fit_atmosphere(reference, refs::standard_spectral_data(), *model, options);
-    state.counters["rms_log_percent"] = result.rms_log_percent;
+    state.counters["rms_log_percent"] = result.errors.rms_log;
   }
 }
 BENCHMARK(FitOfCie12)->Arg(1)->Arg(2)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();

@@ -94,6 +94,9 @@ TEST_F(MeasuredTest, JointFitLeavesReportsAndFigures) {
   EXPECT_EQ(run({"check", "fitted/preset.json"}).status, 0);
   EXPECT_EQ(run({"plot", "fitted", "--figure", "spectra", "--scan", "2", "--out", "s.png"}).status,
             0);
+  const Outcome text = run({"report", "fitted"}), again = run({"report", "fitted", "--json"});
+  EXPECT_EQ(text.out, read("fitted/report.txt")) << text.err;
+  EXPECT_EQ(again.out, read("fitted/report.json")) << again.err;
   const Outcome evaluated =
       run({"fit", "--reference", "a.csv", "--preset", "fitted/preset.json", "--free", "none",
            "--pointing", "azimuth", "--out", "evaluated", "--json"});
@@ -145,15 +148,17 @@ TEST_F(MeasuredTest, BadOptionsAreRefusedInOneLine) {
     EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
     EXPECT_FALSE(exists("never"));
   };
-  refused({"--scale", "loose"}, "--scale \"loose\": expected one of absolute, shared, per-scan");
+  refused({"--scale", "loose"}, "--scale \"loose\": expected one of fixed, shared, per-scan, profiled");
   refused({"--noise", "-1"}, "--noise \"-1\": expected RELATIVE[:FLOOR]");
   refused({"--hold-out", "1"}, "--hold-out \"1\": expected scans, or into how many parts");
   refused({"--ground", "lawn"}, "ground \"lawn\": no such file");
   refused({"--per-scan", "ozone.column"}, "fit.per_scan: ozone.column: must be a free parameter");
-  refused({"--profile", "nothing"}, "fit.profile: nothing: not an unknown of this fit");
+  refused({"--profile", "nothing"}, "fit: nothing: not an unknown of this fit");
+  refused({"--link", "cubic"}, "--link \"cubic\": expected one of log, linear");
   const Outcome relative =
-      run({"fit", "--reference", "cie:12", "--noise", "0.1", "--out", "never"});
-  EXPECT_THAT(relative.err, HasSubstr("--noise \"cie:12\": expected an absolute or spectral"));
+      run({"fit", "--reference", "cie:12", "--scale", "shared", "--out", "never"});
+  EXPECT_THAT(relative.err,
+              HasSubstr("fit.scale = shared: must be profiled for a relative luminance (cie:12)"));
 }
 
 }  // namespace

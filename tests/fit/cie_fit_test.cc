@@ -43,19 +43,18 @@ TEST_P(CieFitTest, ReachesTheKnownMisfit) {
   FitOptions options;
   options.lobes = lobes;
   const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
-  const FitResult result =
-      fit_atmosphere(reference, refs::standard_spectral_data(), *model, options);
-  EXPECT_LE(result.rms_log_percent, largest);
-  EXPECT_GT(result.rms_log_percent, 1);  // clear air cannot be a CIE sky
+  const Result result = fit_atmosphere(reference, refs::standard_spectral_data(), *model, options);
+  EXPECT_LE(result.errors.rms_log, largest);
+  EXPECT_GT(result.errors.rms_log, 1);  // clear air cannot be a CIE sky
   EXPECT_TRUE(result.converged);
-  EXPECT_EQ(result.per_sun.size(), 9u);
-  for (const FittedParameter& row : result.parameters) {
+  EXPECT_EQ(result.scans.size(), 9u);
+  for (const UnknownRow& row : result.unknowns) {
     // The priors hold the air: Rayleigh within three prior sigmas, the heights not identifiable.
-    if (row.id == Parameter::kMieScaleHeight) {
+    if (row.unknown.name() == "mie.scale_height") {
       EXPECT_FALSE(row.identifiable);
     }
-    if (row.id == Parameter::kRayleighScattering) {
-      EXPECT_NEAR(row.fitted, row.prior->mean, 3 * row.prior->sigma);
+    if (row.unknown.name() == "rayleigh.scattering") {
+      EXPECT_NEAR(row.fitted, row.unknown.prior->mean, 3 * row.unknown.prior->sigma);
     }
   }
 }

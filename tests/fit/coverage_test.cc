@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "fit/measured.h"
+#include "fit/fit.h"
 #include "model/registry.h"
 #include "tests/fit/scans.h"
 #include "tests/fit/synthetic.h"
@@ -29,7 +29,7 @@ double true_value(const UnknownRow& row, const Atmosphere<double>& truth,
 }
 
 std::map<std::string, Coverage> coverage(const Atmosphere<double>& truth,
-                                         const MeasuredOptions& options) {
+                                         const FitOptions& options) {
   const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
   SyntheticScans how;
   how.azimuth_offset_deg = {6, 9};
@@ -37,8 +37,8 @@ std::map<std::string, Coverage> coverage(const Atmosphere<double>& truth,
   std::map<std::string, Coverage> result;
   for (int k = 0; k < kRepetitions; ++k) {
     how.seed = static_cast<unsigned int>(1000 + k);
-    const MeasuredResult fitted = fit_measured(synthetic_scans(*model, truth, how),
-                                               refs::standard_spectral_data(), *model, options);
+    const Result fitted = fit_atmosphere(synthetic_scans(*model, truth, how),
+                                         refs::standard_spectral_data(), *model, options);
     for (const UnknownRow& row : fitted.unknowns) {
       Coverage& c = result[row.unknown.name()];
       ++c.counted;
@@ -50,16 +50,15 @@ std::map<std::string, Coverage> coverage(const Atmosphere<double>& truth,
 
 TEST(CoverageTest, TrueValuesLieWithinOneSigmaAsOftenAsTheyShould) {
   const Atmosphere<double> truth = true_atmosphere(1);
-  MeasuredOptions options;
-  options.common.lobes = 1;
-  options.common.start = Preset{"truth", truth, {}};
-  options.common.starts = 1;
-  options.common.use_priors = false;
-  options.common.free =
+  FitOptions options;
+  options.lobes = 1;
+  options.start = Preset{"truth", truth, {}};
+  options.starts = 1;
+  options.use_priors = false;
+  options.free =
       std::vector{Parameter::kMieScattering, Parameter::kMieAngstromExponent, Parameter::kMiePhaseG,
                   Parameter::kMieSingleScatteringAlbedo, Parameter::kGroundAlbedo};
-  options.noise = {0.02, 0};
-  options.noise_is_stated = true;
+  options.noise = NoiseModel{0.02, 0};
   for (const auto& [name, c] : coverage(truth, options)) {
     const double share = static_cast<double>(c.within) / c.counted;
     std::printf("%-32s within one sigma in %.1f %% of %d\n", name.c_str(), 100 * share, c.counted);

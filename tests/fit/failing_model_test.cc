@@ -87,11 +87,11 @@ TEST(FailingModelTest, FailureOnTheWayIsSteppedAround) {
   options.start = Preset{"thin", true_atmosphere(1), {}};
   options.start->atmosphere.at("mie").amount = 5e-6;
   const LimitedSky model(limit);
-  const FitResult result = fit_atmosphere(synthetic_reference(true_atmosphere(1), 0.02),
-                                          refs::standard_spectral_data(), model, options);
+  const Result result = fit_atmosphere(synthetic_reference(true_atmosphere(1), 0.02),
+                                       refs::standard_spectral_data(), model, options);
   EXPECT_GT(model.refusals, 0);
   EXPECT_TRUE(result.converged);
-  EXPECT_LT(result.rms_log_percent, 2.3);
+  EXPECT_LT(result.errors.rms_log, 2.3);
   EXPECT_LE(result.preset.atmosphere.at("mie").amount, limit);
 }
 

@@ -52,14 +52,14 @@ class CountingSky : public ToySky {
 TEST(MovingSun, EverySampleIsEvaluatedOnceUnderItsOwnSun) {
   const CountingSky model;
   const refs::Reference reference = almucantar();
-  const ScanData data = scan_data(reference, refs::standard_spectral_data(), {});
-  EXPECT_EQ(data.looks.size(), 4u);  // directions from the sun
-  EXPECT_EQ(data.rays.size(), 12u);
+  const Dataset data = dataset(reference, refs::standard_spectral_data(), {});
+  EXPECT_EQ(data.lines_of_sight.size(), 4u);  // directions from the sun
+  EXPECT_EQ(data.views.size(), 12u);
   const SkyState state = start_state(true_atmosphere(2), 1);
-  const Eigen::VectorXd value = row_values(model, data, state, {}).value;
+  const Eigen::VectorXd value = sky_values(model, data, state, {}).value;
   EXPECT_EQ(model.values, reference.samples.size());
-  for (std::size_t r = 0; r < data.rows.size(); ++r) {
-    const refs::Sample& sample = reference.samples[data.rows[r].sample];
+  for (std::size_t r = 0; r < data.samples.size(); ++r) {
+    const refs::Sample& sample = reference.samples[data.samples[r].index];
     const SkyPoint point = sky_point(sample);
     const std::vector<WavelengthNode> node =
         spectral_nodes(refs::standard_spectral_data(), {sample.wavelength_nm});
@@ -72,18 +72,18 @@ TEST(MovingSun, EverySampleIsEvaluatedOnceUnderItsOwnSun) {
 // A tilt turns with the sun's own azimuth.
 TEST(MovingSun, DerivativesHold) {
   const ToySky model;
-  const ScanData data = scan_data(almucantar(), refs::standard_spectral_data(), {});
+  const Dataset data = dataset(almucantar(), refs::standard_spectral_data(), {});
   const SkyState state = start_state(true_atmosphere(2), 1);
   for (const Instrument id : {Instrument::kAzimuthOffset, Instrument::kTiltNorth}) {
     const Unknown unknown{{-0.1, 0.1, false, std::nullopt}, id, 0};
     const auto moved = [&](double by) {
       const Eigen::VectorXd scaled = Eigen::VectorXd::Constant(1, unknown.scaled(by));
-      return row_values(model, data, with_unknowns(state, {unknown}, scaled), {}).value;
+      return sky_values(model, data, with_unknowns(state, {unknown}, scaled), {}).value;
     };
     const Eigen::VectorXd expected = (moved(1e-5) - moved(-1e-5)) / 2e-5;
     constexpr double kPointingDifference =
         5e-3;  // third derivative over 0.25 deg, 5 deg from the sun
-    EXPECT_LT((row_values(model, data, state, {unknown}).derivative.col(0) - expected).norm(),
+    EXPECT_LT((sky_values(model, data, state, {unknown}).derivative.col(0) - expected).norm(),
               kPointingDifference * expected.norm());
   }
 }
@@ -93,8 +93,8 @@ TEST(MovingSun, WeightlessSamplesOutsideTheSpectraAreLeftOut) {
   refs::Reference reference = almucantar();
   reference.samples.back().wavelength_nm = 290;
   reference.samples.back().weight = 0;
-  const ScanData all = scan_data(reference, refs::standard_spectral_data(), {true, 0, {}, 0});
-  EXPECT_EQ(all.rows.size(), reference.samples.size() - 1);
+  const Dataset all = dataset(reference, refs::standard_spectral_data(), {true, 0, {}, 0});
+  EXPECT_EQ(all.samples.size(), reference.samples.size() - 1);
 }
 
 }  // namespace

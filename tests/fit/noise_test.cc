@@ -11,37 +11,50 @@
 namespace skyfit::fit {
 namespace {
 
-Observations observations() { return observe(synthetic_reference(true_atmosphere(1), 0), 0); }
+Dataset data() {
+  return dataset(synthetic_reference(true_atmosphere(1), 0), refs::standard_spectral_data(), {});
+}
+
+// Of logarithms: sigma of a sample, as the factor says it.
+constexpr Likelihood kLog{Link::kLog, Scale::kProfiled, {}, false, Loss::kNone, 3};
+double sigma_log(const Noise& noise) { return noise.factor * kLog.noise.relative; }
+
+Eigen::VectorXd whitened(const Eigen::VectorXd& residual) { return residual / kLog.noise.relative; }
 
 TEST(NoiseTest, WhiteNoiseCountsFully) {
-  const Observations observed = observations();
+  const Dataset observed = data();
+  const auto count = static_cast<Eigen::Index>(observed.samples.size());
   std::mt19937 generator(1);
   std::normal_distribution<double> normal(0, 0.03);
-  Eigen::VectorXd residual(observed.count());
+  Eigen::VectorXd residual(count);
   for (double& value : residual) value = normal(generator);
-  const Noise noise = estimate_noise(observed, residual, 5);
+  const Noise noise = estimate_noise(observed, kLog, whitened(residual), 9);
   // 132 samples: the neighbours' correlation is known to 1 / sqrt(132) = 0.09, the count to 0.2.
-  EXPECT_NEAR(noise.effective_samples / observed.count(), 1, 0.25);
-  EXPECT_NEAR(noise.sigma_log, 0.03, 0.006);
+  EXPECT_NEAR(noise.effective_samples / static_cast<double>(count), 1, 0.25);
+  EXPECT_NEAR(sigma_log(noise), 0.03, 0.006);
 }
 
 TEST(NoiseTest, SmoothMisfitCountsAsFewSamples) {
-  const Observations observed = observations();
-  Eigen::VectorXd residual(observed.count());
-  for (int i = 0; i < observed.count(); ++i) {
-    residual(i) = 0.03 * std::sqrt(2.0) * std::sin(3 * observed.points[i].view_zenith);
+  const Dataset observed = data();
+  const auto count = static_cast<Eigen::Index>(observed.samples.size());
+  Eigen::VectorXd residual(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    residual(i) =
+        0.03 * std::sqrt(2.0) *
+        std::sin(3 * observed.lines_of_sight[static_cast<std::size_t>(i)].stated.view_zenith);
   }
-  const Noise noise = estimate_noise(observed, residual, 5);
-  EXPECT_LT(noise.effective_samples, 0.15 * observed.count());
-  EXPECT_GT(noise.effective_samples, observed.scans);
-  EXPECT_GT(noise.sigma_log, 2 * 0.03);
+  const Noise noise = estimate_noise(observed, kLog, whitened(residual), 9);
+  EXPECT_LT(noise.effective_samples, 0.15 * static_cast<double>(count));
+  EXPECT_GT(noise.effective_samples, observed.scans.size());
+  EXPECT_GT(sigma_log(noise), 2 * 0.03);
 }
 
 TEST(NoiseTest, VanishingResidualsStopAtTheFloor) {
-  const Observations observed = observations();
-  const Noise noise = estimate_noise(observed, Eigen::VectorXd::Zero(observed.count()), 5);
-  EXPECT_EQ(noise.sigma_log, kSmallestSigmaLog);
-  EXPECT_NEAR(noise.effective_samples, observed.count(), 1e-9);
+  const Dataset observed = data();
+  const auto count = static_cast<Eigen::Index>(observed.samples.size());
+  const Noise noise = estimate_noise(observed, kLog, Eigen::VectorXd::Zero(count), 9);
+  EXPECT_DOUBLE_EQ(sigma_log(noise), kSmallestSigma);
+  EXPECT_NEAR(noise.effective_samples, static_cast<double>(count), 1e-9);
 }
 
 }  // namespace

@@ -77,8 +77,15 @@ TEST(OptionsTest, ContradictionsAreRefused) {
                 o.priors[Parameter::kOzoneColumn] = {300, 30};
               }),
               HasSubstr("fit.prior: ozone.column: must be free"));
-  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) { o.free = std::vector<Parameter>{}; }),
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                for (const Parameter& id : standard_parameters()) {
+                  if (has_parameter(true_atmosphere(1), id))
+                    o.fix[id] = get_parameter(true_atmosphere(1), id);
+                }
+              }),
               HasSubstr("fit.free: nothing is free"));
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) { o.scale = Scale::kFixed; }),
+              HasSubstr("fit.scale = fixed: must be profiled for a relative luminance"));
 }
 
 TEST(OptionsTest, ValuesAreChecked) {
@@ -100,7 +107,7 @@ TEST(OptionsTest, ReferencesThatCannotBeFittedAreRefused) {
   EXPECT_THAT(message([](FitOptions&, refs::Reference& r) { r.samples.clear(); }),
               HasSubstr("synthetic: no sample"));
   EXPECT_THAT(message([](FitOptions&, refs::Reference& r) { r.samples.resize(7); }),
-              AllOf(HasSubstr("synthetic: 7 samples for"), HasSubstr("luminance scale")));
+              AllOf(HasSubstr("synthetic: 7 samples for"), HasSubstr("1 profiled scales")));
   EXPECT_THAT(message([](FitOptions&, refs::Reference& r) { r.samples[4].value = 0; }),
               HasSubstr("synthetic: sample 5: value = 0: must be"));
   EXPECT_THAT(message([](FitOptions&, refs::Reference& r) {
@@ -118,12 +125,12 @@ TEST(OptionsTest, StartAtAnotherWavelengthIsTheSameAtmosphere) {
   options.starts = 1;
   const refs::Reference reference = synthetic_reference(true_atmosphere(1), 0.02);
   options.start = Preset{"at 550", true_atmosphere(1), {}};
-  const FitResult at_550 =
+  const Result at_550 =
       fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
   Constituent<double>& air = options.start->atmosphere.at("rayleigh");
   air.amount *= std::pow(440.0 / 550, -air.angstrom_exponent);
   air.wavelength_nm = 440;
-  const FitResult at_440 =
+  const Result at_440 =
       fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
   EXPECT_NEAR(at_440.preset.atmosphere.at("rayleigh").amount /
                   at_550.preset.atmosphere.at("rayleigh").amount,

@@ -10,6 +10,10 @@
 namespace skyfit::fit {
 namespace {
 
+double scale_of(const Result& result, std::size_t scan) {
+  return result.scans[scan].instrument[static_cast<std::size_t>(Instrument::kScale)];
+}
+
 // Multiplying a scan by 7 changes its scale by 7 and nothing else.
 TEST(ProfiledScaleTest, FactorOnAScanChangesNothingButItsScale) {
   const refs::Reference reference = synthetic_reference(true_atmosphere(1), 0.02);
@@ -22,15 +26,15 @@ TEST(ProfiledScaleTest, FactorOnAScanChangesNothingButItsScale) {
   const auto fit = [&](const refs::Reference& which) {
     return fit_atmosphere(which, refs::standard_spectral_data(), ToySky(), options);
   };
-  const FitResult before = fit(reference), after = fit(scaled);
+  const Result before = fit(reference), after = fit(scaled);
   constexpr double kRounding = 1e-6;  // of log(7 value), through a solver that stops at 1e-7
-  EXPECT_NEAR(after.rms_log_percent, before.rms_log_percent, kRounding);
-  for (std::size_t i = 0; i < before.parameters.size(); ++i) {
-    EXPECT_NEAR(after.parameters[i].fitted / before.parameters[i].fitted, 1, kRounding);
+  EXPECT_NEAR(after.errors.rms_log, before.errors.rms_log, kRounding);
+  for (std::size_t i = 0; i < before.unknowns.size(); ++i) {
+    EXPECT_NEAR(after.unknowns[i].fitted / before.unknowns[i].fitted, 1, kRounding);
   }
-  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    const double factor = reference.samples[i].scan == 2 ? 7 : 1;
-    EXPECT_NEAR(after.scale[i] / before.scale[i], factor, factor * kRounding);
+  for (std::size_t scan = 0; scan < before.scans.size(); ++scan) {
+    const double factor = scan == 2 ? 7 : 1;
+    EXPECT_NEAR(scale_of(after, scan) / scale_of(before, scan), factor, factor * kRounding);
   }
 }
 
@@ -60,15 +64,17 @@ TEST(ProfiledScaleTest, ScaleIsReferenceOverModel) {
   options.lobes = 1;
   options.use_priors = false;
   options.free = std::vector<Parameter>{Parameter::kMiePhaseG};
+  options.link = Link::kLog;
+  options.scale = Scale::kProfiled;
+  options.pointing = Pointing::kStated;
   options.start = Preset{"truth", true_atmosphere(1), {}};
   options.start->atmosphere.at("mie").phase.g = 0.5;
-  const FitResult result =
+  const Result result =
       fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
-  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    EXPECT_NEAR(result.scale[i], 0.5, 1e-5);
-    EXPECT_NEAR(result.scale[i] * result.fitted_model[i] / reference.samples[i].value, 1, 1e-4);
-  }
-  for (const RmsOfSun& sun : result.per_sun) EXPECT_NEAR(sun.scale, 0.5, 1e-5);
+  for (std::size_t i = 0; i < reference.samples.size(); ++i)
+    EXPECT_NEAR(result.model[i] / reference.samples[i].value, 1, 1e-4);
+  for (std::size_t scan = 0; scan < result.scans.size(); ++scan)
+    EXPECT_NEAR(scale_of(result, scan), 0.5, 1e-5);
 }
 
 }  // namespace

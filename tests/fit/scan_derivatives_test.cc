@@ -21,16 +21,16 @@ class ScanDerivativesTest : public testing::TestWithParam<Unknown> {};
 TEST_P(ScanDerivativesTest, AgreeWithDifferences) {
   const ToySky model;
   const Unknown unknown = GetParam();
-  const ScanData data =
-      scan_data(synthetic_scans(model, true_atmosphere(2), {}), refs::standard_spectral_data(), {});
+  const Dataset data =
+      dataset(synthetic_scans(model, true_atmosphere(2), {}), refs::standard_spectral_data(), {});
   SkyState state = start_state(true_atmosphere(2), 2);
   for (auto& instrument : state.instrument)
     instrument[static_cast<std::size_t>(Instrument::kAzimuthOffset)] = 0.1;
-  const RowValues values = row_values(model, data, state, {unknown});
+  const SampleValues values = sky_values(model, data, state, {unknown});
   const double at = get_unknown(state, unknown), step = 1e-4 * (unknown.upper - unknown.lower);
   const auto moved = [&](double by) {
     const Eigen::VectorXd scaled = Eigen::VectorXd::Constant(1, unknown.scaled(at + by));
-    return row_values(model, data, with_unknowns(state, {unknown}, scaled), {}).value;
+    return sky_values(model, data, with_unknowns(state, {unknown}, scaled), {}).value;
   };
   const Eigen::VectorXd expected = (moved(step) - moved(-step)) / (2 * step);
   const bool exact = std::holds_alternative<Parameter>(unknown.what) ||

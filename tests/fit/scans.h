@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data_refs/spectra.h"
-#include "fit/problem/scan_model.h"
+#include "fit/problem/sky_values.h"
 
 namespace skyfit::fit {
 
@@ -54,18 +54,18 @@ inline refs::Reference synthetic_scans(const SkyModel& model, const Atmosphere<d
       }
     }
   }
-  const ScanData data = scan_data(reference, refs::standard_spectral_data(), {true, 0, {}, 0});
+  const Dataset data = dataset(reference, refs::standard_spectral_data(), {true, 0, {}, 0});
   SkyState state = start_state(atmosphere, static_cast<int>(how.sun_zenith_deg.size()));
   for (std::size_t scan = 0; scan < state.instrument.size(); ++scan) {
     state.instrument[scan][static_cast<std::size_t>(Instrument::kAzimuthOffset)] =
         how.azimuth_offset_deg[scan] * kDegree;
     state.instrument[scan][static_cast<std::size_t>(Instrument::kScale)] = how.scale;
   }
-  const RowValues values = row_values(model, data, state, {});
+  const SampleValues values = sky_values(model, data, state, {});
   std::mt19937 generator(how.seed);
   std::normal_distribution<double> normal(0, 1);
-  for (std::size_t r = 0; r < data.rows.size(); ++r) {
-    reference.samples[data.rows[r].sample].value =
+  for (std::size_t r = 0; r < data.samples.size(); ++r) {
+    reference.samples[data.samples[r].index].value =
         values.value(static_cast<Eigen::Index>(r)) * (1 + how.noise * normal(generator));
   }
   return reference;

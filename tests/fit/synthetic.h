@@ -8,7 +8,7 @@
 
 #include "data_refs/samples.h"
 #include "data_refs/spectra.h"
-#include "fit/problem/residuals.h"
+#include "fit/problem/sky_values.h"
 #include "tests/atmospheres.h"
 #include "tests/fit/toy_sky.h"
 
@@ -37,7 +37,6 @@ inline refs::Reference synthetic_reference(const Atmosphere<double>& atmosphere,
   refs::Reference reference;
   reference.name = "synthetic";
   reference.description = "toy sky";
-  std::vector<SkyPoint> points;
   for (int scan = 0; scan < 4; ++scan) {
     for (int view = -80; view <= 80; view += 5) {
       refs::Sample sample;
@@ -45,17 +44,18 @@ inline refs::Reference synthetic_reference(const Atmosphere<double>& atmosphere,
       sample.view_zenith = std::abs(view) * kDegree;
       sample.relative_azimuth = view < 0 ? std::numbers::pi : 0;
       sample.scan = scan;
+      sample.value = 1;
       reference.samples.push_back(sample);
-      points.push_back(sky_point(sample));
     }
   }
-  const Luminance luminance = model_luminance(
-      ToySky(), luminance_rule(refs::standard_spectral_data()), atmosphere, points, {});
+  const Dataset data = dataset(reference, refs::standard_spectral_data(), {});
+  const Eigen::VectorXd luminance =
+      sky_values(ToySky(), data, start_state(atmosphere, 4), {}).value;
   std::mt19937 generator(12);
   std::normal_distribution<double> normal(0, noise);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    reference.samples[i].value = luminance.value(static_cast<Eigen::Index>(i)) *
-                                 std::exp(noise > 0 ? normal(generator) : 0.0);
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    reference.samples[data.samples[i].index].value =
+        luminance(static_cast<Eigen::Index>(i)) * std::exp(noise > 0 ? normal(generator) : 0.0);
   }
   return reference;
 }

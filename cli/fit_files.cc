@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/fit_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments.h"
+#include "data_refs/spectra.h"
+#include "fit/result/record.h"
+#include "model/base/input_file.h"
+#include "model/base/preset_reader.h"
+#include "model/base/whole_file.h"
+#include "render/plot/evaluate.h"
+#include "render/plot/measured_figures.h"
+#include "render/plot/results.h"
+
+namespace skyfit::cli {
+namespace {
+
+constexpr const char *kPresetFile = "preset.json", *kReportFile = "report.json",
+                     *kReportTextFile = "report.txt", *kSamplesFile = "samples.csv",
+                     *kMeasuredFile = "measured.csv";
+constexpr const char* kFigureExtensions[] = {".svg", ".png"};
+constexpr std::string_view kComparison = "comparison";
+
+std::vector<std::string> files_of(std::string_view figure) {
+  std::vector<std::string> files;
+  for (const char* extension : kFigureExtensions)
+    files.push_back(fmt::format("{}{}", figure, extension));
+  return files;
+}
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& directory,
+                                            std::string_view figure) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& file : files_of(figure)) files.push_back(directory / file);
+  return files;
+}
+
+// Directions are where the instrument truly points.
+std::vector<plot::MeasuredSample> measured_samples(const fit::Result& result) {
+  std::vector<plot::MeasuredSample> samples;
+  for (std::size_t i = 0; i < result.reference.samples.size(); ++i) {
+    const refs::Sample& s = result.reference.samples[i];
+    if (!std::isfinite(result.model[i])) continue;  // outside the model's spectra
+    const auto scan = std::ranges::find(
+        result.scans, s.scan, [](const fit::ScanOutcome& outcome) { return outcome.info.number; });
+    const SkyPoint point =
+        fit::pointed({0, s.sun_zenith, s.view_zenith, s.relative_azimuth},
+                     scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
+    const bool fitted = std::isfinite(result.sigma[i]);
+    samples.push_back({static_cast<int>(scan - result.scans.begin()) + 1, degrees(s.sun_zenith),
+                       degrees(point.view_zenith), degrees(point.relative_azimuth), s.wavelength_nm,
+                       s.value, fitted ? result.sigma[i] : 0, result.model[i],
+                       fitted ? s.weight : 0});
+  }
+  return samples;
+}
+
+void write_comparison(const std::filesystem::path& directory, const fit::Result& result,
+                      const SkyModel& model, Figures& figures) {
+  const auto samples = plot::compared_samples(result.reference, result.model, result.start_model,
+                                              result.exclude_sun);
+  plot::write_samples_csv(directory / kSamplesFile, samples);
+  const plot::FitOutcome outcome{directory.string(), result.preset, samples};
+  const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
+  figures.draw(directory, kComparison, [&] {
+    plot::write_comparison(
+        plot::comparison_of({&outcome, 1}, refs::spectral_data_of(result.preset.atmosphere),
+                            model_named),
+        files_in(directory, kComparison));
+  });
+}
+
+void write_measured(const std::filesystem::path& directory, const fit::Result& result,
+                    Figures& figures) {
+  const plot::MeasuredOutcome outcome = measured_outcome(result, measured_samples(result));
+  write_file(directory / kMeasuredFile, plot::measured_to_csv(outcome.samples));
+  for (const std::string_view name : plot::measured_figure_names()) {
+    const plot::MeasuredFigure figure = plot::measured_figure_from_name(name);
+    if (!plot::can_draw(figure, outcome)) continue;
+    figures.draw(directory, name, [&, &shown = outcome] {
+      plot::write_figure(plot::measured_figure(figure, {&shown, 1}), files_in(directory, name));
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> fit_files() {
+  std::vector<std::string> files = {kPresetFile, kReportFile, kReportTextFile, kSamplesFile,
+                                    kMeasuredFile};
+  const auto add = [&](std::string_view figure) {
+    for (const std::string& file : files_of(figure)) files.push_back(file);
+  };
+  add(kComparison);
+  for (const std::string_view name : plot::measured_figure_names()) add(name);
+  return files;
+}
+
+bool has_absolute_values(const fit::Result& result) {
+  return result.reference.quantity != refs::Quantity::kRelativeLuminance;
+}
+
+void write_fit(const std::filesystem::path& directory, const FinishedFit& finished,
+               const SkyModel& model, Figures& figures) {
+  const fit::Result& result = finished.result;
+  write_file(directory / kPresetFile, preset_to_json(result.preset));
+  write_file(directory / kReportFile, json_text(fit::report_json(result, finished.checks)));
+  write_file(directory / kReportTextFile, fit::full_report(result, finished.checks));
+  if (result.reference.quantity != refs::Quantity::kSpectralRadiance)
+    write_comparison(directory, result, model, figures);
+  if (has_absolute_values(result)) write_measured(directory, result, figures);
+}
+
+FinishedFit read_fit(const std::filesystem::path& directory) {
+  const std::filesystem::path preset = directory / kPresetFile, report = directory / kReportFile;
+  const PresetDocument document(read_file(report, "what skyfit fit left"), report.string());
+  return {fit::result_of(load_preset(preset), preset.string()), fit::checks_of(document.root())};
+}
+
+plot::MeasuredOutcome measured_outcome(const fit::Result& result,
+                                       std::vector<plot::MeasuredSample> samples) {
+  plot::MeasuredOutcome outcome;
+  outcome.title = result.reference.name;
+  outcome.spectral = result.reference.quantity == refs::Quantity::kSpectralRadiance;
+  outcome.samples = std::move(samples);
+  for (const fit::ScanOutcome& scan : result.scans) {
+    outcome.scans.push_back(
+        {scan.info.name, scan.info.time_utc, scan.errors.luminance, scan.errors.spectral});
+  }
+  for (const fit::UnknownRow& row : result.unknowns) {
+    outcome.unknowns.push_back({row.unknown.name(), std::string(row.unknown.unit()),
+                                row.unknown.scan + 1, row.fitted, row.sigma});
+  }
+  for (const int u : result.covariance_unknowns)
+    outcome.covariance_unknowns.push_back(outcome.unknowns[static_cast<std::size_t>(u)].name);
+  for (const auto row : result.covariance.rowwise())
+    outcome.covariance.emplace_back(row.begin(), row.end());
+  return outcome;
+}
+
+plot::MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory) {
+  const fit::Result result = read_fit(directory).result;
+  const std::filesystem::path file = directory / kMeasuredFile;
+  plot::MeasuredOutcome outcome = measured_outcome(result, plot::read_measured_csv(file));
+  for (const plot::MeasuredSample& sample : outcome.samples) {
+    if (static_cast<std::size_t>(sample.scan) <= outcome.scans.size()) continue;
+    throw std::invalid_argument(fmt::format("{}: scan = {}: expected one of the {} scans of {}",
+                                            file.string(), sample.scan, outcome.scans.size(),
+                                            kPresetFile));
+  }
+  return outcome;
+}
+
+}  // namespace skyfit::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `skyfit fit`: which sky, which unknowns, which likelihood, which checks.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/inputs.h"
+#include "fit/problem/options.h"
+#include "fit/uncertainty/checks.h"
+#include "model/sky_model.h"
+
+namespace skyfit::cli {
+
+struct FitArguments {
+  std::string reference, sampling = "principal", sun_zenith = "0:80:10", model = "reference";
+  std::string free, preset, site_pressure, out, exclude_sun = "3";
+  std::string per_scan, link, scale, pointing, noise, loss, ground, hold_out;
+  std::vector<std::string> fix, prior, profiles;
+  ImportArguments import;
+  int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
+      threads = default_threads(), bootstrap = 0, seed = 1;
+  bool no_priors = false, keep_absorption_bands = false, force = false, json = false;
+};
+
+void add_fit_options(CLI::App& command, FitArguments& arguments);
+
+// Throw UsageError, and std::invalid_argument where options contradict each other.
+fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model,
+                            const CLI::App& command);
+fit::CheckOptions check_options(const FitArguments& arguments);
+
+}  // namespace skyfit::cli

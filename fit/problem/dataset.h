@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The samples of all scans of a fit, arranged for a model that gives all wavelengths of a direction
+// at once. A relative luminance is a luminance here; its scale is the likelihood's.
+//
+// value of a sample = sum_k weight[k] * radiance per unit solar irradiance at node k, over the
+// square of the sun's distance in au. A spectral radiance has one node, weighted with the sun's
+// irradiance at 1 au there; a luminance has those of a luminance rule.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data_refs/samples.h"
+#include "model/photometry/photometry.h"
+#include "model/sky_model.h"
+
+namespace skyfit::fit {
+
+// What samples share a wavelength (0: luminance).
+struct Channel {
+  double wavelength_nm = 0;
+  std::vector<int> node;
+  std::vector<double> weight;
+};
+
+// One direction of one scan, as the instrument states it. Under a sun that moves during the scan it
+// is a direction from the sun, and `stated` that of its first sample.
+struct LineOfSight {
+  int scan;
+  SkyPoint stated;
+};
+
+// A line of sight under one sun, for which the model is evaluated.
+struct View {
+  int scan;
+  SkyPoint stated;
+  double sun_azimuth;  // radians from north, 0 where it is not known
+};
+
+struct ScanInfo {
+  int number = 0;  // the reference's
+  std::string name;
+  std::string time_utc;                    // empty: not known
+  double sun_zenith = 0, sun_azimuth = 0;  // of its begin, radians; azimuth from north, else 0
+  double inverse_distance2 = 1;            // au^-2
+};
+
+// A sample of the reference in its place.
+struct Sample {
+  std::size_t index;  // in the reference
+  int line_of_sight, view, channel;
+  double value, sigma;  // in the reference's unit; sigma includes the sample's weight
+};
+
+struct Dataset {
+  std::vector<WavelengthNode> nodes;
+  std::vector<Channel> channels;            // ascending wavelength
+  std::vector<ScanInfo> scans;              // all of the reference, also those without a sample
+  std::vector<LineOfSight> lines_of_sight;  // by scan, each in the order of its first sample
+  std::vector<View> views;                  // those of a line of sight follow each other
+  std::vector<Sample> samples;              // by line of sight, then channel
+  int scan_of(const Sample& sample) const {
+    return lines_of_sight[static_cast<std::size_t>(sample.line_of_sight)].scan;
+  }
+  std::vector<int> samples_per_line_of_sight() const;
+};
+
+// sigma^2 = floor^2 + (relative * value)^2 for samples that state none.
+struct NoiseModel {
+  double relative = 0.05;
+  double floor = 0;  // in the reference's unit
+};
+
+struct Selection {
+  bool with_weightless = false;  // also samples of weight 0, those near the sun and negative ones
+  double exclude_sun = 0;        // radians
+  NoiseModel noise;
+  int largest_channels = 0;  // > 0: at most so many wavelengths, evenly chosen, for a search
+};
+
+SkyPoint sky_point(const refs::Sample& sample);
+
+// Throws std::invalid_argument `reference: sample N: field = value: must be ...` for values that
+// are not finite and > 0 and wavelengths outside the tables; with_weightless leaves such samples
+// out.
+Dataset dataset(const refs::Reference& reference, const SpectralData& spectra,
+                const Selection& selection);
+// The samples of one scan.
+Dataset only_scan(Dataset data, int scan);
+
+}  // namespace skyfit::fit

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/problem/problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "model/atmosphere/derived.h"
+#include "model/base/units.h"
+
+namespace skyfit::fit {
+namespace {
+
+constexpr int kSearchChannels = 6;
+
+// The aureole within 10 deg of the sun, which a pointing error of a degree changes by a tenth,
+// would otherwise draw the forward lobe to its bound. 0.88 +- 0.05 spans the forward lobes that
+// describe fine and coarse aerosol together.
+constexpr Prior kForwardLobePrior{0.88, 0.05};
+
+class SkyResiduals : public ResidualFunction {
+ public:
+  SkyResiduals(const Problem& problem, const Dataset& data, double factor)
+      : problem_(problem), data_(data), factor_(factor) {}
+
+  Residuals evaluate(const Eigen::VectorXd& scaled, bool with_jacobian) override {
+    const std::vector<Unknown>& unknowns = problem_.unknowns;
+    const SampleValues values = sky_values(*problem_.model, data_, problem_.state(scaled),
+                                           with_jacobian ? unknowns : std::vector<Unknown>{});
+    Whitened white = whiten(data_, problem_.likelihood, values, factor_);
+    for (Eigen::Index u = 0; u < white.jacobian_per_unit.cols(); ++u) {
+      white.jacobian_per_unit.col(u) *=
+          unknowns[static_cast<std::size_t>(u)].value_per_scaled(scaled(u));
+    }
+    return {std::move(white.residual), std::move(white.jacobian_per_unit)};
+  }
+
+ private:
+  const Problem& problem_;
+  const Dataset& data_;
+  double factor_;
+};
+
+LeastSquares least_squares(const Problem& problem, const Dataset& data,
+                           ResidualFunction* function) {
+  return {function,
+          data.samples_per_line_of_sight(),
+          {problem.unknowns.begin(), problem.unknowns.end()},
+          problem.likelihood.loss,
+          problem.likelihood.loss_width};
+}
+
+std::vector<int> scans_of(bool per_scan, int scans) {
+  if (!per_scan) return {kAllScans};
+  std::vector<int> result;
+  for (int scan = 0; scan < scans; ++scan) result.push_back(scan);
+  return result;
+}
+
+void add_atmosphere(const FitOptions& options, const std::vector<FreeParameter>& parameters,
+                    int scans, std::vector<Unknown>& unknowns) {
+  for (const Parameter id : options.per_scan) {
+    if (std::ranges::count(parameters, id, &FreeParameter::id) > 0) continue;
+    throw std::invalid_argument(
+        fmt::format("fit.per_scan: {}: must be a free parameter", id.name()));
+  }
+  for (const FreeParameter& parameter : parameters) {
+    for (const int scan : scans_of(options.per_scan.contains(parameter.id), scans))
+      unknowns.push_back({parameter, parameter.id, scan});
+  }
+}
+
+void add_instrument(const FitOptions& options, Instrument id, bool per_scan, int scans,
+                    std::vector<Unknown>& unknowns) {
+  const InstrumentInfo& info = instrument_info(id);
+  std::optional<Prior> prior = options.use_priors ? info.prior : std::nullopt;
+  if (const auto given = options.instrument_priors.find(id);
+      given != options.instrument_priors.end()) {
+    prior = Prior{given->second.mean * info.unit_value, given->second.sigma * info.unit_value};
+  }
+  for (const int scan : scans_of(per_scan, scans)) {
+    unknowns.push_back({{info.lower, info.upper, id == Instrument::kScale, prior}, id, scan});
+  }
+}
+
+void add_instruments(const FitOptions& options, Pointing pointing, Scale scale, int scans,
+                     std::vector<Unknown>& unknowns) {
+  if (pointing != Pointing::kStated)
+    add_instrument(options, Instrument::kAzimuthOffset, true, scans, unknowns);
+  if (pointing == Pointing::kAzimuthAndTilt) {
+    add_instrument(options, Instrument::kTiltNorth, true, scans, unknowns);
+    add_instrument(options, Instrument::kTiltEast, true, scans, unknowns);
+  }
+  if (scale == Scale::kShared || scale == Scale::kPerScan)
+    add_instrument(options, Instrument::kScale, scale == Scale::kPerScan, scans, unknowns);
+  for (const auto& [id, prior] : options.instrument_priors) {
+    const bool varied = std::ranges::any_of(unknowns, [&](const Unknown& unknown) {
+      const Instrument* instrument = std::get_if<Instrument>(&unknown.what);
+      return instrument != nullptr && *instrument == id;
+    });
+    if (!varied) {
+      throw std::invalid_argument(
+          fmt::format("fit.prior: {}: must be free to have a prior", instrument_info(id).name));
+    }
+  }
+}
+
+// The table's and those of options.h.
+FitOptions with_default_parameters(const FitOptions& options, const SkyModel& model,
+                                   bool several_wavelengths, bool pointing_is_unknown,
+                                   const Atmosphere<double>& atmosphere) {
+  FitOptions result = options;
+  const bool g1_is_free = options.free
+                              ? std::ranges::count(*options.free, Parameter::kMiePhaseG1) > 0
+                              : has_parameter(atmosphere, Parameter::kMiePhaseG1) &&
+                                    model.can_fit(Parameter::kMiePhaseG1) &&
+                                    !options.fix.contains(Parameter::kMiePhaseG1);
+  if (options.use_priors && pointing_is_unknown && g1_is_free)
+    result.priors.emplace(Parameter::kMiePhaseG1, kForwardLobePrior);
+  if (options.free || !several_wavelengths) return result;
+  result.free.emplace();
+  for (const Parameter& id : parameters_of(atmosphere)) {
+    const bool free = parameter_info(id).free_by_default || id == Parameter::kMieAngstromExponent;
+    if (free && model.can_fit(id) && !options.fix.contains(id)) result.free->push_back(id);
+  }
+  return result;
+}
+
+// Of the site, when every scan states the same.
+std::optional<double> common_elevation(const refs::Reference& reference) {
+  std::optional<double> elevation;
+  for (const refs::Scan& scan : reference.scans) {
+    if (!scan.elevation_m || (elevation && *elevation != *scan.elevation_m)) return {};
+    elevation = scan.elevation_m;
+  }
+  return elevation;
+}
+
+void check_counts(const refs::Reference& reference, const Problem& problem,
+                  const FitOptions& options) {
+  const std::size_t count = problem.fitted.samples.size();
+  if (count == 0) {
+    throw std::invalid_argument(fmt::format(
+        "{}: no sample with weight is farther than {:.6g} deg from the sun, expected at least one",
+        reference.name, options.exclude_sun * kDegreesPerRadian));
+  }
+  const auto scales = static_cast<std::size_t>(problem.profiled_scales());
+  const std::size_t needed = problem.unknowns.size() + scales;
+  if (count < needed) {
+    throw std::invalid_argument(
+        fmt::format("{}: {} samples for {} unknowns and {} profiled scales: must be at least {}",
+                    reference.name, count, problem.unknowns.size(), scales, needed));
+  }
+}
+
+// Shared by all scans or not at all, and without priors.
+bool may_swap_lobes(const FitOptions& options, const std::vector<FreeParameter>& parameters) {
+  const auto own = std::ranges::count_if(options.per_scan, [](const Parameter& id) {
+    const Quantity quantity = id.quantity();
+    return quantity == Quantity::kPhaseG1 || quantity == Quantity::kPhaseG2 ||
+           quantity == Quantity::kPhaseWeight;
+  });
+  return (own == 0 || own == 3) && lobes_interchangeable(parameters);
+}
+
+void add_datasets(const refs::Reference& reference, const SpectralData& spectra,
+                  const FitOptions& options, Problem& problem) {
+  const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
+  const auto selected = [&](int largest_channels) {
+    return dataset(reference, spectra,
+                   {false, options.exclude_sun, problem.likelihood.noise, largest_channels});
+  };
+  problem.fitted = selected(0);
+  problem.medium = spectral ? selected(kMediumChannels) : problem.fitted;
+  problem.coarse = selected(kSearchChannels);
+  problem.all = dataset(reference, spectra, {true, 0, problem.likelihood.noise, 0});
+}
+
+Atmosphere<double> given_atmosphere(const refs::Reference& reference, const FitOptions& options) {
+  Atmosphere<double> given = start_atmosphere(options);
+  if (const auto elevation = common_elevation(reference);
+      elevation && !options.start && !options.site_pressure_hpa)
+    set_site_pressure(given, standard_pressure_hpa(*elevation));
+  if (options.ground) given.ground_spectrum = *options.ground;
+  return given;
+}
+
+// The start as the options say, with what is fixed; parameters that it lacks are left out.
+Atmosphere<double> as_given(Atmosphere<double> atmosphere, const FitOptions& options) {
+  for (const auto& [id, value] : options.fix) {
+    if (has_parameter(atmosphere, id)) set_parameter(atmosphere, id, value);
+  }
+  return atmosphere;
+}
+
+}  // namespace
+
+SkyState Problem::state(const Eigen::VectorXd& scaled) const {
+  return with_unknowns(start, unknowns, scaled);
+}
+
+int Problem::profiled_scales() const {
+  if (likelihood.scale != Scale::kProfiled) return 0;
+  std::set<int> with_samples;
+  for (const LineOfSight& line : fitted.lines_of_sight) with_samples.insert(line.scan);
+  return static_cast<int>(with_samples.size());
+}
+
+Eigen::VectorXd Problem::with_ordered_lobes(const Eigen::VectorXd& scaled) const {
+  if (!lobes_may_swap) return scaled;
+  SkyState ordered = state(scaled);
+  bool swapped = false;
+  for (Atmosphere<double>& atmosphere : ordered.atmosphere) swapped |= order_lobes(atmosphere);
+  return swapped ? scaled_values(unknowns, ordered) : scaled;
+}
+
+SkyState Problem::with_profiled_scales(SkyState at, const Dataset& data) const {
+  if (likelihood.scale != Scale::kProfiled) return at;
+  const auto scale_of = [&](std::size_t scan) -> double& {
+    return at.instrument[scan][static_cast<std::size_t>(Instrument::kScale)];
+  };
+  for (std::size_t s = 0; s < at.instrument.size(); ++s) scale_of(s) = 1;
+  const Eigen::VectorXd scale = whiten(data, likelihood, sky_values(*model, data, at, {}), 1).scale;
+  for (std::size_t s = 0; s < at.instrument.size(); ++s)
+    scale_of(s) = scale(static_cast<Eigen::Index>(s));
+  return at;
+}
+
+Eigen::VectorXd Problem::residuals(const Dataset& data, const Eigen::VectorXd& scaled,
+                                   double factor) const {
+  return whiten(data, likelihood, sky_values(*model, data, state(scaled), {}), factor).residual;
+}
+
+Minimum Problem::solve(const Dataset& data, const Eigen::VectorXd& start_scaled, double factor,
+                       const SolverLimits& limits) const {
+  SkyResiduals function(*this, data, factor);
+  if (unknowns.empty()) {
+    const Residuals as_is = function.evaluate(start_scaled, false);
+    return {start_scaled, 0.5 * as_is.value.squaredNorm(), 0, 1, 0, true, "NOTHING IS FREE"};
+  }
+  return minimise(least_squares(*this, data, &function), start_scaled, limits);
+}
+
+std::vector<double> Problem::loss_weights(const Eigen::VectorXd& residual) const {
+  return fit::loss_weights(least_squares(*this, fitted, nullptr), residual);
+}
+
+Problem make_problem(const refs::Reference& reference, const SpectralData& spectra,
+                     const SkyModel& model, const FitOptions& options) {
+  check_lobes(options, model);
+  Problem problem;
+  problem.model = &model;
+  problem.likelihood = likelihood_of(options, reference);
+  add_datasets(reference, spectra, options, problem);
+  const Atmosphere<double> given = given_atmosphere(reference, options);
+  const bool evaluate_only = options.free && options.free->empty();
+  const Atmosphere<double> base =
+      with_fixed_values(evaluate_only ? given : with_lobes(given, options.lobes), options);
+  const Pointing pointing = pointing_of(options, reference);
+  const bool several_wavelengths =
+      problem.fitted.channels.size() > 1 && reference.quantity == refs::Quantity::kSpectralRadiance;
+  const FitOptions with_defaults = with_default_parameters(options, model, several_wavelengths,
+                                                           pointing != Pointing::kStated, base);
+  const std::vector<FreeParameter> parameters = choose_free_parameters(with_defaults, model, base);
+  problem.starts = choose_starts(base, parameters, options.starts, options.start.has_value());
+  problem.start = start_state(problem.starts.front().atmosphere, problem.scans());
+  problem.given =
+      options.start ? start_state(as_given(given, options), problem.scans()) : problem.start;
+  problem.lobes_may_swap = may_swap_lobes(options, parameters);
+  add_atmosphere(options, parameters, problem.scans(), problem.unknowns);
+  add_instruments(options, pointing, problem.likelihood.scale, problem.scans(), problem.unknowns);
+  check_counts(reference, problem, options);
+  return problem;
+}
+
+std::vector<double> reference_values(const Problem& problem, const SkyState& state,
+                                     std::size_t samples) {
+  const SampleValues values = sky_values(*problem.model, problem.all, state, {});
+  std::vector<double> result(samples, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < problem.all.samples.size(); ++i)
+    result[problem.all.samples[i].index] = values.value(static_cast<Eigen::Index>(i));
+  return result;
+}
+
+FitOptions as_pointed(FitOptions options) {
+  options.exclude_sun = 0;
+  return options;
+}
+
+}  // namespace skyfit::fit

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The problem of least squares behind a fit: data, unknowns and likelihood.
+#pragma once
+
+#include <vector>
+
+#include "fit/problem/likelihood.h"
+#include "fit/problem/options.h"
+#include "fit/problem/starts.h"
+#include "fit/problem/unknowns.h"
+#include "fit/solve/least_squares.h"
+
+namespace skyfit::fit {
+
+inline constexpr int kMediumChannels = 12;  // wavelengths of what is repeated
+
+struct Problem {
+  const SkyModel* model;
+  Likelihood likelihood;
+  Dataset fitted;  // the samples that are fitted
+  Dataset medium;  // some wavelengths of them, for what is repeated
+  Dataset coarse;  // few wavelengths of them, or a coarse rule of luminance, for a search
+  Dataset all;     // every sample of the reference
+  SkyState given;  // as the options say
+  SkyState start;  // the first of the starts
+  std::vector<Unknown> unknowns;
+  std::vector<Start> starts;
+  bool lobes_may_swap = false;  // exchanging them leaves the problem as it is
+
+  int scans() const { return static_cast<int>(fitted.scans.size()); }
+  int profiled_scales() const;  // of the fitted scans
+  SkyState state(const Eigen::VectorXd& scaled) const;
+  // The same sky with g1 > g2 where the lobes may swap.
+  Eigen::VectorXd with_ordered_lobes(const Eigen::VectorXd& scaled) const;
+  // Where the scale is profiled, the state with that of each scan in `data`; NaN without a sample.
+  SkyState with_profiled_scales(SkyState state, const Dataset& data) const;
+  Eigen::VectorXd residuals(const Dataset& data, const Eigen::VectorXd& scaled,
+                            double factor) const;
+  Minimum solve(const Dataset& data, const Eigen::VectorXd& start_scaled, double factor,
+                const SolverLimits& limits) const;
+  // What the loss leaves of the weight of each line of sight of `fitted`.
+  std::vector<double> loss_weights(const Eigen::VectorXd& residual) const;
+};
+
+// Throws std::invalid_argument as fit_atmosphere() does.
+Problem make_problem(const refs::Reference& reference, const SpectralData& spectra,
+                     const SkyModel& model, const FitOptions& options);
+
+// The model's value of every sample of the reference, with the instrument; NaN outside the model's
+// spectra.
+std::vector<double> reference_values(const Problem& problem, const SkyState& state,
+                                     std::size_t samples);
+
+// The options for a reference whose samples near the sun have weight 0 already.
+FitOptions as_pointed(FitOptions options);
+
+}  // namespace skyfit::fit

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/problem/sky_values.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "model/base/units.h"
+
+namespace skyfit::fit {
+namespace {
+
+constexpr double kPointingStep = 0.25 * kRadiansPerDegree;
+
+// Views that see one atmosphere and are measured at the same wavelengths.
+struct Group {
+  int scan = 0;  // the first of them
+  std::vector<int> views;
+  std::vector<Eigen::Index> samples;
+  std::vector<int> index_of_node;  // of all nodes, within `nodes`
+  std::vector<WavelengthNode> nodes;
+};
+
+// What is measured under one sun of a scan; a sample that is missing does not part its direction
+// from the others.
+using Sun = std::pair<int, double>;
+Sun sun_of(const View& view) { return {view.scan, view.stated.sun_zenith}; }
+
+std::map<Sun, std::set<int>> channels_of_suns(const Dataset& data) {
+  std::map<Sun, std::set<int>> channels;
+  for (const Sample& sample : data.samples)
+    channels[sun_of(data.views[static_cast<std::size_t>(sample.view)])].insert(sample.channel);
+  return channels;
+}
+
+void add_nodes(const Dataset& data, const std::set<int>& channels, Group& group) {
+  group.index_of_node.assign(data.nodes.size(), -1);
+  for (const int channel : channels) {
+    for (const int node : data.channels[static_cast<std::size_t>(channel)].node) {
+      group.index_of_node[static_cast<std::size_t>(node)] = static_cast<int>(group.nodes.size());
+      group.nodes.push_back(data.nodes[static_cast<std::size_t>(node)]);
+    }
+  }
+}
+
+// Views without a sample are in none.
+std::vector<Group> groups_of(const Dataset& data, const SkyState& state) {
+  const std::map<Sun, std::set<int>> channels = channels_of_suns(data);
+  std::map<std::pair<int, std::set<int>>, Group> groups;
+  for (std::size_t r = 0; r < data.samples.size(); ++r) {
+    const int index = data.samples[r].view;
+    const View& view = data.views[static_cast<std::size_t>(index)];
+    const std::set<int>& measured = channels.at(sun_of(view));
+    const auto [at, is_new] = groups.try_emplace({state.one_atmosphere ? 0 : view.scan, measured});
+    Group& group = at->second;
+    if (is_new) {
+      group.scan = view.scan;
+      add_nodes(data, measured, group);
+    }
+    if (group.views.empty() || group.views.back() != index) group.views.push_back(index);
+    group.samples.push_back(static_cast<Eigen::Index>(r));
+  }
+  std::vector<Group> result;
+  for (auto& [key, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+class Evaluation {
+ public:
+  Evaluation(const SkyModel& model, const Dataset& data, const SkyState& state,
+             const std::vector<Unknown>& unknowns)
+      : model_(model), data_(data), state_(state), unknowns_(unknowns) {
+    const auto samples = static_cast<Eigen::Index>(data.samples.size());
+    result_.value = Eigen::VectorXd::Zero(samples);
+    result_.derivative = Eigen::MatrixXd::Zero(samples, static_cast<Eigen::Index>(unknowns.size()));
+  }
+
+  SampleValues run() {
+    for (const Group& group : groups_of(data_, state_)) {
+      add_atmosphere(group);
+      add_pointing(group);
+    }
+    add_scale();
+    return std::move(result_);
+  }
+
+ private:
+  const Atmosphere<double>& atmosphere(const Group& group) const {
+    return state_.atmosphere[static_cast<std::size_t>(group.scan)];
+  }
+
+  SkyPoint point(int view, Instrument moved, double by) const {
+    const View& stated = data_.views[static_cast<std::size_t>(view)];
+    auto instrument = state_.instrument[static_cast<std::size_t>(stated.scan)];
+    instrument[static_cast<std::size_t>(moved)] += by;
+    return pointed(stated.stated, stated.sun_azimuth, instrument);
+  }
+
+  // Calls use(sample index, sample, view within the group, factor from the weighted radiance).
+  template <class Use>
+  void for_samples(const Group& group, const Use& use) const {
+    int view = 0;
+    for (const Eigen::Index r : group.samples) {
+      const Sample& sample = data_.samples[static_cast<std::size_t>(r)];
+      if (group.views[static_cast<std::size_t>(view)] != sample.view) ++view;  // both ascend
+      const int scan = data_.scan_of(sample);
+      const double factor = data_.scans[static_cast<std::size_t>(scan)].inverse_distance2 *
+                            state_.instrument[static_cast<std::size_t>(scan)]
+                                             [static_cast<std::size_t>(Instrument::kScale)];
+      use(r, sample, view, factor);
+    }
+  }
+
+  template <class At>
+  double weighted(const Group& group, const Sample& sample, const At& at) const {
+    const Channel& channel = data_.channels[static_cast<std::size_t>(sample.channel)];
+    double sum = 0;
+    for (std::size_t k = 0; k < channel.node.size(); ++k)
+      sum += channel.weight[k] * at(group.index_of_node[static_cast<std::size_t>(channel.node[k])]);
+    return sum;
+  }
+
+  void add_atmosphere(const Group& group) {
+    std::vector<Parameter> wanted;
+    std::vector<int> slice(unknowns_.size(), -1);
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      const Parameter* parameter = std::get_if<Parameter>(&unknowns_[u].what);
+      if (parameter == nullptr) continue;
+      if (!state_.one_atmosphere && !unknowns_[u].applies_to(group.scan)) continue;
+      slice[u] = static_cast<int>(wanted.size());
+      wanted.push_back(*parameter);
+    }
+    std::vector<SkyPoint> points;
+    for (const int view : group.views) points.push_back(point(view, Instrument::kAzimuthOffset, 0));
+    const SkyValues sky = model_.radiance(atmosphere(group), group.nodes, points, wanted);
+    for_samples(group, [&](Eigen::Index r, const Sample& sample, int view, double factor) {
+      result_.value(r) =
+          factor * weighted(group, sample, [&](int node) { return sky.at(view, node); });
+      for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+        if (slice[u] < 0 || !unknowns_[u].applies_to(data_.scan_of(sample))) continue;
+        result_.derivative(r, static_cast<Eigen::Index>(u)) =
+            factor * weighted(group, sample,
+                              [&](int node) { return sky.derivative_at(slice[u], view, node); });
+      }
+    });
+  }
+
+  // The pointing angles that some unknown varies.
+  std::vector<Instrument> moved_angles() const {
+    std::vector<Instrument> angles;
+    for (const Unknown& unknown : unknowns_) {
+      const Instrument* id = std::get_if<Instrument>(&unknown.what);
+      if (id != nullptr && *id != Instrument::kScale && std::ranges::count(angles, *id) == 0)
+        angles.push_back(*id);
+    }
+    return angles;
+  }
+
+  void add_pointing(const Group& group) {
+    const std::vector<Instrument> angles = moved_angles();
+    if (angles.empty()) return;
+    const int views = static_cast<int>(group.views.size());
+    std::vector<SkyPoint> points;
+    for (const Instrument angle : angles) {
+      for (const double step : {-kPointingStep, kPointingStep}) {
+        for (const int view : group.views) points.push_back(point(view, angle, step));
+      }
+    }
+    const SkyValues sky = model_.radiance(atmosphere(group), group.nodes, points, {});
+    for_samples(group, [&](Eigen::Index r, const Sample& sample, int view, double factor) {
+      const int scan = data_.scan_of(sample);
+      for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+        const Instrument* id = std::get_if<Instrument>(&unknowns_[u].what);
+        const auto angle = id == nullptr ? angles.end() : std::ranges::find(angles, *id);
+        if (angle == angles.end() || !unknowns_[u].applies_to(scan)) continue;
+        const int below = static_cast<int>(angle - angles.begin()) * 2 * views + view;
+        result_.derivative(r, static_cast<Eigen::Index>(u)) =
+            factor / (2 * kPointingStep) * weighted(group, sample, [&](int node) {
+              return sky.at(below + views, node) - sky.at(below, node);
+            });
+      }
+    });
+  }
+
+  void add_scale() {
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      const Instrument* id = std::get_if<Instrument>(&unknowns_[u].what);
+      if (id == nullptr || *id != Instrument::kScale) continue;
+      for (std::size_t r = 0; r < data_.samples.size(); ++r) {
+        const int scan = data_.scan_of(data_.samples[r]);
+        if (!unknowns_[u].applies_to(scan)) continue;
+        const auto sample = static_cast<Eigen::Index>(r);
+        result_.derivative(sample, static_cast<Eigen::Index>(u)) =
+            result_.value(sample) / state_.instrument[static_cast<std::size_t>(scan)]
+                                                     [static_cast<std::size_t>(Instrument::kScale)];
+      }
+    }
+  }
+
+  const SkyModel& model_;
+  const Dataset& data_;
+  const SkyState& state_;
+  const std::vector<Unknown>& unknowns_;
+  SampleValues result_;
+};
+
+}  // namespace
+
+SampleValues sky_values(const SkyModel& model, const Dataset& data, const SkyState& state,
+                        const std::vector<Unknown>& unknowns) {
+  return Evaluation(model, data, state, unknowns).run();
+}
+
+}  // namespace skyfit::fit

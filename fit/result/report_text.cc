@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/result/findings.h"
+#include "fit/result/record.h"
+#include "fit/result/report.h"
+#include "model/base/units.h"
+
+namespace skyfit::fit {
+namespace {
+
+constexpr Eigen::Index kFullMatrix = 11;  // unknowns whose correlations fit 100 columns
+
+std::string number(double value, int digits = 5) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("-");
+}
+
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+bool relative(const Result& result) {
+  return result.reference.quantity == refs::Quantity::kRelativeLuminance;
+}
+
+std::string likelihood_text(const Result& result) {
+  const Likelihood& likelihood = result.likelihood;
+  std::string text = fmt::format("{} residuals, scale {}, pointing {}", link_name(likelihood.link),
+                                 scale_name(likelihood.scale), pointing_name(result.pointing));
+  if (likelihood.noise_is_known) text += ", noise known";
+  if (likelihood.loss != Loss::kNone)
+    text += fmt::format(", {} loss of {:.3g} sigmas", loss_name(likelihood.loss),
+                        likelihood.loss_width);
+  return text;
+}
+
+std::string header(const Result& result) {
+  return fmt::format(
+      "Fit of {}\n"
+      "reference   {}\n"
+      "model       {} (skyfit {}), started from {}\n"
+      "likelihood  {}\n"
+      "samples     {} in {} directions of {} scans, {:.4g} deg around the sun left out\n"
+      "solver      {} after {} iterations of all {} starts; {} model solutions, {} with "
+      "derivatives\n\n",
+      result.preset.name, result.reference.description, result.model_name, result.version,
+      result.start_name, likelihood_text(result), result.samples, result.directions,
+      result.scans.size(), result.exclude_sun * kDegreesPerRadian, result.termination,
+      result.iterations, result.starts.size(), result.model_evaluations,
+      result.derivative_evaluations);
+}
+
+// What is known of the reference, and its samples without weight by reason.
+std::string reference_remarks(const Result& result) {
+  std::string text;
+  for (const std::string& note : result.reference.notes)
+    text += fmt::format("note        {}\n", note);
+  for (const auto& [reason, count] : result.samples_left_out)
+    text += fmt::format("left out    {} sample{}: {}\n", count, count == 1 ? "" : "s", reason);
+  return text.empty() ? text : text + "\n";
+}
+
+std::string scan_name(const Result& result, std::size_t scan) {
+  const ScanInfo& info = result.scans[scan].info;
+  const std::string name = info.name.substr(info.name.rfind('/') + 1);
+  return fmt::format("[{}] {}, sun {:.4g} deg", scan + 1, name.substr(0, 24),
+                     info.sun_zenith * kDegreesPerRadian);
+}
+
+std::string errors_text(const Result& result) {
+  constexpr std::string_view kRow = "{:<44}{:>12}{:>12}{:>12}{:>12}\n";
+  const auto row = [&](std::string_view name, const Errors& errors) {
+    return fmt::format(kRow, name, number(errors.rms_log, 4), number(errors.luminance, 4),
+                       number(errors.spectral, 4), number(errors.mean_bias, 3));
+  };
+  std::string text =
+      fmt::format(kRow, "Errors, percent", "RMS of log", "luminance", "spectral", "mean bias");
+  text += row("all scans, at the start", result.start_errors);
+  text += row("all scans, fitted", result.errors);
+  for (std::size_t s = 0; s < result.scans.size(); ++s)
+    text += row(scan_name(result, s), result.scans[s].errors);
+  return text +
+         "RMS of log: root mean square of ln(model / value) with a free scale per scan; luminance: "
+         "of\nmodel / value - 1 over the directions; spectral: |model - value| over |value|, "
+         "2-norms "
+         "over all\nsamples of 400 to 700 nm.\n\n";
+}
+
+std::string rms_text(const Result& result) {
+  const auto row = [](std::string_view name, double start, double fitted) {
+    return fmt::format("{:<52}{:>12}{:>12}\n", name, number(start), number(fitted));
+  };
+  const RmsSummary &start = result.start_rms, &fitted = result.rms;
+  return fmt::format("{:<52}{:>12}{:>12}\n", "RMS of log ratio, percent", "start", "fitted") +
+         row("all fitted samples", start.all, fitted.all) +
+         row("3 deg around the sun left out", start.cone3, fitted.cone3) +
+         row("10 deg around the sun left out", start.cone10, fitted.cone10) +
+         row("sun zenith <= 70 deg", start.sun_below_70, fitted.sun_below_70) + "\n";
+}
+
+// The profiled scales; those that are unknowns stand among these.
+std::string scales_text(const Result& result) {
+  if (result.likelihood.scale != Scale::kProfiled) return "";
+  std::string text =
+      fmt::format("{:<44}{:>14}{:>14}{:>18}\n", "Per scan, percent and scale (value / model)",
+                  "RMS start", "RMS fitted", "scale");
+  for (std::size_t s = 0; s < result.scans.size(); ++s) {
+    const ScanOutcome& scan = result.scans[s];
+    text += fmt::format("{:<44}{:>14}{:>14}{:>18}\n", scan_name(result, s),
+                        number(scan.start_errors.rms_log, 4), number(scan.errors.rms_log, 4),
+                        number(scan.instrument[static_cast<std::size_t>(Instrument::kScale)]));
+  }
+  return text + "\n";
+}
+
+std::string remark(const UnknownRow& row) {
+  if (row.at_bound) {
+    const double value = row.fitted * row.unknown.unit_value();
+    const bool lower = value - row.unknown.lower < row.unknown.upper - value;
+    return fmt::format("at {} bound", lower ? "lower" : "upper");
+  }
+  return row.identifiable ? "" : "not identifiable";
+}
+
+std::string fixed_text(const Result& result) {
+  std::string text;
+  for (const FixedRow& row : result.fixed) {
+    text += fmt::format("{:<29}{:<4}{:>10}{:>11} {:>10} fixed\n", row.parameter.name(),
+                        parameter_info(row.parameter).unit, number(row.start, 4), number(row.value),
+                        "-");
+  }
+  return text;
+}
+
+std::string sigma_text(const Result& result) {
+  std::string text;
+  if (result.likelihood.noise_is_known) {
+    text = fmt::format(
+        "One sigma is from the known noise ({:.3g} % root mean square) and the priors; chi^2 per "
+        "degree of\nfreedom = {:.4g} (well above 1: the misfit is larger than the noise).\n",
+        result.sigma_percent, result.chi_square_per_dof);
+  } else {
+    text = fmt::format(
+        "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "
+        "assumed.\nCorrelated as the residuals are, {} samples count as {:.3g} independent ones. "
+        "chi^2 per degree of\nfreedom under the assumed noise: {:.4g}.\n",
+        result.sigma_percent, result.sigma_factor, result.samples, result.effective_samples,
+        result.chi_square_per_dof);
+  }
+  return text +
+         "\"not identifiable\": the data say less about the unknown than its prior (without one: "
+         "than its\nbounds). Unknowns at a bound have no sigma; those of the others hold with it "
+         "there.\n";
+}
+
+std::string unknowns_text(const Result& result) {
+  constexpr std::string_view kRow = "{:<29}{:<4}{:>10}{:>11}{:>11} {:<20}{}";
+  std::string text = trimmed(fmt::format(kRow, "unknown ([scan])", "unit", "start", "fitted",
+                                         "one sigma", "prior", "remark"));
+  for (const UnknownRow& row : result.unknowns) {
+    const std::optional<Prior>& prior = row.unknown.prior;
+    const double unit = row.unknown.unit_value();
+    text += trimmed(fmt::format(
+        kRow, row.unknown.name(), row.unknown.unit(), number(row.start, 4), number(row.fitted),
+        number(row.sigma, 3),
+        prior ? fmt::format("{:.4g}+-{:.3g}", prior->mean / unit, prior->sigma / unit) : "none",
+        remark(row)));
+  }
+  return text + fixed_text(result) + "\n" + sigma_text(result) + "\n";
+}
+
+// A prior that the misfit overrides: the unknown is neither known nor at its prior.
+std::string pulled_text(const Result& result) {
+  constexpr double kPulled = 2;  // prior sigmas
+  std::string text;
+  for (const UnknownRow& row : result.unknowns) {
+    const std::optional<Prior>& prior = row.unknown.prior;
+    if (!prior || row.identifiable) continue;
+    const double pull = (row.fitted * row.unknown.unit_value() - prior->mean) / prior->sigma;
+    if (std::abs(pull) < kPulled) continue;
+    text += fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there{}.\n",
+                        row.unknown.name(), pull,
+                        row.unknown.what == std::variant<Parameter, Instrument>(
+                                                Parameter::kMieSingleScatteringAlbedo)
+                            ? "; an unknown calibration (--scale) may be what it stands for"
+                            : "");
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+std::string correlation_text(const Result& result) {
+  if (result.covariance_unknowns.empty()) return "No covariance: every unknown is at a bound.\n\n";
+  if (result.correlation.size() == 0) {
+    return "The covariance is singular: data and priors leave a direction open (see the unknowns "
+           "without sigma).\nCondition number of the normal matrix: infinite.\n\n";
+  }
+  const auto name = [&](Eigen::Index k) {
+    return result
+        .unknowns[static_cast<std::size_t>(result.covariance_unknowns[static_cast<std::size_t>(k)])]
+        .unknown.name();
+  };
+  const Eigen::Index count = result.correlation.rows();
+  std::string text = fmt::format(
+      "Correlations{} (condition number of the normal matrix with unit diagonal: {:.3g})\n",
+      count > kFullMatrix ? " of at least 0.5" : "", result.condition_number);
+  if (count > kFullMatrix) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = 0; j < i; ++j) {
+        const double value = result.correlation(i, j);
+        if (std::abs(value) >= 0.5)
+          text += fmt::format("{:<32}{:<32}{:>7.2f}\n", name(j), name(i), value);
+      }
+    }
+    return text + "\n";
+  }
+  for (Eigen::Index i = 0; i < count; ++i) {
+    text += fmt::format("{:>2} {:<29}", i + 1, name(i));
+    for (Eigen::Index j = 0; j <= i; ++j) text += fmt::format("{:>6.2f}", result.correlation(i, j));
+    text += "\n";
+  }
+  text += fmt::format("{:32}", "");
+  for (Eigen::Index j = 0; j < count; ++j) text += fmt::format("{:>6}", j + 1);
+  return text + "\n\n";
+}
+
+std::string starts_text(const Result& result) {
+  std::string text = "Starts (cost: half the sum of squares of the coarse search, a pure number)\n";
+  for (std::size_t i = 0; i < result.starts.size(); ++i) {
+    const StartSummary& start = result.starts[i];
+    text += fmt::format("{:>3}  {:<50}{:>14} in {:>3} iterations{}\n", i + 1, start.name,
+                        std::isfinite(start.cost) ? number(start.cost) : "failed", start.iterations,
+                        start.best ? "  best" : "");
+  }
+  return text + "\n";
+}
+
+std::string findings_text(const Result& result) {
+  std::string text =
+      fmt::format("{:<42}{:>12}  {}\n", "Physics found", "value", "plausible, source");
+  for (const Finding& finding : findings(result.preset.atmosphere)) {
+    text += fmt::format("{:<42}{:>12}  {:.3g}..{:.3g}{}\n    {}\n", finding.name,
+                        number(finding.value, 4), finding.lower, finding.upper,
+                        finding.plausible() ? "" : " NO", finding.source);
+  }
+  return text + "\n";
+}
+
+std::string profiles_text(const std::vector<Profile>& profiles) {
+  std::string text;
+  for (const Profile& profile : profiles) {
+    text +=
+        fmt::format("Profile likelihood of {}, {}: 68 % {} .. {}, 95 % {} .. {}\n", profile.name,
+                    profile.unit, number(profile.percent68.lower), number(profile.percent68.upper),
+                    number(profile.percent95.lower), number(profile.percent95.upper));
+    for (std::size_t i = 0; i < profile.value.size(); ++i)
+      text += fmt::format("  {:>12}  chi^2 + {:.4g}\n", number(profile.value[i]),
+                          profile.chi_square[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string bootstrap_text(const Result& result, const Bootstrap& bootstrap) {
+  std::string text = fmt::format(
+      "Bootstrap over the directions (not the priors), {} "
+      "repetitions{}\n{:<32}{:>12}{:>12}{:>22}\n",
+      bootstrap.repetitions,
+      bootstrap.failed > 0 ? fmt::format(", {} failed", bootstrap.failed) : "", "unknown", "mean",
+      "sigma", "sigma of covariance");
+  for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+    text += fmt::format("{:<32}{:>12}{:>12}{:>22}\n", result.unknowns[u].unknown.name(),
+                        number(bootstrap.mean[u]), number(bootstrap.sigma[u], 3),
+                        number(result.unknowns[u].sigma, 3));
+  }
+  return text + "\n";
+}
+
+std::string hold_out_text(const std::vector<HoldOut>& hold_outs) {
+  if (hold_outs.empty()) return "";
+  constexpr std::string_view kRow = "{:<38}{:>10}{:>10}{:>10}{:>12}{:>10}{:>10}\n";
+  std::string text = fmt::format(kRow, "Errors of what was left out, percent", "RMS log",
+                                 "luminance", "spectral", "own: RMS", "luminance", "spectral");
+  const auto row = [&](std::string_view name, const Errors& predicted, const Errors& pointed) {
+    return fmt::format(kRow, name, number(predicted.rms_log, 4), number(predicted.luminance, 4),
+                       number(predicted.spectral, 4), number(pointed.rms_log, 4),
+                       number(pointed.luminance, 4), number(pointed.spectral, 4));
+  };
+  Errors predicted, pointed;
+  const auto add = [&](Errors& sum, const Errors& errors) {
+    const auto count = static_cast<double>(hold_outs.size());
+    sum.rms_log += errors.rms_log / count;
+    sum.luminance += errors.luminance / count;
+    sum.spectral += errors.spectral / count;
+  };
+  for (const HoldOut& held : hold_outs) {
+    text +=
+        row(held.name.substr(held.name.rfind('/') + 1).substr(0, 37), held.predicted, held.pointed);
+    add(predicted, held.predicted);
+    add(pointed, held.pointed);
+  }
+  return text + row("mean", predicted, pointed) +
+         "A scan left out is predicted with the mean instrument of the others (a profiled scale is "
+         "its own),\nthen with its own pointing fitted.\n\n";
+}
+
+std::string downweighted_text(const Result& result) {
+  if (result.downweighted == 0) return "";
+  return fmt::format("The loss leaves {} samples less than half their weight.\n\n",
+                     result.downweighted);
+}
+
+}  // namespace
+
+std::string brief_report(const Result& result) {
+  const auto open = std::ranges::count_if(result.unknowns,
+                                          [](const UnknownRow& row) { return !row.identifiable; });
+  std::string errors = fmt::format("{:.3g} % RMS log error ({:.3g} % at the start)",
+                                   result.errors.rms_log, result.start_errors.rms_log);
+  if (!relative(result)) {
+    errors = fmt::format("luminance error {:.3g} %", result.errors.luminance);
+    if (std::isfinite(result.errors.spectral))
+      errors += fmt::format(", spectral error {:.3g} %", result.errors.spectral);
+  }
+  return fmt::format("{}: {}, {} samples, {}{}", result.preset.name, errors, result.samples,
+                     result.converged ? "converged" : "NOT CONVERGED",
+                     open > 0 ? fmt::format(", {} unknowns not identifiable", open) : "");
+}
+
+std::string full_report(const Result& result, const Checks& checks) {
+  return header(result) + reference_remarks(result) + errors_text(result) + rms_text(result) +
+         scales_text(result) + unknowns_text(result) + pulled_text(result) +
+         downweighted_text(result) + correlation_text(result) + findings_text(result) +
+         starts_text(result) + profiles_text(checks.profiles) +
+         (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
+         hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
+}
+
+nlohmann::json report_json(const Result& result, const Checks& checks) {
+  nlohmann::json report = result.preset.fit;
+  report["name"] = result.preset.name;
+  report["checks"] = checks_json(result, checks);
+  return report;
+}
+
+}  // namespace skyfit::fit

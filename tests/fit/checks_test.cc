@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Profile likelihood, bootstrap and hold-outs of scans with stated noise agree with the covariance
+// and with the noise.
+#include "fit/uncertainty/checks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fit/scans.h"
+#include "tests/fit/synthetic.h"
+
+namespace skyfit::fit {
+namespace {
+
+class ChecksTest : public testing::Test {
+ protected:
+  ChecksTest() {
+    how.noise = 0.02;
+    how.azimuth_offset_deg = {5, 5};
+    reference = synthetic_scans(model, true_atmosphere(1), how);
+    options.lobes = 1;
+    options.use_priors = false;
+    options.free = std::vector{Parameter::kMieScattering, Parameter::kMieAngstromExponent,
+                               Parameter::kMiePhaseG};
+    options.fix = {{Parameter::kRayleighScattering, 1.25e-5},
+                   {Parameter::kMieSingleScatteringAlbedo, 0.93},
+                   {Parameter::kGroundAlbedo, 0.2}};
+    options.noise = NoiseModel{0.02, 0};
+    result = fit_atmosphere(reference, spectra, model, options);
+  }
+  const ToySky model;
+  const SpectralData& spectra = refs::standard_spectral_data();
+  SyntheticScans how;
+  refs::Reference reference;
+  FitOptions options;
+  Result result;
+};
+
+// Near a minimum the likelihood is a parabola whose half width is sigma.
+TEST_F(ChecksTest, ProfileIsAsWideAsSigma) {
+  const UnknownRow& row = result.unknowns[2];
+  const Profile profile = profile_likelihood(spectra, model, options, result, row.unknown.name());
+  constexpr double kCurved = 0.05;  // the parabola is not exact over three sigmas
+  EXPECT_NEAR((profile.percent68.upper - profile.percent68.lower) / (2 * row.sigma), 1, kCurved);
+  EXPECT_NEAR((profile.percent95.upper - profile.percent95.lower) / (2 * 1.96 * row.sigma), 1,
+              kCurved);
+  EXPECT_EQ(*std::ranges::min_element(profile.chi_square), 0);
+}
+
+TEST_F(ChecksTest, ProfileOfNoUnknownListsThem) {
+  try {
+    profile_likelihood(spectra, model, options, result, "mie.phase.g9");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("fit: mie.phase.g9: not an unknown"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("instrument.azimuth_offset[2]"));
+  }
+}
+
+// 100 repetitions know a standard deviation to 7 %; directions are few (48).
+TEST_F(ChecksTest, BootstrapSpreadsAsTheCovarianceSays) {
+  const Bootstrap outcome = bootstrap(spectra, model, options, result, 100, 1);
+  EXPECT_EQ(outcome.failed, 0);
+  for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+    EXPECT_NEAR(outcome.sigma[u] / result.unknowns[u].sigma, 1, 0.4)
+        << result.unknowns[u].unknown.name();
+    EXPECT_NEAR(outcome.mean[u], result.unknowns[u].fitted, 0.5 * result.unknowns[u].sigma);
+  }
+  const Bootstrap again = bootstrap(spectra, model, options, result, 3, 7);
+  EXPECT_EQ(again.mean, bootstrap(spectra, model, options, result, 3, 7).mean);
+}
+
+// What was left out is predicted as well as the noise allows.
+TEST_F(ChecksTest, HoldOutsSeeTheNoise) {
+  const std::vector<HoldOut> scans = leave_one_scan_out(spectra, model, options, result);
+  ASSERT_EQ(scans.size(), 2u);
+  for (const HoldOut& held : scans) {
+    EXPECT_NEAR(held.predicted.spectral, 2, 0.5) << held.name;
+    EXPECT_NEAR(held.pointed.spectral, 2, 0.5) << held.name;
+  }
+  const std::vector<HoldOut> parts = hold_out_directions(spectra, model, options, result, 3, 1);
+  ASSERT_EQ(parts.size(), 3u);
+  for (const HoldOut& held : parts) EXPECT_NEAR(held.predicted.spectral, 2, 0.6) << held.name;
+}
+
+}  // namespace
+}  // namespace skyfit::fit
