@@ -83,19 +83,4 @@ FittedCovariance fitted_covariance(const Preset& preset, std::string_view source
   return {parameters, read_matrix(record.at("matrix"), parameters, source)};
 }
 
-nlohmann::json finite_or_null(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
-nlohmann::json matrix_json(const Eigen::MatrixXd& matrix) {
-  if (matrix.size() == 0) return nullptr;
-  json rows = json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    json row = json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(finite_or_null(matrix(i, j)));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 }  // namespace skyfit::fit
