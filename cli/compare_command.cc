@@ -134,10 +134,9 @@ plot::Comparison figure_of(const refs::Reference& reference,
       std::ranges::any_of(rows, [](const auto& row) { return row.fitted.has_value(); });
   for (const fit::ModelComparison& row : rows) {
     if (!shown(row)) continue;
-    const std::vector<double> ones(reference.samples.size(), 1);
     plot::Curve curve{
         row.model + (any_fitted && !row.fitted ? " (unfitted)" : ""),
-        plot::compared_samples(reference, {shown(row)->model, ones}, {}, radians(exclude_sun_deg)),
+        plot::compared_samples(reference, shown(row)->model, {}, radians(exclude_sun_deg)),
         {}};
     std::erase_if(curve.plane, [](const plot::ComparedSample& s) { return !(s.model > 0); });
     if (!curve.plane.empty()) figure.curves.push_back(std::move(curve));

@@ -121,15 +121,20 @@ void add_direction(Dataset& data, const refs::Sample& sample, bool is_new) {
   data.views.push_back({scan, point, info->sun_azimuth + sample.sun_azimuth_since});
 }
 
-// Sorted by scan, line of sight in the order of its first sample, wavelength and sun.
+// Sorted by line of sight, wavelength and sun. Lines of sight of luminances stay in the order of
+// the samples; those of spectra, whose wavelengths may come one after the other, are sorted as
+// well.
 std::vector<std::size_t> in_order(const refs::Reference& reference,
                                   std::vector<std::size_t> samples) {
+  const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
   std::map<refs::DirectionFromSun, std::size_t> first;
   for (const std::size_t i : samples)
     first.try_emplace(refs::direction_from_sun(reference.samples[i]), i);
   std::ranges::stable_sort(samples, {}, [&](std::size_t i) {
     const refs::Sample& s = reference.samples[i];
-    return std::tuple(s.scan, first.at(refs::direction_from_sun(s)), s.wavelength_nm, s.sun_zenith);
+    const refs::DirectionFromSun direction = refs::direction_from_sun(s);
+    return std::tuple(s.scan, spectral ? 0 : first.at(direction), direction, s.wavelength_nm,
+                      s.sun_zenith);
   });
   return samples;
 }

@@ -57,7 +57,7 @@ struct Dataset {
   std::vector<WavelengthNode> nodes;
   std::vector<Channel> channels;            // ascending wavelength
   std::vector<ScanInfo> scans;              // all of the reference, also those without a sample
-  std::vector<LineOfSight> lines_of_sight;  // by scan, each in the order of its first sample
+  std::vector<LineOfSight> lines_of_sight;  // by scan
   std::vector<View> views;                  // those of a line of sight follow each other
   std::vector<Sample> samples;              // by line of sight, then channel
   int scan_of(const Sample& sample) const {

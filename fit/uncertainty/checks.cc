@@ -58,23 +58,7 @@ double crossing(const Profile& profile, double level, int step) {
   return kNan;
 }
 
-<<<<<<< HEAD:fit/uncertainty/measured_checks.cc
-std::size_t index_of(const MeasuredResult& result, std::string_view name) {
-  std::vector<std::string> known;
-  for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
-    known.push_back(result.unknowns[u].unknown.name());
-    if (known.back() == name) return u;
-  }
-  throw std::invalid_argument(
-      fmt::format("fit.profile: {}: not an unknown of this fit, expected "
-                  "one of {}",
-                  name, fmt::join(known, ", ")));
-}
-
 // Three sigmas on both sides in eight steps; without a sigma, 15 % of the range of its bounds.
-=======
-// Three sigmas on both sides in eight steps; without a sigma, 15 % of the range of its bounds.
->>>>>>> wgsnap:fit/uncertainty/checks.cc
 std::vector<double> scaled_grid(const UnknownRow& row, double scaled) {
   constexpr int kSteps = 4;
   constexpr double kSigmas = 3;

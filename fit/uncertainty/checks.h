@@ -44,17 +44,11 @@ Bootstrap bootstrap(const SpectralData& spectra, const SkyModel& model, const Fi
 
 // Errors of what was left out of a fit of the rest.
 struct HoldOut {
-<<<<<<< HEAD:fit/uncertainty/measured_checks.h
-  std::string name;          // of the scan, or "directions, part 1 of 5"
-  MeasuredErrors predicted;  // the instrument of a scan left out is the mean of the others'
-  MeasuredErrors pointed;    // and with its own pointing fitted; the atmosphere stays
-=======
   std::string name;  // of the scan, or "directions, part 1 of 5"
   // The instrument of a scan left out is the mean of the others'; where the scale is profiled, its
   // own.
   Errors predicted;
   Errors pointed;  // and with its own pointing fitted; the atmosphere stays
->>>>>>> wgsnap:fit/uncertainty/checks.h
 };
 
 // Every scan once. Throws std::invalid_argument when there are fewer than two scans.

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fit/fit.h"
 #include "tests/fit/scans.h"
 #include "tests/fit/synthetic.h"
 

@@ -18,6 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 const refs::Reference& reference() {
   static const refs::Reference made = synthetic_reference(true_atmosphere(2), 0.02);
   return made;
@@ -87,9 +89,9 @@ TEST(ReportTest, RecordIsReadBackIntoTheSameResult) {
   const Preset written = parse_preset(preset_to_json(result().preset), "preset.json");
   const Result again = result_of(written, "preset.json");
   Checks checks;
-  checks.profiles.push_back({"ground.albedo", "1", {0.1, 0.2}, {0, 4}, {0.1, NAN}, {NAN, NAN}});
+  checks.profiles.push_back({"ground.albedo", "1", {0.1, 0.2}, {0, 4}, {0.1, kNan}, {kNan, kNan}});
   checks.bootstrap = Bootstrap{2, 1, std::vector(result().unknowns.size(), 0.5),
-                               std::vector(result().unknowns.size(), NAN)};
+                               std::vector(result().unknowns.size(), kNan)};
   checks.hold_outs.push_back({"scan 1", result().errors, result().start_errors});
   const nlohmann::json report = report_json(result(), checks);
   const PresetDocument document(report, "report.json");
