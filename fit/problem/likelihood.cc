@@ -44,6 +44,7 @@ void take_logarithms(const Dataset& data, Whitened& white, Eigen::VectorXd& sigm
   value = value.array().log();
 }
 
+// docs/theory (11.2) and (11.3).
 void profile_log_scale(const std::vector<int>& scan, const Eigen::VectorXd& weight,
                        Whitened& white) {
   const int scans = static_cast<int>(white.scale.size());
@@ -100,6 +101,7 @@ Scale default_scale(refs::Quantity quantity) {
   return quantity == refs::Quantity::kRelativeLuminance ? Scale::kProfiled : Scale::kFixed;
 }
 
+// docs/theory (11.4).
 Whitened whiten(const Dataset& data, const Likelihood& likelihood, const SampleValues& values,
                 double factor) {
   const auto count = static_cast<Eigen::Index>(data.samples.size());

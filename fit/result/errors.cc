@@ -29,6 +29,7 @@ struct LogSums {
   double weight = 0, sum = 0, squares = 0;
 };
 
+// docs/theory (12.9).
 double rms_log_percent(const refs::Reference& reference, const std::vector<double>& model,
                        double exclude_sun, double largest_sun_zenith, int scan) {
   constexpr double kRounding = 1e-9;  // radians: a sample on the rim of the cone counts

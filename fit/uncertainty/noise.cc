@@ -130,7 +130,7 @@ double share_of_wavelengths(const Dataset& data, double correlation) {
 
 }  // namespace
 
-// docs/theory (12.1).
+// docs/theory (12.1) and (12.4).
 Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
                      const Eigen::VectorXd& residual, int unknowns) {
   const auto count = static_cast<double>(data.samples.size());

@@ -6,13 +6,17 @@
 #include <numbers>
 #include <random>
 
+#include "cli/fit_files.h"
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
-#include "fit/result/preset_record.h"
-#include "plot_samples.h"
+#include "fit/fit.h"
+#include "fit/result/record.h"
 #include "render/plot/evaluate.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/results.h"
+#include "tests/fit/scans.h"
+#include "tests/fit/synthetic.h"
+#include "tests/render/plot_samples.h"
 
 namespace skyfit::plot {
 namespace {
@@ -151,55 +155,63 @@ TEST_F(DamagedResults, OfAnAnalyticSkyAreDrawnOrRefused) {
   EXPECT_GT(refusals("samples.csv", samples, draw), kMutations / 3);
 }
 
-constexpr std::string_view kReport = R"({
-  "reference": {"name": "scans.csv", "quantity": "spectral_radiance_w_m2_sr_nm"},
-  "scan_results": [
-    {"name": "scan1.csv", "time_utc": "2020-06-01T09:00:00Z", "luminance_error_percent": 5,
-     "spectral_error_percent": null},
-    {"name": "scan2.csv", "time_utc": "2020-06-01T10:00:00Z", "luminance_error_percent": 5,
-     "spectral_error_percent": 6}
-  ],
-  "unknowns": [
-    {"name": "ground.albedo", "unit": "1", "scan": null, "fitted": 0.2, "sigma": 0.02},
-    {"name": "instrument.azimuth_offset[1]", "unit": "deg", "scan": 1, "fitted": 5, "sigma": 0.5},
-    {"name": "instrument.azimuth_offset[2]", "unit": "deg", "scan": 2, "fitted": 6, "sigma": null}
-  ],
-  "covariance_unknowns": ["ground.albedo", "instrument.azimuth_offset[1]"],
-  "covariance": [[0.0004, 0.005],
-                 [0.005, 0.25]]
-}
-)";
+// What a fit of two spectral scans leaves.
+class DamagedMeasuredResults : public DamagedResults {
+ protected:
+  static const fit::Result& result() {
+    static const fit::Result fitted = [] {
+      const fit::ToySky sky;
+      refs::Reference scans =
+          fit::synthetic_scans(sky, fit::true_atmosphere(1), fit::SyntheticScans{});
+      for (refs::Scan& scan : scans.scans) scan.time_utc = kTime;
+      return fit::fit_atmosphere(scans, refs::standard_spectral_data(), sky, fit::FitOptions{});
+    }();
+    return fitted;
+  }
 
-TEST_F(DamagedResults, OfMeasuredSkiesAreDrawnOrRefused) {
-  std::vector<MeasuredSample> measured;
-  for (const int scan : {1, 2})
-    for (const double nm : {450.0, 550.0, 650.0})
-      for (int k = 0; k < 6; ++k)
-        measured.push_back({scan, 30, 10.0 + 10 * k, 45.0 * k, nm, 0.1 + 0.01 * k, 0.01, 0.1, 1});
-  const std::string report(kReport), samples = measured_to_csv(measured);
-  write("report.json", report);
-  write("measured.csv", samples);
-  const auto draw = [&] {
-    const MeasuredOutcome fit = read_measured_outcome(folder_);
+  DamagedMeasuredResults() {
+    std::vector<MeasuredSample> measured;
+    for (const int scan : {1, 2})
+      for (const double nm : {450.0, 550.0, 650.0})
+        for (int k = 0; k < 6; ++k)
+          measured.push_back({scan, 30, 10.0 + 10 * k, 45.0 * k, nm, 0.1 + 0.01 * k, 0.01, 0.1, 1});
+    samples_ = measured_to_csv(measured);
+    write("preset.json", preset_);
+    write("report.json", report_);
+    write("measured.csv", samples_);
+  }
+
+  void draw() const {
+    const MeasuredOutcome fit = cli::read_measured_outcome(folder_);
     for (const std::string_view name : measured_figure_names())
-      measured_figure(measured_figure_from_name(name), {&fit, 1}, 1);
-  };
+      if (can_draw(measured_figure_from_name(name), fit))
+        measured_figure(measured_figure_from_name(name), {&fit, 1}, 1);
+  }
+
+  static constexpr const char* kTime = "2020-06-01T09:00:00Z";
+  const std::string preset_ = preset_to_json(result().preset);
+  const std::string report_ = fit::report_json(result()).dump(2);
+  std::string samples_;
+};
+
+TEST_F(DamagedMeasuredResults, AreDrawnOrRefused) {
+  const auto use = [&] { draw(); };
   EXPECT_NO_THROW(draw());
-  EXPECT_GT(refusals("report.json", report, draw), kMutations / 2);
-  EXPECT_GT(refusals("measured.csv", samples, draw), kMutations / 3);
+  EXPECT_GT(refusals("preset.json", preset_, use), kMutations / 3);
+  EXPECT_GT(refusals("report.json", report_, use), kMutations / 6);
+  EXPECT_GT(refusals("measured.csv", samples_, use), kMutations / 3);
 }
 
 // The lines of a data block are syntax to gnuplot.
-TEST_F(DamagedResults, ATimeThatIsACommandIsRefused) {
-  std::string report(kReport);
-  const std::string time = "2020-06-01T09:00:00Z";
-  report.replace(report.find(time), time.size(), "2020\\nEOD\\n!touch x");
-  write("report.json", report);
-  write("measured.csv", measured_to_csv(std::vector<MeasuredSample>(1)));
-  EXPECT_THAT([&] { read_measured_outcome(folder_); },
-              ::testing::ThrowsMessage<std::invalid_argument>(
-                  HasSubstr("report.json:4: scan_results[0].time_utc = \"2020\\nEOD\\n!touch x\": "
-                            "expected YYYY-MM-DDTHH:MM:SSZ or nothing")));
+TEST_F(DamagedMeasuredResults, ATimeThatIsACommandIsRefused) {
+  std::string preset = preset_;
+  const std::string time = kTime;
+  preset.replace(preset.find(time), time.size(), "2020\\nEOD\\n!touch x");
+  write("preset.json", preset);
+  EXPECT_THAT([&] { draw(); },
+              ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr(
+                  "preset.json: fit.scan_results[0].time_utc = "
+                  "\"2020\\nEOD\\n!touch x\": expected YYYY-MM-DDTHH:MM:SSZ or nothing")));
 }
 
 }  // namespace
