@@ -75,8 +75,8 @@ TEST_P(ShippedPreset, HasASky) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_preset_names()),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& row) {
+                           std::string name = row.param;
                            std::ranges::replace(name, '-', '_');
                            return name;
                          });

@@ -239,8 +239,8 @@ TEST_P(AbsurdPreset, IsRefusedInALineOrHasASky) {
                  "irradiance");
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, AbsurdPreset, testing::ValuesIn(cases()), [](const auto& info) {
-  std::string name(info.param.name);
+INSTANTIATE_TEST_SUITE_P(Table, AbsurdPreset, testing::ValuesIn(cases()), [](const auto& row) {
+  std::string name(row.param.name);
   std::ranges::replace_if(
       name, [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;
