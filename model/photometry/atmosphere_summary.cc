@@ -99,13 +99,14 @@ std::vector<std::string> warnings_of(const Atmosphere<double>& atmosphere,
 
 AtmosphereSummary summary_of(const Atmosphere<double>& atmosphere, const SpectralData& spectra,
                              const SkyModel& model) {
-  constexpr double kKoschmieder = 3.912;  // -ln 0.02
+  constexpr double kKoschmieder = 3.912;   // -ln 0.02
+  constexpr double kAirOfTheEarth = 0.02;  // optical depth of a fifth of it
   constexpr double kSun = std::numbers::pi / 6, kEye = 1;
   AtmosphereSummary summary;
   for (const Constituent<double>& c : atmosphere.constituents)
     summary.constituents.push_back(summary_of(atmosphere, c, spectra));
   summary.visibility_m = kKoschmieder / extinction_at(atmosphere, kEye);
-  if (const double air = rayleigh_optical_depth(atmosphere); air > 0)
+  if (const double air = rayleigh_optical_depth(atmosphere); air > kAirOfTheEarth)
     summary.turbidity = (air + aerosol_optical_depth(atmosphere)) / air;
   const XyzRule rule = xyz_rule(spectra);
   const SkyPoint zenith{kEye, kSun, 0, 0};

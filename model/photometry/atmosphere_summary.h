@@ -30,7 +30,8 @@ struct PhotometricColor {
 struct AtmosphereSummary {
   std::vector<ConstituentSummary> constituents;
   double visibility_m = 0;  // Koschmieder's 3.912 / extinction at 550 nm, 1 m above the ground
-  // (tau_Rayleigh + tau_aerosol) / tau_Rayleigh at 550 nm; none without molecules.
+  // (tau_Rayleigh + tau_aerosol) / tau_Rayleigh at 550 nm; none where the molecules are
+  // far fewer than the Earth's, of whose air turbidity speaks.
   std::optional<double> turbidity;
   // From the ground with the star 30 deg from the zenith: the sky at the zenith (cd/m^2) and the
   // star's beam at normal incidence (lx).

@@ -44,6 +44,7 @@ struct Case {
   Outcome outcome;
   std::function<void(json&)> edit;
 };
+void PrintTo(const Case& row, std::ostream* out) { *out << row.name; }
 
 std::function<void(json&)> set(const char* pointer, const json& value) {
   return [=](json& preset) { preset[json::json_pointer(pointer)] = value; };
