@@ -485,7 +485,7 @@ Preset fitted_preset(const Result& result) {
 }
 
 Result result_of(const Preset& preset, std::string_view source) {
-  const PresetDocument document(json{{"fit", preset.fit}}, source);
+  const PresetDocument document = PresetDocument::of_value({{"fit", preset.fit}}, source);
   Result result;
   result.preset = preset;
   read_record(document.root().object("fit"), result);

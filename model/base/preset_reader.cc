@@ -167,8 +167,12 @@ PresetDocument::PresetDocument(std::string_view text, std::string_view source) :
   }
 }
 
-PresetDocument::PresetDocument(json value, std::string_view source)
-    : source_(source), json_(std::move(value)) {}
+PresetDocument PresetDocument::of_value(json value, std::string_view source) {
+  PresetDocument document;
+  document.source_ = source;
+  document.json_ = std::move(value);
+  return document;
+}
 
 PresetReader PresetDocument::root() const { return PresetReader(*this, json_, ""); }
 

@@ -24,7 +24,7 @@ class PresetDocument {
  public:
   PresetDocument(std::string_view text, std::string_view source);
   // A value that was read before: messages name fields, but no lines.
-  PresetDocument(nlohmann::json value, std::string_view source);
+  static PresetDocument of_value(nlohmann::json value, std::string_view source);
 
   // The outermost object; lives as long as the document.
   PresetReader root() const;
@@ -33,6 +33,8 @@ class PresetDocument {
   std::string place(std::string_view path) const;
 
  private:
+  PresetDocument() = default;
+
   std::string source_;
   nlohmann::json json_;
   std::map<std::string, int, std::less<>> line_of_path_;

@@ -94,7 +94,7 @@ TEST(ReportTest, RecordIsReadBackIntoTheSameResult) {
                                std::vector(result().unknowns.size(), kNan)};
   checks.hold_outs.push_back({"scan 1", result().errors, result().start_errors});
   const nlohmann::json report = report_json(result(), checks);
-  const PresetDocument document(report, "report.json");
+  const PresetDocument document = PresetDocument::of_value(report, "report.json");
   const Checks read = checks_of(document.root());
   EXPECT_EQ(full_report(again, read), full_report(result(), checks));
   EXPECT_EQ(report_json(again, read), report);
