@@ -138,7 +138,7 @@ plot::Comparison figure_of(const refs::Reference& reference,
         row.model + (any_fitted && !row.fitted ? " (unfitted)" : ""),
         plot::compared_samples(reference, shown(row)->model, {}, radians(exclude_sun_deg)),
         {}};
-    std::erase_if(curve.plane, [](const plot::ComparedSample& s) { return !(s.model > 0); });
+    std::erase_if(curve.plane, [](const plot::Sample& s) { return !(s.model > 0); });
     if (!curve.plane.empty()) figure.curves.push_back(std::move(curve));
   }
   figure.subtitle =

@@ -13,7 +13,6 @@
 #include "model/base/input_file.h"
 #include "model/base/preset_reader.h"
 #include "model/base/whole_file.h"
-#include "render/plot/evaluate.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/results.h"
 
@@ -21,8 +20,7 @@ namespace skyfit::cli {
 namespace {
 
 constexpr const char *kPresetFile = "preset.json", *kReportFile = "report.json",
-                     *kReportTextFile = "report.txt", *kSamplesFile = "samples.csv",
-                     *kMeasuredFile = "measured.csv";
+                     *kReportTextFile = "report.txt", *kSamplesFile = "samples.csv";
 constexpr const char* kFigureExtensions[] = {".svg", ".png"};
 constexpr std::string_view kComparison = "comparison";
 
@@ -40,50 +38,51 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
   return files;
 }
 
-// Directions are where the instrument truly points.
-std::vector<plot::MeasuredSample> measured_samples(const fit::Result& result) {
-  std::vector<plot::MeasuredSample> samples;
+// Sheds the noise of the way through radians: 5 degrees read 5 again, not 5.000000000000001.
+double whole_degrees(double radians) {
+  constexpr double kDigits = 1e10;
+  return std::round(degrees(radians) * kDigits) / kDigits;
+}
+
+// Directions are where the instrument truly points; a sample outside the model's spectra, or of a
+// scan without a scale, is left out.
+std::vector<plot::Sample> samples_of(const fit::Result& result) {
+  std::vector<plot::Sample> samples;
   for (std::size_t i = 0; i < result.reference.samples.size(); ++i) {
     const refs::Sample& s = result.reference.samples[i];
-    if (!std::isfinite(result.model[i])) continue;  // outside the model's spectra
+    if (!std::isfinite(result.model[i])) continue;
     const auto scan = std::ranges::find(
         result.scans, s.scan, [](const fit::ScanOutcome& outcome) { return outcome.info.number; });
-    const SkyPoint point =
-        fit::pointed({0, s.sun_zenith, s.view_zenith, s.relative_azimuth},
-                     scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
+    const SkyPoint point = fit::pointed(
+        fit::sky_point(s), scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
     const bool fitted = std::isfinite(result.sigma[i]);
-    samples.push_back({static_cast<int>(scan - result.scans.begin()) + 1, degrees(s.sun_zenith),
-                       degrees(point.view_zenith), degrees(point.relative_azimuth), s.wavelength_nm,
-                       s.value, fitted ? result.sigma[i] : 0, result.model[i],
-                       fitted ? s.weight : 0});
+    samples.push_back({static_cast<int>(scan - result.scans.begin()) + 1,
+                       whole_degrees(s.sun_zenith), whole_degrees(point.view_zenith),
+                       whole_degrees(point.relative_azimuth), s.wavelength_nm, s.value,
+                       fitted ? result.sigma[i] : 0, result.model[i], fitted ? s.weight : 0,
+                       result.start_model[i]});
   }
   return samples;
 }
 
-void write_comparison(const std::filesystem::path& directory, const fit::Result& result,
-                      const SkyModel& model, Figures& figures) {
-  const auto samples = plot::compared_samples(result.reference, result.model, result.start_model,
-                                              result.exclude_sun);
-  plot::write_samples_csv(directory / kSamplesFile, samples);
-  const plot::FitOutcome outcome{directory.string(), result.preset, samples};
+void draw_comparison(const std::filesystem::path& directory, const plot::FitOutcome& outcome,
+                     const SkyModel& model, Figures& figures) {
   const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
   figures.draw(directory, kComparison, [&] {
     plot::write_comparison(
-        plot::comparison_of({&outcome, 1}, refs::spectral_data_of(result.preset.atmosphere),
+        plot::comparison_of({&outcome, 1}, refs::spectral_data_of(outcome.preset.atmosphere),
                             model_named),
         files_in(directory, kComparison));
   });
 }
 
-void write_measured(const std::filesystem::path& directory, const fit::Result& result,
-                    Figures& figures) {
-  const plot::MeasuredOutcome outcome = measured_outcome(result, measured_samples(result));
-  write_file(directory / kMeasuredFile, plot::measured_to_csv(outcome.samples));
+void draw_measured(const std::filesystem::path& directory, const plot::MeasuredOutcome& outcome,
+                   Figures& figures) {
   for (const std::string_view name : plot::measured_figure_names()) {
     const plot::MeasuredFigure figure = plot::measured_figure_from_name(name);
     if (!plot::can_draw(figure, outcome)) continue;
-    figures.draw(directory, name, [&, &shown = outcome] {
-      plot::write_figure(plot::measured_figure(figure, {&shown, 1}), files_in(directory, name));
+    figures.draw(directory, name, [&] {
+      plot::write_figure(plot::measured_figure(figure, {&outcome, 1}), files_in(directory, name));
     });
   }
 }
@@ -91,8 +90,7 @@ void write_measured(const std::filesystem::path& directory, const fit::Result& r
 }  // namespace
 
 std::vector<std::string> fit_files() {
-  std::vector<std::string> files = {kPresetFile, kReportFile, kReportTextFile, kSamplesFile,
-                                    kMeasuredFile};
+  std::vector<std::string> files = {kPresetFile, kReportFile, kReportTextFile, kSamplesFile};
   const auto add = [&](std::string_view figure) {
     for (const std::string& file : files_of(figure)) files.push_back(file);
   };
@@ -111,9 +109,12 @@ void write_fit(const std::filesystem::path& directory, const FinishedFit& finish
   write_file(directory / kPresetFile, preset_to_json(result.preset));
   write_file(directory / kReportFile, json_text(fit::report_json(result, finished.checks)));
   write_file(directory / kReportTextFile, fit::full_report(result, finished.checks));
+  const std::vector<plot::Sample> samples = samples_of(result);
+  write_file(directory / kSamplesFile, plot::samples_to_csv(samples));
   if (result.reference.quantity != refs::Quantity::kSpectralRadiance)
-    write_comparison(directory, result, model, figures);
-  if (has_absolute_values(result)) write_measured(directory, result, figures);
+    draw_comparison(directory, {directory.string(), result.preset, samples}, model, figures);
+  if (has_absolute_values(result))
+    draw_measured(directory, measured_outcome(result, samples), figures);
 }
 
 FinishedFit read_fit(const std::filesystem::path& directory) {
@@ -123,7 +124,7 @@ FinishedFit read_fit(const std::filesystem::path& directory) {
 }
 
 plot::MeasuredOutcome measured_outcome(const fit::Result& result,
-                                       std::vector<plot::MeasuredSample> samples) {
+                                       std::vector<plot::Sample> samples) {
   plot::MeasuredOutcome outcome;
   outcome.title = result.reference.name;
   outcome.spectral = result.reference.quantity == refs::Quantity::kSpectralRadiance;
@@ -145,9 +146,9 @@ plot::MeasuredOutcome measured_outcome(const fit::Result& result,
 
 plot::MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory) {
   const fit::Result result = read_fit(directory).result;
-  const std::filesystem::path file = directory / kMeasuredFile;
-  plot::MeasuredOutcome outcome = measured_outcome(result, plot::read_measured_csv(file));
-  for (const plot::MeasuredSample& sample : outcome.samples) {
+  const std::filesystem::path file = directory / kSamplesFile;
+  plot::MeasuredOutcome outcome = measured_outcome(result, plot::read_samples_csv(file));
+  for (const plot::Sample& sample : outcome.samples) {
     if (static_cast<std::size_t>(sample.scan) <= outcome.scans.size()) continue;
     throw std::invalid_argument(fmt::format("{}: scan = {}: expected one of the {} scans of {}",
                                             file.string(), sample.scan, outcome.scans.size(),

@@ -33,7 +33,7 @@ bool has_absolute_values(const fit::Result& result);
 
 // What those figures show, with the samples of a directory that was read.
 plot::MeasuredOutcome measured_outcome(const fit::Result& result,
-                                       std::vector<plot::MeasuredSample> samples);
+                                       std::vector<plot::Sample> samples);
 plot::MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory);
 
 }  // namespace skyfit::cli

@@ -98,15 +98,4 @@ RmsSummary rms_summary(const refs::Reference& reference, const std::vector<doubl
           rms(10 * kRadiansPerDegree, kAnySun), rms(exclude_sun, 70 * kRadiansPerDegree)};
 }
 
-double log_scale(const refs::Reference& reference, const std::vector<double>& model, int scan) {
-  double sum = 0, weight = 0;
-  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    const refs::Sample& s = reference.samples[i];
-    if (!counts(s, model[i], scan)) continue;
-    sum += s.weight * std::log(s.value / model[i]);
-    weight += s.weight;
-  }
-  return sum / weight;
-}
-
 }  // namespace skyfit::fit

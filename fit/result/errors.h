@@ -36,7 +36,4 @@ struct RmsSummary {
 RmsSummary rms_summary(const refs::Reference& reference, const std::vector<double>& model,
                        double exclude_sun);
 
-// ln(value / model), the weighted mean over the samples with weight of a scan.
-double log_scale(const refs::Reference& reference, const std::vector<double>& model, int scan);
-
 }  // namespace skyfit::fit

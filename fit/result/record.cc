@@ -155,8 +155,9 @@ json unknowns_json(const Result& result) {
 // The result of `of_name`, which throws std::invalid_argument for a name that it does not know.
 template <class Find>
 auto by_name(const PresetReader& row, const Find& of_name) {
+  const std::string name = row.text("name");  // names a missing field itself
   try {
-    return of_name(row.text("name"));
+    return of_name(name);
   } catch (const std::invalid_argument&) {
     row.fail_value("name", "the name of a parameter or of an instrument's property");
   }

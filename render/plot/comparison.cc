@@ -43,7 +43,7 @@ Layout layout_of(const Suns& suns, std::size_t curves) {
 bool relative_to_zenith(const Suns& suns) {
   for (const auto& sun : suns.shown) {
     const auto zenith = std::ranges::find_if(
-        sun.plane[0], [](const ComparedSample& s) { return std::abs(s.view_zenith_deg) < 1e-6; });
+        sun.plane[0], [](const Sample& s) { return std::abs(s.view_zenith_deg) < 1e-6; });
     if (zenith == sun.plane[0].end() || std::abs(zenith->reference - 1) > 1e-6) return false;
   }
   return true;

@@ -22,8 +22,8 @@ inline constexpr std::size_t kMaxPanels =
 // left out of them), `hemisphere` the maps; a list may be empty, and one list may serve for both.
 struct Curve {
   std::string label;  // legend, e.g. "fitted, two lobes"
-  std::vector<ComparedSample> plane;
-  std::vector<ComparedSample> hemisphere;
+  std::vector<Sample> plane;
+  std::vector<Sample> hemisphere;
 };
 
 struct Comparison {
@@ -46,10 +46,9 @@ std::vector<SunPanel> sun_panels(const Comparison& comparison);
 
 // Whether the view lies in the sun's vertical plane (within 0.01 deg of azimuth), and the view
 // zenith there: positive toward the sun, negative away from it.
-bool in_principal_plane(const ComparedSample& sample);
-double signed_view_zenith_deg(const ComparedSample& sample);
-std::vector<ComparedSample> plane_samples(
-    const Curve& curve);  // those of `plane` that lie in the plane
+bool in_principal_plane(const Sample& sample);
+double signed_view_zenith_deg(const Sample& sample);
+std::vector<Sample> plane_samples(const Curve& curve);  // those of `plane` that lie in the plane
 
 // Throws std::invalid_argument with one line for a figure that cannot be drawn: no curves or too
 // many, no samples, a value that is not positive.

@@ -65,21 +65,25 @@ std::vector<double> scales(const refs::Reference& reference, const std::vector<d
 
 }  // namespace
 
-std::vector<ComparedSample> compared_samples(const refs::Reference& reference,
-                                             std::span<const double> model,
-                                             std::span<const double> start_model,
-                                             double exclude_sun) {
+std::vector<Sample> compared_samples(const refs::Reference& reference,
+                                     std::span<const double> model,
+                                     std::span<const double> start_model, double exclude_sun) {
   const std::size_t count = reference.samples.size();
   const bool with_start = !start_model.empty();
   expect_one_per_sample(model, count, "fitted model");
   if (with_start) expect_one_per_sample(start_model, count, "start model");
-  std::vector<ComparedSample> compared;
+  std::vector<Sample> compared;
   for (std::size_t i = 0; i < count; ++i) {
     const auto& sample = reference.samples[i];
     if (std::isnan(model[i]) || !(sample.value > 0)) continue;
-    ComparedSample row{degrees(sample.sun_zenith), degrees(sample.view_zenith),
-                       degrees(sample.relative_azimuth), sample.value, model[i]};
-    row.residual = std::log(row.model / row.reference);
+    Sample row;
+    row.scan = sample.scan + 1;
+    row.sun_zenith_deg = degrees(sample.sun_zenith);
+    row.view_zenith_deg = degrees(sample.view_zenith);
+    row.relative_azimuth_deg = degrees(sample.relative_azimuth);
+    row.wavelength_nm = sample.wavelength_nm;
+    row.reference = sample.value;
+    row.model = model[i];
     row.weight = counted_weight(sample, exclude_sun);
     if (with_start) row.start_model = start_model[i];
     compared.push_back(row);
@@ -87,10 +91,10 @@ std::vector<ComparedSample> compared_samples(const refs::Reference& reference,
   return compared;
 }
 
-std::vector<ComparedSample> evaluated_samples(const refs::Reference& reference,
-                                              const Atmosphere<double>& atmosphere,
-                                              const SpectralData& spectra, const SkyModel& model,
-                                              double exclude_sun) {
+std::vector<Sample> evaluated_samples(const refs::Reference& reference,
+                                      const Atmosphere<double>& atmosphere,
+                                      const SpectralData& spectra, const SkyModel& model,
+                                      double exclude_sun) {
   std::vector<double> luminance = luminances(reference, atmosphere, spectra, model);
   const auto scale = scales(reference, luminance, exclude_sun);
   for (std::size_t i = 0; i < luminance.size(); ++i) luminance[i] *= scale[i];

@@ -17,16 +17,15 @@ namespace skyfit::plot {
 // sample's scan; `start_model` may be empty. Samples within `exclude_sun` (radians) of the sun get
 // weight 0; those without a model (NaN) or a positive value are left out. Throws
 // std::invalid_argument when a list has not one entry per sample.
-std::vector<ComparedSample> compared_samples(const refs::Reference& reference,
-                                             std::span<const double> model,
-                                             std::span<const double> start_model,
-                                             double exclude_sun);
+std::vector<Sample> compared_samples(const refs::Reference& reference,
+                                     std::span<const double> model,
+                                     std::span<const double> start_model, double exclude_sun);
 
 // The same with the atmosphere's luminance by the model. Every scan's scale is the one that leaves
 // no mean residual.
-std::vector<ComparedSample> evaluated_samples(const refs::Reference& reference,
-                                              const Atmosphere<double>& atmosphere,
-                                              const SpectralData& spectra, const SkyModel& model,
-                                              double exclude_sun);
+std::vector<Sample> evaluated_samples(const refs::Reference& reference,
+                                      const Atmosphere<double>& atmosphere,
+                                      const SpectralData& spectra, const SkyModel& model,
+                                      double exclude_sun);
 
 }  // namespace skyfit::plot

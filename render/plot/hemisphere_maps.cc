@@ -15,9 +15,9 @@ constexpr double kMargin = 8;       // around a map
 constexpr int kScaleSteps = 80;     // colours of the scale
 
 // Samples of one view zenith, by azimuth in 0..360.
-using Ring = std::map<double, const ComparedSample*>;
+using Ring = std::map<double, const Sample*>;
 
-std::map<double, Ring> rings_of(const std::vector<ComparedSample>& samples) {
+std::map<double, Ring> rings_of(const std::vector<Sample>& samples) {
   std::map<double, Ring> rings;
   for (const auto& sample : samples) {
     const double zenith = std::round(sample.view_zenith_deg * 1000) / 1000;
@@ -37,12 +37,12 @@ bool equally_spaced(const Ring& ring) {
   return true;
 }
 
-std::string color_of(const ComparedSample& sample, double limit_percent) {
-  return sample.weight > 0 ? diverging_color(100 * sample.residual, limit_percent)
+std::string color_of(const Sample& sample, double limit_percent) {
+  return sample.weight > 0 ? diverging_color(100 * sample.residual(), limit_percent)
                            : std::string(kLeftOutColor);
 }
 
-void draw_sky(Script& script, const std::vector<ComparedSample>& samples, double limit_percent) {
+void draw_sky(Script& script, const std::vector<Sample>& samples, double limit_percent) {
   const auto patches = patches_of(samples);
   for (const auto& patch : patches)
     script.line(
@@ -174,7 +174,7 @@ std::string patch_outline(const Patch& patch) {
   return points + polar_point(patch.outer_zenith_deg, first);
 }
 
-std::vector<Patch> patches_of(const std::vector<ComparedSample>& samples) {
+std::vector<Patch> patches_of(const std::vector<Sample>& samples) {
   const auto rings = rings_of(samples);
   if (rings.size() < 3) return {};
   std::vector<Patch> patches;
@@ -199,7 +199,7 @@ double residual_limit_percent(const Suns& suns) {
   for (const auto& sun : suns.shown)
     for (const auto& sky : sun.hemisphere)
       for (const auto& sample : sky)
-        if (sample.weight > 0) sizes.push_back(100 * std::abs(sample.residual));
+        if (sample.weight > 0) sizes.push_back(100 * std::abs(sample.residual()));
   if (sizes.empty()) return 1;
   const auto rank = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(sizes.size() - 1));
   std::ranges::nth_element(sizes, sizes.begin() + rank);

@@ -14,7 +14,7 @@ namespace skyfit::plot {
 
 // The part of the sky that a sample stands for, in polar coordinates of the map, degrees.
 struct Patch {
-  const ComparedSample* sample = nullptr;
+  const Sample* sample = nullptr;
   double inner_zenith_deg = 0, outer_zenith_deg = 0;
   double azimuth_deg = 0, width_deg = 0;
 };
@@ -28,7 +28,7 @@ std::string patch_outline(const Patch& patch);
 // Cuts the hemisphere into one patch per sample when the samples form rings of equally spaced
 // azimuths (as Tregenza's 145 do): borders lie midway between the rings. Empty when they do not;
 // such samples are drawn as points.
-std::vector<Patch> patches_of(const std::vector<ComparedSample>& samples);
+std::vector<Patch> patches_of(const std::vector<Sample>& samples);
 
 // Half the width of the colour scale, percent: 98 % of the counted residuals lie within.
 double residual_limit_percent(const Suns& suns);

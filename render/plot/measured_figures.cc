@@ -82,7 +82,7 @@ std::string scan_label(const MeasuredOutcome& outcome, int scan) {
 std::string wavelength_range(const MeasuredOutcome& outcome) {
   constexpr double kMargin_nm = 50;
   const auto [first, last] =
-      std::ranges::minmax_element(outcome.samples, {}, &MeasuredSample::wavelength_nm);
+      std::ranges::minmax_element(outcome.samples, {}, &Sample::wavelength_nm);
   if (first->wavelength_nm < last->wavelength_nm) return "set xrange [*:*] noextend";
   return fmt::format("set xrange [{:.6g}:{:.6g}]", first->wavelength_nm - kMargin_nm,
                      first->wavelength_nm + kMargin_nm);

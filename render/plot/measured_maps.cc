@@ -15,18 +15,19 @@ constexpr double kCell = 330, kHeader = 92, kFooter = 84, kTitle = 30, kLabel = 
 constexpr std::size_t kMaxRows = 6;
 constexpr int kScaleSteps = 80;
 
+double ratio_percent(const Sample& s) { return 100 * (s.model / s.reference - 1); }
+
 struct Row {
   int scan;
-  std::vector<ComparedSample> sky;  // reference: measured; residual: model / measured - 1
+  std::vector<Sample> sky;
 };
 
 std::vector<Row> rows_of(const MeasuredOutcome& outcome) {
   std::vector<Row> rows;
   for (const MeasuredDirection& d : directions_of(outcome)) {
     if (rows.empty() || rows.back().scan != d.scan) rows.push_back({d.scan, {}});
-    rows.back().sky.push_back({d.sun_zenith_deg, d.view_zenith_deg, d.relative_azimuth_deg,
-                               d.measured, d.model, d.model / d.measured - 1,
-                               d.counted ? 1.0 : 0.0});
+    rows.back().sky.push_back({d.scan, d.sun_zenith_deg, d.view_zenith_deg, d.relative_azimuth_deg,
+                               0, d.measured, 0, d.model, d.counted ? 1.0 : 0.0});
   }
   if (rows.size() > kMaxRows) rows.resize(kMaxRows);
   return rows;
@@ -41,7 +42,7 @@ struct Range {
 Range range_of(const std::vector<Row>& rows) {
   Range range;
   for (const Row& row : rows) {
-    for (const ComparedSample& s : row.sky) {
+    for (const Sample& s : row.sky) {
       if (!(s.weight > 0 && s.reference > 0)) continue;
       range.lower = std::min(range.lower, s.reference);
       range.upper = std::max(range.upper, s.reference);
@@ -53,8 +54,8 @@ Range range_of(const std::vector<Row>& rows) {
 double ratio_limit_percent(const std::vector<Row>& rows) {
   std::vector<double> sizes;
   for (const Row& row : rows) {
-    for (const ComparedSample& s : row.sky)
-      if (s.weight > 0) sizes.push_back(100 * std::abs(s.residual));
+    for (const Sample& s : row.sky)
+      if (s.weight > 0) sizes.push_back(std::abs(ratio_percent(s)));
   }
   if (sizes.empty()) return 1;
   const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sizes.size() - 1));
@@ -72,7 +73,7 @@ void draw_map(Script& script, const Box& box, const Row& row, const ColorOf& col
         "set object polygon from {} behind fs solid border lc rgb '#ffffff' lw 0.4 fc rgb '{}'",
         patch_outline(patch), color_of(*patch.sample));
   }
-  for (const ComparedSample& s : row.sky) {
+  for (const Sample& s : row.sky) {
     if (!patches.empty()) break;
     script.line("set object circle at {} size 0.05 behind fs solid noborder fc rgb '{}'",
                 polar_point(s.view_zenith_deg, s.relative_azimuth_deg), color_of(s));
@@ -131,15 +132,15 @@ void draw_row(Script& script, const MeasuredOutcome& outcome, const Row& row, do
   const auto box = [&](int column) {
     return Box{kLabel + column * kCell + kTitle / 2, top - side, side, side};
   };
-  const auto shown = [](const ComparedSample& s) { return s.weight > 0; };
-  draw_map(script, box(0), row, [&](const ComparedSample& s) {
+  const auto shown = [](const Sample& s) { return s.weight > 0; };
+  draw_map(script, box(0), row, [&](const Sample& s) {
     return shown(s) ? sequential_color(range.share(s.reference)) : std::string(kLeftOutColor);
   });
-  draw_map(script, box(1), row, [&](const ComparedSample& s) {
+  draw_map(script, box(1), row, [&](const Sample& s) {
     return sequential_color(range.share(std::max(s.model, range.lower)));
   });
-  draw_map(script, box(2), row, [&](const ComparedSample& s) {
-    return shown(s) ? diverging_color(100 * s.residual, limit) : std::string(kLeftOutColor);
+  draw_map(script, box(2), row, [&](const Sample& s) {
+    return shown(s) ? diverging_color(ratio_percent(s), limit) : std::string(kLeftOutColor);
   });
   script.begin_axes(box(0));
   script.text_label(kLabel - 4, top - side / 2 + 12, scan_label(outcome, row.scan),

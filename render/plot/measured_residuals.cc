@@ -42,10 +42,10 @@ struct Mean {
 // Wavelength, mean, standard deviation over the directions.
 void write_wavelengths(Script& script, const MeasuredOutcome& outcome) {
   std::map<double, Mean> at;
-  for (const MeasuredSample& s : outcome.samples) {
-    if (!(s.weight > 0 && s.measured > 0)) continue;
+  for (const Sample& s : outcome.samples) {
+    if (!(s.weight > 0 && s.reference > 0)) continue;
     Mean& mean = at[s.wavelength_nm];
-    const double value = percent(s.model, s.measured);
+    const double value = percent(s.model, s.reference);
     mean.sum += value;
     mean.squares += value * value;
     ++mean.count;

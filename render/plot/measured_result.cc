@@ -12,9 +12,9 @@ namespace skyfit::plot {
 namespace {
 
 // Nanometres that each wavelength stands for.
-std::map<double, double> widths_of(const std::vector<MeasuredSample>& samples) {
+std::map<double, double> widths_of(const std::vector<Sample>& samples) {
   std::map<double, double> widths;
-  for (const MeasuredSample& sample : samples) widths[sample.wavelength_nm] = 0;
+  for (const Sample& sample : samples) widths[sample.wavelength_nm] = 0;
   if (widths.size() == 1) widths.begin()->second = 1;  // ratios of its directions remain
   for (auto at = widths.begin(); at != widths.end(); ++at) {
     const auto next = std::next(at);
@@ -39,7 +39,7 @@ std::vector<MeasuredDirection> directions_of(const MeasuredOutcome& outcome) {
   const Spectrum& y_bar = refs::standard_spectral_data().y_bar;
   const std::map<double, double> widths = widths_of(outcome.samples);
   std::map<DirectionKey, MeasuredDirection> looks;
-  for (const MeasuredSample& s : outcome.samples) {
+  for (const Sample& s : outcome.samples) {
     const auto [at, is_new] = looks.try_emplace(
         direction_key(s.scan, s.sun_zenith_deg, s.view_zenith_deg, s.relative_azimuth_deg));
     MeasuredDirection& look = at->second;
@@ -60,7 +60,7 @@ std::vector<MeasuredDirection> directions_of(const MeasuredOutcome& outcome) {
     const double weight = s.wavelength_nm > 0 ? kLumenPerWatt * y_bar.at_or_zero(s.wavelength_nm) *
                                                     widths.at(s.wavelength_nm)
                                               : 1;
-    look.measured += weight * s.measured;
+    look.measured += weight * s.reference;
     look.model += weight * s.model;
     look.counted |= s.weight > 0;
   }

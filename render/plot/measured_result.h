@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "render/plot/measured_csv.h"
+#include "render/plot/samples_csv.h"
 
 namespace skyfit::plot {
 
@@ -26,7 +26,7 @@ struct MeasuredUnknown {
 struct MeasuredOutcome {
   std::string title;
   bool spectral = true;  // else cd/m^2
-  std::vector<MeasuredSample> samples;
+  std::vector<Sample> samples;
   std::vector<MeasuredScan> scans;
   std::vector<MeasuredUnknown> unknowns;
   std::vector<std::string> covariance_unknowns;

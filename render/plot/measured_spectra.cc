@@ -58,17 +58,17 @@ std::vector<Chosen> chosen_directions(const MeasuredOutcome& outcome, int scan) 
 // Columns: wavelength, measured, sigma, model, fitted or not.
 void write_data(Script& script, const MeasuredOutcome& outcome, const MeasuredDirection& d,
                 std::size_t index) {
-  std::map<double, const MeasuredSample*> spectrum;
+  std::map<double, const Sample*> spectrum;
   const DirectionKey wanted =
       direction_key(d.scan, d.sun_zenith_deg, d.view_zenith_deg, d.relative_azimuth_deg);
-  for (const MeasuredSample& s : outcome.samples) {
+  for (const Sample& s : outcome.samples) {
     if (direction_key(s.scan, s.sun_zenith_deg, s.view_zenith_deg, s.relative_azimuth_deg) ==
         wanted)
       spectrum[s.wavelength_nm] = &s;
   }
   script.line("$spectrum{} << EOD", index);
   for (const auto& [nm, s] : spectrum)
-    script.line("{:.6g} {:.6g} {:.6g} {:.6g} {}", nm, 1e3 * s->measured, 1e3 * s->sigma,
+    script.line("{:.6g} {:.6g} {:.6g} {:.6g} {}", nm, 1e3 * s->reference, 1e3 * s->sigma,
                 1e3 * s->model, s->weight > 0 ? 1 : 0);
   script.line("EOD");
 }

@@ -42,8 +42,8 @@ Range luminance_range(const Suns& suns) {
 // Rows `signed_zenith value` of the chosen column, as a named block. A blank row breaks the line at
 // the cone around the sun, where neither the reference nor a chord between its sides means
 // anything.
-void write_line(Script& script, const std::string& name, const std::vector<ComparedSample>& samples,
-                double ComparedSample::*column, double sun_zenith_deg, double cone_deg) {
+void write_line(Script& script, const std::string& name, const std::vector<Sample>& samples,
+                double Sample::*column, double sun_zenith_deg, double cone_deg) {
   script.line("${} << EOD", name);
   bool before_sun = true;
   for (const auto& sample : samples) {
@@ -56,8 +56,8 @@ void write_line(Script& script, const std::string& name, const std::vector<Compa
   script.line("NaN NaN\nEOD");
 }
 
-void write_points(Script& script, const std::string& name,
-                  const std::vector<ComparedSample>& samples, bool counted) {
+void write_points(Script& script, const std::string& name, const std::vector<Sample>& samples,
+                  bool counted) {
   script.line("${} << EOD", name);
   for (const auto& sample : samples)
     if ((sample.weight > 0) == counted)
@@ -66,7 +66,7 @@ void write_points(Script& script, const std::string& name,
 }
 
 bool one_reference(const Suns& suns) {
-  const auto same = [](const ComparedSample& a, const ComparedSample& b) {
+  const auto same = [](const Sample& a, const Sample& b) {
     return a.view_zenith_deg == b.view_zenith_deg && a.reference == b.reference;
   };
   for (const auto& sun : suns.shown)
@@ -168,12 +168,12 @@ class Panels {
                       block, with, mark_style(mark, color));
     };
     if (sun.plane.size() == 1) {
-      write_line(script_, name + "start", sun.plane[0], &ComparedSample::start_model, zenith, cone);
+      write_line(script_, name + "start", sun.plane[0], &Sample::start_model, zenith, cone);
       add(name + "start", "lines", Mark::kDashedLine, kStartColor);
     }
     for (std::size_t i = 0; i < sun.plane.size(); ++i) {
       const std::string curve = fmt::format("{}c{}", name, i);
-      write_line(script_, curve, sun.plane[i], &ComparedSample::model, zenith, cone);
+      write_line(script_, curve, sun.plane[i], &Sample::model, zenith, cone);
       add(curve, "linespoints", Mark::kSolidLine, kCurveColors[i]);
     }
     const bool one = one_reference(suns_);
@@ -206,10 +206,10 @@ std::vector<LegendEntry> plane_legend(const Comparison& comparison, const Suns& 
     if (!one) legend.push_back({Mark::kPoint, kCurveColors[i], "reference of " + label});
     legend.push_back({Mark::kSolidLine, kCurveColors[i], label});
   }
-  const auto has_start = [](const ComparedSample& s) { return !std::isnan(s.start_model); };
+  const auto has_start = [](const Sample& s) { return !std::isnan(s.start_model); };
   if (count == 1 && any_sample(suns, 1, has_start))
     legend.push_back({Mark::kDashedLine, kStartColor, "start values"});
-  if (any_sample(suns, one ? 1 : count, [](const ComparedSample& s) { return s.weight == 0; }))
+  if (any_sample(suns, one ? 1 : count, [](const Sample& s) { return s.weight == 0; }))
     legend.push_back({Mark::kHollowPoint, kLeftOutColor, "left out of the fit"});
   return legend;
 }

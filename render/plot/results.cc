@@ -63,9 +63,16 @@ bool is_analytic(const std::string& reference) {
          });
 }
 
-std::vector<ComparedSample> hemisphere_samples(const FitOutcome& fit, const FitRecord& record,
-                                               const SpectralData& spectra, const SkyModel& model) {
-  if (!is_analytic(record.reference)) return fit.samples;
+// A sample of weight 0 may hold anything.
+std::vector<Sample> positive_samples(const FitOutcome& fit) {
+  std::vector<Sample> samples = fit.samples;
+  std::erase_if(samples, [](const Sample& s) { return !(s.reference > 0 && s.model > 0); });
+  return samples;
+}
+
+std::vector<Sample> hemisphere_samples(const FitOutcome& fit, const FitRecord& record,
+                                       const SpectralData& spectra, const SkyModel& model) {
+  if (!is_analytic(record.reference)) return positive_samples(fit);
   std::set<double> suns;
   for (const auto& sample : fit.samples) suns.insert(sample.sun_zenith_deg * kRadiansPerDegree);
   const auto reference =
@@ -118,7 +125,7 @@ Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& s
     one_reference &= record.reference == first.reference;
     comparison.exclude_sun_deg = std::max(comparison.exclude_sun_deg, record.exclude_sun_deg);
     comparison.curves.push_back(
-        {label_of(fits, i), fits[i].samples,
+        {label_of(fits, i), positive_samples(fits[i]),
          hemisphere_samples(fits[i], record, spectra, model_named(record.model))});
   }
   comparison.title = one_reference ? first.description : "Fits compared";

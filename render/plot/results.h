@@ -20,7 +20,7 @@ namespace skyfit::plot {
 struct FitOutcome {
   std::string folder;  // name that messages and, among presets of one name, the legend show
   Preset preset;       // with the `fit` member that the fit wrote
-  std::vector<ComparedSample> samples;
+  std::vector<Sample> samples;
 };
 
 // Reads preset.json and samples.csv of a result directory. Throws std::runtime_error or

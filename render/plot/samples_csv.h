@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // samples.csv: what a fit leaves for every sample, and the one struct that figures are made of.
 // Header, exactly:
-// sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,reference,model,residual,weight, followed by
-// start_model where the start values are known. Numbers are the shortest that read back to the same
-// double.
+// scan,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,wavelength_nm,reference,sigma,model,residual,weight,
+// followed by start_model where the start values are known. Numbers are the shortest that read back
+// to the same double; residual is ln(model / reference), nan where one is not positive, and is not
+// read back.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <span>
@@ -15,34 +17,37 @@
 
 namespace skyfit::plot {
 
-// Angles in degrees; azimuth 0 looks toward the sun's azimuth. `reference`, `model` and
-// `start_model` share one unit (cd/m^2, or that of a relative reference); both models carry their
-// own fitted luminance scale.
-struct ComparedSample {
+// Angles in degrees, where the instrument truly points according to the fit; azimuth 0 looks toward
+// the sun's azimuth. `reference`, `sigma`, `model` and `start_model` share one unit (cd/m^2, that
+// of a relative reference, or W m^-2 sr^-1 nm^-1); both models carry the scale of the scan.
+struct Sample {
+  int scan = 1;  // from 1
   double sun_zenith_deg = 0;
   double view_zenith_deg = 0;
   double relative_azimuth_deg = 0;
-  double reference = 0;                                           // > 0
-  double model = 0;                                               // > 0, fitted
-  double residual = 0;                                            // ln(model) - ln(reference)
+  double wavelength_nm = 0;  // 0: a luminance
+  double reference = 0;
+  double sigma = 0;  // what one sample scatters by; 0 where it was not fitted
+  double model = 0;
   double weight = 1;                                              // >= 0; 0: shown, not counted
   double start_model = std::numeric_limits<double>::quiet_NaN();  // NaN: not known
 
-  bool operator==(const ComparedSample&) const = default;
+  double residual() const { return std::log(model / reference); }
+  bool operator==(const Sample&) const = default;
 };
 
 // Weighted root mean square of the residuals, percent; NaN when no sample has weight.
-double rms_log_percent(std::span<const ComparedSample> samples);
+double rms_log_percent(std::span<const Sample> samples);
 
 // The column start_model is written when every sample has one.
-std::string samples_to_csv(std::span<const ComparedSample> samples);
+std::string samples_to_csv(std::span<const Sample> samples);
 
 // Throws std::invalid_argument `source:line: field = value: expected ...`; `source` is the name
 // that the message shows.
-std::vector<ComparedSample> parse_samples_csv(std::string_view text, std::string_view source);
+std::vector<Sample> parse_samples_csv(std::string_view text, std::string_view source);
 
 // Appears whole or not at all. Throws std::runtime_error with one line that names the file.
-void write_samples_csv(const std::filesystem::path& file, std::span<const ComparedSample> samples);
-std::vector<ComparedSample> read_samples_csv(const std::filesystem::path& file);
+void write_samples_csv(const std::filesystem::path& file, std::span<const Sample> samples);
+std::vector<Sample> read_samples_csv(const std::filesystem::path& file);
 
 }  // namespace skyfit::plot

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSameSunDeg = 1e-6;      // angles that went through radians and back
 constexpr double kSameAzimuthDeg = 0.01;  // of a sample written with four digits
 
-double azimuth_from_sun_deg(const ComparedSample& sample) {
+double azimuth_from_sun_deg(const Sample& sample) {
   return std::abs(std::remainder(sample.relative_azimuth_deg, 360.0));
 }
 
@@ -36,10 +36,10 @@ std::vector<double> evenly_chosen(const std::vector<double>& all, std::size_t co
   return chosen;
 }
 
-std::vector<ComparedSample> of_sun(const std::vector<ComparedSample>& samples,
-                                   double sun_zenith_deg, bool plane_only) {
-  std::vector<ComparedSample> chosen;
-  std::ranges::copy_if(samples, std::back_inserter(chosen), [&](const ComparedSample& sample) {
+std::vector<Sample> of_sun(const std::vector<Sample>& samples, double sun_zenith_deg,
+                           bool plane_only) {
+  std::vector<Sample> chosen;
+  std::ranges::copy_if(samples, std::back_inserter(chosen), [&](const Sample& sample) {
     return std::abs(sample.sun_zenith_deg - sun_zenith_deg) <= kSameSunDeg &&
            (!plane_only || in_principal_plane(sample));
   });
@@ -47,7 +47,7 @@ std::vector<ComparedSample> of_sun(const std::vector<ComparedSample>& samples,
   return chosen;
 }
 
-void check_sample(const std::string& label, const ComparedSample& sample) {
+void check_sample(const std::string& label, const Sample& sample) {
   const auto check = [&](const char* field, double value) {
     if (!std::isfinite(value) || value <= 0)
       throw std::invalid_argument(
@@ -63,18 +63,18 @@ void check_sample(const std::string& label, const ComparedSample& sample) {
 
 }  // namespace
 
-bool in_principal_plane(const ComparedSample& sample) {
+bool in_principal_plane(const Sample& sample) {
   const double azimuth = azimuth_from_sun_deg(sample);
   return std::abs(sample.view_zenith_deg) < kSameAzimuthDeg || azimuth < kSameAzimuthDeg ||
          180 - azimuth < kSameAzimuthDeg;
 }
 
-double signed_view_zenith_deg(const ComparedSample& sample) {
+double signed_view_zenith_deg(const Sample& sample) {
   return azimuth_from_sun_deg(sample) > 90 ? -sample.view_zenith_deg : sample.view_zenith_deg;
 }
 
-std::vector<ComparedSample> plane_samples(const Curve& curve) {
-  std::vector<ComparedSample> chosen;
+std::vector<Sample> plane_samples(const Curve& curve) {
+  std::vector<Sample> chosen;
   std::ranges::copy_if(curve.plane, std::back_inserter(chosen), in_principal_plane);
   return chosen;
 }

@@ -11,8 +11,8 @@ namespace skyfit::plot {
 // Everything that the figure shows at one sun position. Indexed by curve.
 struct SunSamples {
   double sun_zenith_deg = 0;
-  std::vector<std::vector<ComparedSample>> plane;  // in the principal plane, by signed view zenith
-  std::vector<std::vector<ComparedSample>> hemisphere;
+  std::vector<std::vector<Sample>> plane;  // in the principal plane, by signed view zenith
+  std::vector<std::vector<Sample>> hemisphere;
 };
 
 // All sun positions of the figure, ascending, at most kMaxPanels; `total` says how many the data

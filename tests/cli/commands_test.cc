@@ -223,9 +223,9 @@ TEST_F(CommandsTest, SamplesGiveTheReportedRms) {
   double squares = 0, weights = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto row = fields(rows[i]);
-    EXPECT_NEAR(std::log(std::stod(row[4]) / std::stod(row[3])), std::stod(row[5]), 1e-12);
-    squares += std::stod(row[6]) * std::pow(std::stod(row[5]), 2);
-    weights += std::stod(row[6]);
+    EXPECT_NEAR(std::log(std::stod(row[7]) / std::stod(row[5])), std::stod(row[8]), 1e-12);
+    squares += std::stod(row[9]) * std::pow(std::stod(row[8]), 2);
+    weights += std::stod(row[9]);
   }
   const double rms = json::parse(read("fitted/report.json")).at("rms_log_percent");
   EXPECT_NEAR(100 * std::sqrt(squares / weights), rms, 1e-6 * rms);

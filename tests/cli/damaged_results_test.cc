@@ -170,15 +170,15 @@ class DamagedMeasuredResults : public DamagedResults {
   }
 
   DamagedMeasuredResults() {
-    std::vector<MeasuredSample> measured;
+    std::vector<Sample> measured;
     for (const int scan : {1, 2})
       for (const double nm : {450.0, 550.0, 650.0})
         for (int k = 0; k < 6; ++k)
-          measured.push_back({scan, 30, 10.0 + 10 * k, 45.0 * k, nm, 0.1 + 0.01 * k, 0.01, 0.1, 1});
-    samples_ = measured_to_csv(measured);
+          measured.push_back({scan, 30, 10.0 + 10 * k, 45.0 * k, nm, 0.1 + 0.01 * k, 0.01, 0.1});
+    samples_ = samples_to_csv(measured);
     write("preset.json", preset_);
     write("report.json", report_);
-    write("measured.csv", samples_);
+    write("samples.csv", samples_);
   }
 
   void draw() const {
@@ -199,7 +199,7 @@ TEST_F(DamagedMeasuredResults, AreDrawnOrRefused) {
   EXPECT_NO_THROW(draw());
   EXPECT_GT(refusals("preset.json", preset_, use), kMutations / 3);
   EXPECT_GT(refusals("report.json", report_, use), kMutations / 6);
-  EXPECT_GT(refusals("measured.csv", samples_, use), kMutations / 3);
+  EXPECT_GT(refusals("samples.csv", samples_, use), kMutations / 3);
 }
 
 // The lines of a data block are syntax to gnuplot.

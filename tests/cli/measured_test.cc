@@ -88,7 +88,7 @@ TEST_F(MeasuredTest, JointFitLeavesReportsAndFigures) {
   EXPECT_NEAR(report["scan_results"][0]["instrument.azimuth_offset"], 8, 0.5);
   EXPECT_EQ(report["checks"]["hold_outs"].size(), 2u);
   EXPECT_EQ(report["checks"]["profiles"].size(), 1u);
-  for (const char* file : {"maps.png", "spectra.svg", "residuals.png", "corner.png", "measured.csv",
+  for (const char* file : {"maps.png", "spectra.svg", "residuals.png", "corner.png", "samples.csv",
                            "preset.json", "report.txt"})
     EXPECT_TRUE(exists(std::string("fitted/") + file)) << file;
   EXPECT_EQ(run({"check", "fitted/preset.json"}).status, 0);
@@ -120,7 +120,7 @@ TEST_F(MeasuredTest, AFigureThatCannotBeDrawnDoesNotLoseTheFit) {
   EXPECT_THAT(outcome.err, HasSubstr("the result is complete but for figures"));
   EXPECT_THAT(outcome.err,
               HasSubstr("maps (maps.svg: cannot be written: /bin/false: exit status 1"));
-  EXPECT_TRUE(exists("kept/preset.json") && exists("kept/measured.csv"));
+  EXPECT_TRUE(exists("kept/preset.json") && exists("kept/samples.csv"));
   EXPECT_FALSE(exists("kept/maps.png"));
 }
 
@@ -148,7 +148,8 @@ TEST_F(MeasuredTest, BadOptionsAreRefusedInOneLine) {
     EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
     EXPECT_FALSE(exists("never"));
   };
-  refused({"--scale", "loose"}, "--scale \"loose\": expected one of fixed, shared, per-scan, profiled");
+  refused({"--scale", "loose"},
+          "--scale \"loose\": expected one of fixed, shared, per-scan, profiled");
   refused({"--noise", "-1"}, "--noise \"-1\": expected RELATIVE[:FLOOR]");
   refused({"--hold-out", "1"}, "--hold-out \"1\": expected scans, or into how many parts");
   refused({"--ground", "lawn"}, "ground \"lawn\": no such file");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures of measured skies: measured.csv reads back to the same doubles, every figure is drawn
-// by gnuplot, and what cannot be drawn is refused with one line.
+// The figures of measured skies: every figure is drawn by gnuplot, and what cannot be drawn is
+// refused with one line.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -38,20 +38,6 @@ MeasuredOutcome outcome(bool spectral) {
   return result;
 }
 
-TEST_F(PlotTest, MeasuredCsvReadsBackToTheSameDoubles) {
-  std::vector<MeasuredSample> samples = outcome(true).samples;
-  samples[0].measured = 1.0 / 3;
-  EXPECT_EQ(parse_measured_csv(measured_to_csv(samples), "measured.csv"), samples);
-}
-
-TEST_F(PlotTest, MeasuredCsvNamesLineAndField) {
-  std::string text = measured_to_csv(outcome(true).samples);
-  text.replace(text.find("\n1,") + 1, 2, "0,");
-  EXPECT_THAT([&] { parse_measured_csv(text, "measured.csv"); },
-              ThrowsMessage<std::invalid_argument>(
-                  HasSubstr("measured.csv:2: scan = \"0\": expected a whole number >= 1")));
-}
-
 TEST_F(PlotTest, EveryMeasuredFigureIsDrawn) {
   const MeasuredOutcome fit = outcome(true);
   for (const std::string_view name : measured_figure_names()) {
@@ -68,7 +54,7 @@ TEST_F(PlotTest, LuminancesHaveNoSpectra) {
   EXPECT_FALSE(can_draw(MeasuredFigure::kSpectra, fit));
   EXPECT_THROW(spectra_figure(fit, 1), std::invalid_argument);
   write_figure(residuals_figure(fit), {folder_ / "residuals.svg"});
-  EXPECT_EQ(directions_of(fit).front().measured, fit.samples[0].measured);
+  EXPECT_EQ(directions_of(fit).front().measured, fit.samples[0].reference);
 }
 
 TEST_F(PlotTest, WhatCannotBeDrawnIsRefused) {

@@ -70,9 +70,9 @@ TEST(EvaluatedSamples, ScaleLeavesNoMeanResidualPerSun) {
     double sum = 0, size = 0;
     for (const auto& sample : samples) {
       if (sample.sun_zenith_deg != sun) continue;
-      sum += sample.weight * sample.residual;
-      size += std::abs(sample.residual);
-      EXPECT_NEAR(sample.residual, std::log(sample.model / sample.reference), 1e-14);
+      sum += sample.weight * sample.residual();
+      size += std::abs(sample.residual());
+      EXPECT_NEAR(sample.residual(), std::log(sample.model / sample.reference), 1e-14);
     }
     EXPECT_NEAR(sum, 0, 1e-12);
     EXPECT_GT(size, 1) << "a cosine is no CIE sky";

@@ -36,15 +36,13 @@ inline std::string bytes_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-inline ComparedSample sample_at(double sun_deg, double view_deg, double azimuth_deg,
-                                double residual) {
-  ComparedSample sample;
+inline Sample sample_at(double sun_deg, double view_deg, double azimuth_deg, double residual) {
+  Sample sample;
   sample.sun_zenith_deg = sun_deg;
   sample.view_zenith_deg = view_deg;
   sample.relative_azimuth_deg = azimuth_deg;
   sample.reference = 1 + view_deg / 90;
   sample.model = sample.reference * std::exp(residual);
-  sample.residual = residual;
   return sample;
 }
 

@@ -14,23 +14,26 @@ using ::testing::StrEq;
 using ::testing::ThrowsMessage;
 
 constexpr char kHeader[] =
-    "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,reference,model,residual,weight";
+    "scan,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,wavelength_nm,reference,sigma,model,"
+    "residual,weight";
 
-std::vector<ComparedSample> awkward_samples(bool with_start) {
-  std::vector<ComparedSample> samples;
+std::vector<Sample> awkward_samples(bool with_start) {
+  std::vector<Sample> samples;
   for (int i = 0; i < 50; ++i) {
-    ComparedSample sample =
-        sample_at(i / 3.0, i * std::sqrt(2.0), i * 360.0 / 7, 0.1 * std::sin(i));
+    Sample sample = sample_at(i / 3.0, i * std::sqrt(2.0), i * 360.0 / 7, 0.1 * std::sin(i));
     sample.reference = std::pow(10.0, i - 25) / 3;
     sample.weight = i % 4;
+    sample.scan = 1 + i / 10;
+    sample.wavelength_nm = i % 2 * 550.5;
+    sample.sigma = sample.reference / 7;
     if (with_start) sample.start_model = sample.reference * std::exp(1.0 / (i + 1));
     samples.push_back(sample);
   }
   return samples;
 }
 
-bool same_bits(const ComparedSample& a, const ComparedSample& b) {
-  ComparedSample left = a, right = b;
+bool same_bits(const Sample& a, const Sample& b) {
+  Sample left = a, right = b;
   const bool same_start =
       std::isnan(a.start_model) ? std::isnan(b.start_model) : a.start_model == b.start_model;
   left.start_model = right.start_model = 0;
@@ -57,8 +60,9 @@ TEST(SamplesCsv, HeaderIsTheAgreedOne) {
 }
 
 TEST(SamplesCsv, WindowsLineEndsAreLineEnds) {
-  EXPECT_EQ(parse_samples_csv(std::string(kHeader) + "\r\n30,5,0,1,2,0.5,1\r\n", "s.csv").size(),
-            1u);
+  EXPECT_EQ(
+      parse_samples_csv(std::string(kHeader) + "\r\n1,30,5,0,0,1,0.1,2,0.5,1\r\n", "s.csv").size(),
+      1u);
 }
 
 struct BadFile {
@@ -77,20 +81,32 @@ TEST_P(BadSamples, IsRefusedWithLineAndField) {
 INSTANTIATE_TEST_SUITE_P(
     Files, BadSamples,
     ::testing::Values(
-        BadFile{"", "s.csv:2: expected at least one sample"},
-        BadFile{"30,5,0,1,2,0.5\n", "s.csv:2: 6 fields: expected 7 as in the header"},
-        BadFile{"30,5,0,1,2,0.5,1\n30,5,0,abc,2,0.5,1\n",
-                "s.csv:3: reference = \"abc\": expected a number > 0"},
-        BadFile{"30,5,0,1,nan,0.5,1\n", "s.csv:2: model = \"nan\": expected a number > 0"},
-        BadFile{"30,5,0,1,2,0.5,-1\n", "s.csv:2: weight = \"-1\": expected a number >= 0"},
-        BadFile{"200,5,0,1,2,0.5,1\n",
+        BadFile{"", "s.csv: expected at least one sample"},
+        BadFile{"1,30,5,0,0,1,0,2,0.5\n", "s.csv:2: expected 10 fields, got 9"},
+        BadFile{"1,30,5,0,0,1,0,2,0.5,1\n1,30,5,0,0,abc,0,2,0.5,1\n",
+                "s.csv:3: reference = \"abc\": expected a finite number"},
+        BadFile{"1,30,5,0,0,1,0,nan,0.5,1\n", "s.csv:2: model = \"nan\": expected a finite number"},
+        BadFile{"1,30,5,0,0,1,0,2,0.5,-1\n", "s.csv:2: weight = \"-1\": expected a number >= 0"},
+        BadFile{"1,30,5,0,0,1,-2,2,0.5,1\n", "s.csv:2: sigma = \"-2\": expected a number >= 0"},
+        BadFile{"0,30,5,0,0,1,0,2,0.5,1\n", "s.csv:2: scan = \"0\": expected a whole number >= 1"},
+        BadFile{"1,200,5,0,0,1,0,2,0.5,1\n",
                 "s.csv:2: sun_zenith_deg = \"200\": expected a number in 0..180"},
-        BadFile{"30,5,0,1 cd,2,0.5,1\n", "s.csv:2: reference = \"1 cd\": expected a number > 0"}));
+        BadFile{"1,30,5,0,0,1 cd,0,2,0.5,1\n",
+                "s.csv:2: reference = \"1 cd\": expected a finite number"}));
+
+// What a weight of 0 keeps may be negative; its residual is none.
+TEST(SamplesCsv, NegativeValuesHaveNoResidual) {
+  Sample sample = sample_at(30, 5, 0, 0);
+  sample.reference = -1;
+  sample.weight = 0;
+  const std::string text = samples_to_csv({&sample, 1});
+  EXPECT_NE(text.find(",nan,0\n"), std::string::npos) << text;
+  EXPECT_EQ(parse_samples_csv(text, "s.csv")[0].reference, -1);
+}
 
 TEST(SamplesCsv, AForeignHeaderIsRefused) {
   EXPECT_THAT([] { parse_samples_csv("a,b\n1,2\n", "s.csv"); },
-              ThrowsMessage<std::invalid_argument>(
-                  ::testing::StartsWith("s.csv:1: header = \"a,b\": expected \"sun_")));
+              ThrowsMessage<std::invalid_argument>(StrEq("s.csv:1: expected a column scan")));
 }
 
 TEST_F(PlotTest, MissingFolderLeavesNothing) {
@@ -104,8 +120,8 @@ TEST_F(PlotTest, MissingFolderLeavesNothing) {
 // sqrt((1 * 0.03^2 + 3 * 0.01^2) / 4) = sqrt(3e-4) = 1.7320508 %; the sample without weight does
 // not count.
 TEST(RmsLogPercent, IsTheWeightedRootMeanSquare) {
-  std::vector<ComparedSample> samples = {sample_at(0, 10, 0, 0.03), sample_at(0, 20, 0, -0.01),
-                                         sample_at(0, 0, 0, 9)};
+  std::vector<Sample> samples = {sample_at(0, 10, 0, 0.03), sample_at(0, 20, 0, -0.01),
+                                 sample_at(0, 0, 0, 9)};
   samples[1].weight = 3;
   samples[2].weight = 0;
   EXPECT_NEAR(rms_log_percent(samples), 1.7320508075688772, 1e-12);
