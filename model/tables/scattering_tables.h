@@ -10,8 +10,10 @@
 
 namespace skyfit {
 
-// `tables` has its atmosphere and sizes; progress in 0..1 per part of this work, may be empty.
+// `options` as of DiffuseSource. `tables` has its atmosphere and sizes; progress in 0..1 per part
+// of this work, may be empty.
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            AtmosphereTables& tables, const std::function<void(double)>& progress);
+                            const ReferenceOptions& options, AtmosphereTables& tables,
+                            const std::function<void(double)>& progress);
 
 }  // namespace skyfit

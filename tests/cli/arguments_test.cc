@@ -15,6 +15,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Pair;
+using ::testing::UnorderedElementsAre;
 
 std::string refusal(const std::function<void()>& parse) {
   try {
@@ -96,9 +97,10 @@ TEST(ImageSize, RefusesNoAndAbsurdSizes) {
 TEST(Parameters, AreReadByName) {
   EXPECT_THAT(parse_parameters("--free", "mie.phase.g1, ground.albedo"),
               ElementsAre(Parameter::kMiePhaseG1, Parameter::kGroundAlbedo));
-  EXPECT_THAT(parse_fixed("--fix", {"ground.albedo=0.2,mie.scale_height=1e3", "ozone.column=0"}),
-              ElementsAre(Pair(Parameter::kMieScaleHeight, 1000), Pair(Parameter::kOzoneColumn, 0),
-                          Pair(Parameter::kGroundAlbedo, 0.2)));
+  EXPECT_THAT(
+      parse_fixed("--fix", {"ground.albedo=0.2,mie.scale_height=1e3", "ozone.column=0"}),
+      UnorderedElementsAre(Pair(Parameter::kMieScaleHeight, 1000), Pair(Parameter::kOzoneColumn, 0),
+                           Pair(Parameter::kGroundAlbedo, 0.2)));
   const auto priors = parse_priors("--prior", {"ground.albedo=0.2:0.05"});
   ASSERT_EQ(priors.size(), 1u);
   EXPECT_EQ(priors.at(Parameter::kGroundAlbedo).mean, 0.2);
