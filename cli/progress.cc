@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "model/base/text.h"
+
 namespace skyfit::cli {
 namespace {
 
@@ -41,7 +43,7 @@ void Progress::show(double fraction, std::string_view status) {
   std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {}", task_, "", done, "",
                                  kBarWidth - done, 100 * std::clamp(fraction, 0.0, 1.0), status);
   line.resize(std::min(line.size(), terminal_columns()));
-  fmt::print(stderr, "\r{}\033[K", line);
+  fmt::print(stderr, "\r{}\033[K", printable(line));
   std::fflush(stderr);
 }
 

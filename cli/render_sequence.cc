@@ -15,6 +15,7 @@
 #include "cli/render_session.h"
 #include "cli/video.h"
 #include "model/base/process.h"
+#include "model/base/text.h"
 #include "render/sequence/exposure.h"
 
 namespace skyfit::cli {
@@ -94,7 +95,7 @@ std::string film(const RenderRequest& request, FrameStore& store) {
   const auto ffmpeg = program_in_path("ffmpeg");
   if (!ffmpeg) {
     fmt::print(stderr, "skyfit: no ffmpeg in PATH, so no video is made; to make it: {}\n",
-               video_command(directory, frames, rate));
+               printable(video_command(directory, frames, rate)));
     return {};
   }
   const std::filesystem::path video = directory / "sequence.mp4";
