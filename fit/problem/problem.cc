@@ -22,6 +22,18 @@ constexpr int kSearchChannels = 6;
 // describe fine and coarse aerosol together.
 constexpr Prior kForwardLobePrior{0.88, 0.05};
 
+// Within its bounds an unknown may still contradict another, such as the base of a layer its top.
+// Throws std::domain_error, which makes the solver take a shorter step.
+void require_possible(const SkyState& state) {
+  for (const Atmosphere<double>& atmosphere : state.atmosphere) {
+    try {
+      skyfit::validate(atmosphere);
+    } catch (const std::invalid_argument& error) {
+      throw std::domain_error(error.what());
+    }
+  }
+}
+
 class SkyResiduals : public ResidualFunction {
  public:
   SkyResiduals(const Problem& problem, const Dataset& data, double factor)
@@ -29,7 +41,9 @@ class SkyResiduals : public ResidualFunction {
 
   Residuals evaluate(const Eigen::VectorXd& scaled, bool with_jacobian) override {
     const std::vector<Unknown>& unknowns = problem_.unknowns;
-    const SampleValues values = sky_values(*problem_.model, data_, problem_.state(scaled),
+    const SkyState state = problem_.state(scaled);
+    require_possible(state);
+    const SampleValues values = sky_values(*problem_.model, data_, state,
                                            with_jacobian ? unknowns : std::vector<Unknown>{});
     Whitened white = whiten(data_, problem_.likelihood, values, factor_);
     for (Eigen::Index u = 0; u < white.jacobian_per_unit.cols(); ++u) {

@@ -37,7 +37,7 @@ constexpr std::array<Row, 14> kQuantities = {{
      "scattering over extinction of NAME"},
     {kScaleHeight, "scale_height", "m", 100.0, 20000.0,
      "height over which the density of NAME falls by e"},
-    {kBase, "base_m", "m", 0.0, 20000.0, "height at which the layer of NAME begins"},
+    {kBase, "base_m", "m", 1.0, 20000.0, "height at which the layer of NAME begins"},
     {kTop, "top_m", "m", 100.0, 30000.0, "height at which the layer of NAME ends"},
     {kPhaseG, "phase.g", "1", -0.6, 0.98, "asymmetry parameter of NAME's one lobe"},
     {kPhaseG1, "phase.g1", "1", -0.6, 0.98, "asymmetry parameter of NAME's narrower lobe"},
