@@ -129,7 +129,7 @@ std::string remark(const UnknownRow& row) {
 std::string fixed_text(const Result& result) {
   std::string text;
   for (const FixedRow& row : result.fixed) {
-    text += fmt::format("{:<29}{:<4}{:>9}{:>11}{:>10} fixed\n", row.parameter.name(),
+    text += fmt::format("{:<28} {:<4}{:>9}{:>11}{:>10} fixed\n", row.parameter.name(),
                         parameter_info(row.parameter).unit, number(row.start, 4), number(row.value),
                         "-");
   }
@@ -158,7 +158,7 @@ std::string sigma_text(const Result& result) {
 }
 
 std::string unknowns_text(const Result& result) {
-  constexpr std::string_view kRow = "{:<29}{:<4}{:>9}{:>11}{:>10} {:<20}{}";
+  constexpr std::string_view kRow = "{:<28} {:<4}{:>9}{:>11}{:>10} {:<20}{}";
   std::string text = trimmed(fmt::format(kRow, "unknown ([scan])", "unit", "start", "fitted",
                                          "one sigma", "prior", "remark"));
   for (const UnknownRow& row : result.unknowns) {

@@ -26,6 +26,31 @@ void check(bool good, std::string_view name, double value, std::string_view expe
   check_model_value("reference", good, name, value, expected);
 }
 
+// A forward peak that the moments do not hold (a lobe of g above some 0.86, or of 0.85 in a cloud)
+// is cut off too coarsely: twice the rays and moments. A lobe of g = 0.9 and optical depth 0.3 is
+// then off by 0.7 % at worst instead of 2.4 %, a cloud of g = 0.85 and 2 by 0.5 instead of 4.9 %.
+// Not where the atmosphere is thick against its planet: there few rays lie between the horizon and
+// the limb, their quadrature of so many moments gains light, and in an optical depth of 9 (Titan)
+// the field came out negative.
+ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& atmosphere) {
+  constexpr double kNarrow = 0.1;       // share of the scattering that would be cut off
+  constexpr double kNarrowDepth = 0.1;  // the same times the vertical optical depth
+  constexpr double kThick = 0.05;       // top height over radius
+  if (options.moments != ReferenceOptions{}.moments) return options;
+  if (atmosphere.top_radius_m > (1 + kThick) * atmosphere.bottom_radius_m) return options;
+  const auto is_narrow = [&](const Constituent<double>& c) {
+    if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
+    constexpr double kGreen = 550;  // nm
+    const double cut = phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back();
+    return cut > kNarrow || cut * vertical_optical_depth(atmosphere, c, kGreen, 0) > kNarrowDepth;
+  };
+  if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
+    options.streams *= 2;
+    options.moments *= 2;
+  }
+  return options;
+}
+
 // The distinct view rays of a list of points, and which ray each point takes.
 struct ViewRays {
   std::vector<ViewPath> paths;
@@ -183,31 +208,6 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
 }
 
 }  // namespace
-
-// A forward peak that the moments do not hold (a lobe of g above some 0.86, or of 0.85 in a cloud)
-// is cut off too coarsely: twice the rays and moments. A lobe of g = 0.9 and optical depth 0.3 is
-// then off by 0.7 % at worst instead of 2.4 %, a cloud of g = 0.85 and 2 by 0.5 instead of 4.9 %.
-// Not where the atmosphere is thick against its planet: there few rays lie between the horizon and
-// the limb, their quadrature of so many moments gains light, and in an optical depth of 9 (Titan)
-// the field came out negative.
-ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& atmosphere) {
-  constexpr double kNarrow = 0.1;       // share of the scattering that would be cut off
-  constexpr double kNarrowDepth = 0.1;  // the same times the vertical optical depth
-  constexpr double kThick = 0.05;       // top height over radius
-  if (options.moments != ReferenceOptions{}.moments) return options;
-  if (atmosphere.top_radius_m > (1 + kThick) * atmosphere.bottom_radius_m) return options;
-  const auto is_narrow = [&](const Constituent<double>& c) {
-    if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
-    constexpr double kGreen = 550;  // nm
-    const double cut = phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back();
-    return cut > kNarrow || cut * vertical_optical_depth(atmosphere, c, kGreen, 0) > kNarrowDepth;
-  };
-  if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
-    options.streams *= 2;
-    options.moments *= 2;
-  }
-  return options;
-}
 
 ReferenceModel::ReferenceModel(const ReferenceOptions& options) : options_(options) {
   check(options.streams >= 4, "streams", options.streams, ">= 4");

@@ -23,10 +23,6 @@ struct ReferenceOptions {
   int order = 0;
 };
 
-// The options with streams and moments that the narrowest lobe of the atmosphere needs, unless
-// moments are not the default.
-ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& atmosphere);
-
 class ReferenceModel final : public SkyModel {
  public:
   explicit ReferenceModel(const ReferenceOptions& options);  // throws std::invalid_argument

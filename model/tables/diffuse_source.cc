@@ -34,24 +34,24 @@ ChebyshevRows chebyshev_rows() {
 }  // namespace
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
-                             const ReferenceOptions& options, const std::vector<double>& heights)
-    : levels_(shells, options.levels) {
+                             const std::vector<double>& heights)
+    : levels_(shells, kSourceOptions.levels) {
   std::vector<double> sun_mu;
   for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
-  const Streams streams(shells.bottom_radius, levels_.heights(), options.streams);
-  const std::vector<DiffuseField> fields = solve_diffuse_fields<0>(
-      shells, optics, 1, levels_.heights(), sun_mu, streams,
-      sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)), {options.moments});
+  const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
+  const std::vector<DiffuseField> fields =
+      solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams,
+                              sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
+                              {kSourceOptions.moments});
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
     const int blocks = scatterer.moments.size() <= kPowers ? 1 : kBlocks;
     kept_.push_back({blocks, std::vector<float>(index(count, 0, blocks))});
   }
   tbb::parallel_for(0, count, [&](int i) {
-    tabulate(i, levels_.coordinate(heights[static_cast<std::size_t>(i)]), options.moments, optics,
-             fields);
+    tabulate(i, levels_.coordinate(heights[static_cast<std::size_t>(i)]), optics, fields);
   });
 }
 
@@ -61,12 +61,12 @@ std::size_t DiffuseSource::index(int height, int zenith, int blocks) const {
 }
 
 // source(phi) = sum_m (2 - delta_m0) cos(m phi) sum_l chi_l Lambda_lm(mu) M_lm
-void DiffuseSource::tabulate(int height, double level, int moment_count, const NodeOptics& optics,
+void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
                              const std::vector<DiffuseField>& fields) {
   static const ChebyshevRows kRows = chebyshev_rows();
   const auto suns = static_cast<std::size_t>(suns_.size());
   const LevelStencil levels = levels_.stencil(level);
-  std::vector<double> lambda(static_cast<std::size_t>(moment_count)), series(suns);
+  std::vector<double> lambda(static_cast<std::size_t>(kSourceOptions.moments)), series(suns);
   auto add = [&](float* out, int blocks, std::size_t wavelength, std::size_t m) {
     for (std::size_t p = m % 2; p <= m; p += 2) {
       const double factor = (m == 0 ? 1 : 2) * kRows[m][p];
@@ -88,7 +88,7 @@ void DiffuseSource::tabulate(int height, double level, int moment_count, const N
                             moments[k].data(), size);
     }
     for (int i = 0; i < kZeniths; ++i) {
-      normalised_legendre(static_cast<int>(m), moment_count,
+      normalised_legendre(static_cast<int>(m), kSourceOptions.moments,
                           std::cos(std::numbers::pi * i / (kZeniths - 1)), lambda.data());
       for (std::size_t k = 0; k < fields.size(); ++k) {
         if (moments[k].empty()) continue;

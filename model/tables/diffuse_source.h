@@ -20,6 +20,10 @@ namespace skyfit {
 using NodeOptics = std::array<Optics<0>, 4>;
 using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blue to red
 
+// Streams and moments are the defaults of the reference model, so that the two agree unless that
+// doubles them for a narrow lobe; optics_at() needs the moments.
+inline constexpr ReferenceOptions kSourceOptions{};
+
 class DiffuseSource {
  public:
   static constexpr int kPowers = 4;  // of the cosine in a block: 1, c, c^2, c^3
@@ -28,10 +32,8 @@ class DiffuseSource {
   // Floats of one block: [wavelength][power].
   static constexpr std::size_t kBlock = 4 * kPowers;
 
-  // Kept at `heights`, which ascend from 0 to the top. `options` are those of the reference model,
-  // as resolved() for the atmosphere, so that the two agree; `optics` have as many moments.
-  DiffuseSource(const Shells& shells, const NodeOptics& optics, const ReferenceOptions& options,
-                const std::vector<double>& heights);
+  // Kept at `heights`, which ascend from 0 to the top.
+  DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& heights);
 
   const SunGrid& suns() const { return suns_; }
 
@@ -50,7 +52,7 @@ class DiffuseSource {
     int blocks;
     std::vector<float> values;
   };
-  void tabulate(int height, double level, int moment_count, const NodeOptics& optics,
+  void tabulate(int height, double level, const NodeOptics& optics,
                 const std::vector<DiffuseField>& fields);
   std::size_t index(int height, int zenith, int blocks) const;
 

@@ -23,13 +23,12 @@ constexpr int kLevelsPerTexel = kSourceStep;
 
 class ScatteringBuilder {
  public:
-  ScatteringBuilder(const Shells& shells, const NodeOptics& optics, const ReferenceOptions& options,
-                    AtmosphereTables& tables)
+  ScatteringBuilder(const Shells& shells, const NodeOptics& optics, AtmosphereTables& tables)
       : shells_(shells),
         optics_(optics),
         tables_(tables),
         heights_(level_heights()),
-        source_(shells, optics, options, source_heights(heights_)),
+        source_(shells, optics, source_heights(heights_)),
         kinds_(tables.phases.count()) {
     set_sun_steps();
     beam_.resize(heights_.size());
@@ -224,9 +223,8 @@ class ScatteringBuilder {
 }  // namespace
 
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            const ReferenceOptions& options, AtmosphereTables& tables,
-                            const std::function<void(double)>& progress) {
-  ScatteringBuilder(shells, optics, options, tables).build(progress);
+                            AtmosphereTables& tables, const std::function<void(double)>& progress) {
+  ScatteringBuilder(shells, optics, tables).build(progress);
 }
 
 }  // namespace skyfit

@@ -10,10 +10,8 @@
 
 namespace skyfit {
 
-// `options` as of DiffuseSource. `tables` has its atmosphere and sizes; progress in 0..1 per part
-// of this work, may be empty.
+// `tables` has its atmosphere and sizes; progress in 0..1 per part of this work, may be empty.
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            const ReferenceOptions& options, AtmosphereTables& tables,
-                            const std::function<void(double)>& progress);
+                            AtmosphereTables& tables, const std::function<void(double)>& progress);
 
 }  // namespace skyfit

@@ -64,11 +64,11 @@ Table phase_table(const PhaseClasses& phases, const ColorRule& color) {
 }
 
 NodeOptics optics_of(const Shells& shells, const Atmosphere<double>& atmosphere,
-                     const ColorRule& color, int moments) {
+                     const ColorRule& color) {
   const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
   NodeOptics optics;
   for (std::size_t k = 0; k < 4; ++k)
-    optics[k] = optics_at<0>(shells, plain, color.nodes[k], moments);
+    optics[k] = optics_at<0>(shells, plain, color.nodes[k], kSourceOptions.moments);
   return optics;
 }
 
@@ -189,8 +189,7 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const Atmosphere<double> effective =
       model != nullptr ? model->effective_atmosphere(atmosphere) : atmosphere;
   const Shells shells = shells_of(effective, Keep::kWhatMatters);
-  const ReferenceOptions options = resolved({}, effective);
-  const NodeOptics optics = optics_of(shells, effective, color, options.moments);
+  const NodeOptics optics = optics_of(shells, effective, color);
   const RayTexels texels = sizes.scattering();
   tables.rayleigh_like =
       make_table(texels.mu_s * texels.azimuth, texels.rows(), sizes.scattering_r);
@@ -204,7 +203,7 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
     tabulate(*model, shells, tables, of_scattering);
   } else {
     tables.sky_rays = outside_tables(sizes.outside(), tables.phases);
-    make_scattering_tables(shells, optics, options, tables, of_scattering);
+    make_scattering_tables(shells, optics, tables, of_scattering);
   }
   make_optical_depth(shells, optics, tables);
   make_irradiance(shells.top, tables);

@@ -20,6 +20,9 @@ namespace skyfit {
 namespace {
 
 constexpr double kAgreement = 0.03;
+// Of a forward lobe narrower than the moments of the tables hold, as that of Martian dust; the
+// reference takes twice as many (model/tables/diffuse_source.h).
+constexpr double kAgreementOfNarrowLobes = 0.05;
 constexpr double kNearest = 3e3;  // m: nearer paths are the small difference of two whole rays
 
 // A planet under a preset, with tables of full size.
@@ -58,11 +61,12 @@ struct Seen {
   const char* preset;
   const char* view;
   double sun_deg, altitude_m, aerosol_per_m;  // 0: the view's and the preset's own
+  bool narrow_lobe = false;
 };
 class AerialPerspectiveOf : public ::testing::TestWithParam<Seen> {};
 
 TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
-  const auto& [preset, view, sun_deg, altitude_m, aerosol_per_m] = GetParam();
+  const auto& [preset, view, sun_deg, altitude_m, aerosol_per_m, narrow_lobe] = GetParam();
   Planet& planet = planet_of(preset, aerosol_per_m);
   const AtmosphereTables& tables = planet.tables;
   FrameOptions options = options_of(view, 96, 54);
@@ -126,8 +130,9 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
       "[ aerial ] %zu paths: worst %.2f %% by pixel; %.2f %%, rms %.2f %% from the volume\n",
       pixels.size(), 100 * worst_pixel, 100 * worst_volume,
       100 * std::sqrt(squares / static_cast<double>(pixels.size())));
-  EXPECT_LT(worst_pixel, kAgreement);
-  EXPECT_LT(worst_volume, kAgreement);
+  const double agreement = narrow_lobe ? kAgreementOfNarrowLobes : kAgreement;
+  EXPECT_LT(worst_pixel, agreement);
+  EXPECT_LT(worst_volume, agreement);
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf,
@@ -140,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf,
                                            Seen{"earth-clear", "valley", 0, 0, 6e-4},
                                            Seen{"earth-clear", "valley", 0, 0, 2e-3},
                                            Seen{"bodare-2014", "valley", 0, 0, 0},
-                                           Seen{"mars", "10km", 84, 0, 0}));
+                                           Seen{"mars", "10km", 84, 0, 0, true}));
 
 }  // namespace
 }  // namespace skyfit
