@@ -325,9 +325,10 @@ std::string brief_report(const Result& result) {
     if (std::isfinite(result.errors.spectral))
       errors += fmt::format(", spectral error {:.3g} %", result.errors.spectral);
   }
-  return fmt::format("{}: {}, {} samples, {}{}", result.preset.name, errors, result.samples,
-                     result.converged ? "converged" : "NOT CONVERGED",
-                     open > 0 ? fmt::format(", {} unknowns not identifiable", open) : "");
+  return fmt::format(
+      "{}: {}, {} samples, {}{}", result.preset.name, errors, result.samples,
+      result.converged ? "converged" : "NOT CONVERGED",
+      open > 0 ? fmt::format(", {} unknown{} not identifiable", open, open == 1 ? "" : "s") : "");
 }
 
 std::string full_report(const Result& result, const Checks& checks) {
