@@ -84,8 +84,10 @@ ClearAir<N> clear_air(const Shells& shells, const Atmosphere<Dual<N>>& atmospher
       air.depolarisation = s.phase.depolarisation;
     } else {
       air.aerosol_scattering = s.scattering;
-      air.aerosol_extinction =
-          s.scattering / atmosphere.constituents[s.constituent].single_scattering_albedo;
+      const Constituent<Dual<N>>& c = atmosphere.constituents[s.constituent];
+      const Dual<N> albedo = c.albedo_spectrum ? Dual<N>(c.albedo_spectrum->at(node.wavelength_nm))
+                                               : c.single_scattering_albedo;
+      air.aerosol_extinction = albedo.v > 0 ? s.scattering / albedo : Dual<N>();
       air.aerosol_profile = profile;
       air.aerosol_scale_height = air.shape[s.profile][0];
       air.phase = s.phase;

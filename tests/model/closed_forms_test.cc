@@ -98,6 +98,17 @@ TEST(Preetham, ColourByHand) {
   EXPECT_NEAR(xyz[1] / all, 0.2621909539184473, kDigits);
 }
 
+// Turbidity is of extinction: a single scattering albedo from a table counts as the number does.
+TEST(Preetham, TurbidityKnowsTheAlbedoOfATable) {
+  Atmosphere<double> number, table;
+  number.at("mie").amount = table.at("mie").amount = 1e-4;
+  number.at("mie").single_scattering_albedo = 0.8;
+  table.at("mie").single_scattering_albedo = 1;
+  table.at("mie").albedo_spectrum = std::make_shared<const SpectrumTable>(
+      TwoColumns{{450, 550, 650}, {0.7, 0.8, 0.9}}, kAlbedoFormat);
+  EXPECT_NEAR(preetham_turbidity(table) / preetham_turbidity(number), 1, 1e-12);
+}
+
 // The rules of few wavelengths give the model's luminance and colour back.
 TEST(Preetham, FewWavelengthsHoldItsLuminance) {
   Atmosphere<double> a;
