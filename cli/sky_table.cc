@@ -46,7 +46,7 @@ double value_of(const NodeSum& sum, const SkyValues& sky, int point) {
   for (std::size_t k = 0; k < sum.weight.size(); ++k) {
     total += sum.weight[k] * sky.at(point, static_cast<int>(sum.first_node + k));
   }
-  return total;
+  return sum.not_negative ? std::max(total, 0.0) : total;
 }
 
 // sqrt(g C g) with the gradient g of the sum by the parameters of the covariance.
@@ -72,7 +72,7 @@ SkyTable luminance_table(const SpectralData& data) {
 SkyTable color_table(const SpectralData& data) {
   const XyzRule rule = xyz_rule(data);
   SkyLine line;
-  for (const std::vector<double>& weight : rule.weight) line.sums.push_back({0, weight});
+  for (const std::vector<double>& weight : rule.weight) line.sums.push_back({0, weight, true});
   for (int channel = 0; channel < 3; ++channel) line.sums.push_back(srgb_channel(rule, channel));
   return {"",
           {"X_cd_m2", "Y_cd_m2", "Z_cd_m2", "R_cd_m2", "G_cd_m2", "B_cd_m2"},

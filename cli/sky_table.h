@@ -19,6 +19,7 @@ namespace skyfit::cli {
 struct NodeSum {
   std::size_t first_node = 0;
   std::vector<double> weight;
+  bool not_negative = false;  // what the few nodes of a rule leave below 0 is 0
 };
 
 // One line of a place: its first fields, and what it prints of each of the place's points.

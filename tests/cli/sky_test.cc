@@ -49,6 +49,18 @@ class SkyTest : public ProgramTest {
   }
 };
 
+// Of light that is red alone, the rule's few nodes leave a Z below 0.
+TEST_F(SkyTest, TristimulusValuesAreNotNegative) {
+  json preset = json::parse(refs::shipped_preset_json("earth-clear"));
+  preset["mie"]["single_scattering_albedo"] = 1e-3;
+  write("soot.json", preset.dump());
+  const Columns found = sky({"--preset", "soot.json", "--sun-zenith-deg", "0,60,88",
+                             "--view-zenith-deg", "0,80,89", "--color"});
+  for (const char* column : {"X_cd_m2", "Y_cd_m2", "Z_cd_m2"}) {
+    for (const double value : found.at(column)) EXPECT_GE(value, 0) << column;
+  }
+}
+
 TEST_F(SkyTest, ColorIsTheSumOverTheSpectrum) {
   const std::vector<std::string> where = {"--preset", "earth-clear",       "--sun-zenith-deg",
                                           "88",       "--view-zenith-deg", "85"};
