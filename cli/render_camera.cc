@@ -13,7 +13,8 @@
 namespace skyfit::cli {
 namespace {
 
-constexpr double kSequenceSeconds = 10;  // of a sequence over a day, unless an option says otherwise
+constexpr double kSequenceSeconds =
+    10;  // of a sequence over a day, unless an option says otherwise
 
 void parse_camera_place(const RenderOptions& options, const CLI::App& command, CameraPose& pose) {
   if (command.count("--latitude-deg") > 0) {
@@ -94,8 +95,8 @@ Pace pace_of(const RenderOptions& options, const CLI::App& command, double lengt
     return {options.frames, options.frames > 1 ? length_min / (options.frames - 1) : 0};
   }
   if (command.count("--step-min") == 0) {
-    const int frames = std::clamp(static_cast<int>(std::lround(kSequenceSeconds * frames_per_second)),
-                                  2, kMaxSequenceFrames);
+    const int frames = std::clamp(
+        static_cast<int>(std::lround(kSequenceSeconds * frames_per_second)), 2, kMaxSequenceFrames);
     return {frames, length_min / (frames - 1)};
   }
   const double step = parse_number("--step-min", options.step_min);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atmosphere that skyfit fits: a spherical planet, its star, its ground, and a list of constituents
-// (model/atmosphere/constituent.h), whose order does not matter. Lengths in metres. Source of the
-// standard ones: Bruneton & Neyret 2008, section 2, with the aerosol's wavelength dependence of
-// Angstrom and an ozone layer.
+// The atmosphere that skyfit fits: a spherical planet, its star, its ground, and a list of
+// constituents (model/atmosphere/constituent.h), whose order does not matter. Lengths in metres.
+// Source of the standard ones: Bruneton & Neyret 2008, section 2, with the aerosol's wavelength
+// dependence of Angstrom and an ozone layer.
 #pragma once
 
 #include <string_view>

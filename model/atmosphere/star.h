@@ -21,10 +21,10 @@ enum class StarSpectrum {
 
 struct Star {
   StarSpectrum spectrum = StarSpectrum::kSolar;
-  double distance_au = 1;        // kSolar
-  double temperature_k = 5772;   // kBlackBody
+  double distance_au = 1;                                // kSolar
+  double temperature_k = 5772;                           // kBlackBody
   std::shared_ptr<const SpectrumTable> table = nullptr;  // kTabulated
-  double angular_diameter_deg = 0.5334;  // 2 x 4.6548e-3 rad: the sun at 1 au
+  double angular_diameter_deg = 0.5334;                  // 2 x 4.6548e-3 rad: the sun at 1 au
   // I(mu) / I(1) = 1 - u1 (1 - mu) - u2 (1 - mu)^2, mu the cosine from the disc's centre: the sun's
   // in green light (Cox 2000, Allen's Astrophysical Quantities, 14.7, as one term).
   std::array<double, 2> limb_darkening = {0.6, 0};

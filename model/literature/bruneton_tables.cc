@@ -49,8 +49,9 @@ class BrunetonSolver {
 
   void solve(int orders) {
     fill_optical_depth();
-    const SunColumns<N> sun(
-        geometry_.shells(), [&](double height, double mu) { return tables_.optical_depth(height, mu); });
+    const SunColumns<N> sun(geometry_.shells(), [&](double height, double mu) {
+      return tables_.optical_depth(height, mu);
+    });
     for (int i = 0; i < Sizes::irradiance_mu_s; ++i) {
       const double mu_s = irradiance_sun(i);
       if (mu_s > 0) ground_[static_cast<std::size_t>(i)] = mu_s * sun.light(0, mu_s);

@@ -2,9 +2,8 @@
 // The rules of model/photometry/photometry.h keep to the 5 nm sum for clear and hazy atmospheres,
 // ozone 0 to 500 DU, suns 0 to 92 deg, views 0 to 90 deg, from the ground and from 10 km. The
 // atmospheres are not those that the nodes were found with.
-#include "tests/model/rule_accuracy.h"
-
 #include "tests/atmospheres.h"
+#include "tests/model/rule_accuracy.h"
 
 namespace skyfit {
 namespace {

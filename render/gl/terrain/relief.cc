@@ -228,8 +228,7 @@ void Relief::balance_materials() {
     mean_[k] = sum[k] / kDirections;
     // No material above 1: a bright planet has less contrast.
     const double excess = 1.2 * highest[k] / mean_[k] - 1;
-    contrast_ =
-        std::min(contrast_, (1 - albedo_[k]) / std::max(albedo_[k] * excess, 1e-9));
+    contrast_ = std::min(contrast_, (1 - albedo_[k]) / std::max(albedo_[k] * excess, 1e-9));
   }
 }
 

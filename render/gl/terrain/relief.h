@@ -34,8 +34,7 @@ class Relief final : public Ground {
   void settle_on_a_coast();
   NodeValues material(const glm::dvec3& direction, double height_m, double steepness,
                       double resolution_m) const;
-  NodeValues dry_material(const glm::dvec3& direction, double steepness,
-                          double resolution_m) const;
+  NodeValues dry_material(const glm::dvec3& direction, double steepness, double resolution_m) const;
   void balance_materials();
 
   double radius_m_;
