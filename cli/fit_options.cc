@@ -96,13 +96,12 @@ void add_problem_options(CLI::App& command, FitArguments& options) {
   command.add_option("--max-iterations", options.max_iterations, "Iterations of one start")
       ->capture_default_str();
   command
-      .add_option("--free", options.free,
-                  "The free parameters, exactly these; none evaluates the start")
+      .add_option("--free", options.free, "Fit exactly these parameters; none evaluates the start")
       ->type_name("NAME,NAME");
   command.add_option("--fix", options.fix, "Hold parameters at a value")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--prior", options.prior, "Gaussian prior, in the place of the default one")
+  command.add_option("--prior", options.prior, "Gaussian prior, which replaces the default one")
       ->type_name("NAME=MEAN:SIGMA")
       ->allow_extra_args(false);
   command.add_flag("--no-priors", options.no_priors, "Drop the default priors");
@@ -131,7 +130,7 @@ void add_check_options(CLI::App& command, FitArguments& arguments) {
                   "the directions")
       ->type_name("scans|N")
       ->group(std::string(kChecks));
-  command.add_option("--seed", arguments.seed, "Of --bootstrap and --hold-out N")
+  command.add_option("--seed", arguments.seed, "Seed of --bootstrap and --hold-out N")
       ->check(CLI::Range(0, 2147483647).description(""))
       ->group(std::string(kChecks))
       ->capture_default_str();
@@ -164,7 +163,8 @@ void add_likelihood_options(CLI::App& command, FitArguments& arguments) {
       "Known noise, relative and absolute; by default 0.05 times a factor that the residuals\n"
       "show, or what the samples of a relative luminance state",
       "RELATIVE[:FLOOR]");
-  add("--loss", arguments.loss, "Of a direction's mean square: none, huber or cauchy", "NAME");
+  add("--loss", arguments.loss,
+      "Robust loss of a direction's mean square residual: none, huber or cauchy", "NAME");
   add("--ground", arguments.ground,
       fmt::format("How the ground's albedo depends on wavelength: {}; by default as the preset "
                   "says",
@@ -172,7 +172,7 @@ void add_likelihood_options(CLI::App& command, FitArguments& arguments) {
       "NAME|FILE");
   command
       .add_flag("--keep-absorption-bands", arguments.keep_absorption_bands,
-                "Fit 686-694, 715-735 and 758-772 nm too, where oxygen and water vapour absorb")
+                "Fit the bands too where oxygen, water vapour, carbon dioxide and methane absorb")
       ->group(std::string(kLikelihood));
 }
 

@@ -153,8 +153,9 @@ std::string sigma_text(const Result& result) {
   }
   return text +
          "\"not identifiable\": the data say less about the unknown than its prior (without one: "
-         "than its\nbounds). Unknowns at a bound have no sigma; those of the others hold with it "
-         "there.\n";
+         "than its\nbounds). An unknown at a bound has no sigma; the sigmas of the others hold for "
+         "it at "
+         "that\nbound.\n";
 }
 
 std::string unknowns_text(const Result& result) {

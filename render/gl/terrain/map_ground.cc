@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "render/gl/terrain/blend.h"
 #include "render/gl/terrain/noise.h"
 
 namespace skyfit {
@@ -22,17 +23,6 @@ constexpr double kMostDetail = 0.05;  // of the map's range of heights
 constexpr double kOctaves = 2.1;      // a bound on the sum of octaves of amplitudes 1, 1/2, ...
 constexpr double kRoughness = 0.12;   // of flat land, m, at waves of kRough
 constexpr double kRough = 9;
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-NodeValues mix(const NodeValues& a, const NodeValues& b, double t) {
-  NodeValues r;
-  for (std::size_t k = 0; k < 4; ++k) r[k] = a[k] + t * (b[k] - a[k]);
-  return r;
-}
 
 }  // namespace
 

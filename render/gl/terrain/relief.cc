@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
+#include "render/gl/terrain/blend.h"
 #include "render/gl/terrain/noise.h"
 
 namespace skyfit {
@@ -22,17 +23,6 @@ constexpr double kShore = 0.0015;    // of land_value(): a coast some 8 km wide
 constexpr double kBoulder = 3.2, kBoulderHeight = 0.35;
 constexpr double kSpots = 1500;
 constexpr double kFinest = 0.1;  // no detail below, m
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-NodeValues mix(const NodeValues& a, const NodeValues& b, double t) {
-  NodeValues r;
-  for (std::size_t k = 0; k < 4; ++k) r[k] = a[k] + t * (b[k] - a[k]);
-  return r;
-}
 
 // Relative reflectances at about 460, 530, 590 and 660 nm; only their ratios matter.
 constexpr NodeValues kSea = {0.60, 0.42, 0.26, 0.20};
