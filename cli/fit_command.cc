@@ -83,13 +83,13 @@ void add_fit_command(CLI::App& app) {
   add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_threads_option(*command, options->threads);
   command->footer(
-      "Leaves preset.json, report.txt, report.json and samples.csv in the directory; of luminances "
-      "the\n"
-      "figure comparison, of absolute and spectral skies the figures maps, spectra, residuals, "
-      "corner\n"
-      "and series. A figure that cannot be drawn is missing from the result and makes the exit "
-      "status\n"
-      "1. A LIST is a,b,c or start:stop:step, stop included.\n"
+      "Leaves preset.json, report.txt, report.json and samples.csv in the directory; of relative\n"
+      "luminances the figure comparison, of absolute and spectral skies the figures maps, "
+      "spectra,\n"
+      "residuals, corner and series, and comparison where luminances lie in the sun's vertical\n"
+      "plane. A figure that cannot be drawn is missing from the result and makes the exit status "
+      "1.\n"
+      "A LIST is a,b,c or start:stop:step, stop included.\n"
       "\n"
       "What is fitted by default depends on the quantity of the reference alone: a relative\n"
       "luminance with --link log --scale profiled --pointing stated, an absolute luminance or a\n"

@@ -13,6 +13,7 @@
 #include "model/base/input_file.h"
 #include "model/base/preset_reader.h"
 #include "model/base/whole_file.h"
+#include "render/plot/comparison.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/results.h"
 
@@ -65,6 +66,13 @@ std::vector<plot::Sample> samples_of(const fit::Result& result) {
   return samples;
 }
 
+// Whether the sun's vertical plane, in which the figure comparison draws its curves, holds samples
+// enough: three a scan.
+bool shows_planes(const std::vector<plot::Sample>& samples, std::size_t scans) {
+  return static_cast<std::size_t>(std::ranges::count_if(samples, plot::in_principal_plane)) >=
+         3 * scans;
+}
+
 void draw_comparison(const std::filesystem::path& directory, const plot::FitOutcome& outcome,
                      const SkyModel& model, Figures& figures) {
   const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
@@ -111,7 +119,8 @@ void write_fit(const std::filesystem::path& directory, const FinishedFit& finish
   write_file(directory / kReportTextFile, fit::full_report(result, finished.checks));
   const std::vector<plot::Sample> samples = samples_of(result);
   write_file(directory / kSamplesFile, plot::samples_to_csv(samples));
-  if (result.reference.quantity != refs::Quantity::kSpectralRadiance)
+  const bool luminances = result.reference.quantity == refs::Quantity::kLuminance;
+  if (!has_absolute_values(result) || (luminances && shows_planes(samples, result.scans.size())))
     draw_comparison(directory, {directory.string(), result.preset, samples}, model, figures);
   if (has_absolute_values(result))
     draw_measured(directory, measured_outcome(result, samples), figures);

@@ -67,7 +67,8 @@ double limit_percent(const MeasuredOutcome& outcome) {
   }
   const auto rank = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(sizes.size() - 1));
   std::ranges::nth_element(sizes, sizes.begin() + rank);
-  return round_up(sizes[static_cast<std::size_t>(rank)]);
+  constexpr double kLeast = 0.1;  // what a fit of its own model leaves is rounding
+  return round_up(std::max(sizes[static_cast<std::size_t>(rank)], kLeast));
 }
 
 void begin_panel(Script& script, const Box& box, std::string_view title, double limit) {

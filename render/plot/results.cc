@@ -25,6 +25,7 @@ struct FitRecord {
   std::string reference, description, model;
   refs::Quantity quantity;
   double exclude_sun_deg;
+  bool scale_is_profiled;
 };
 
 template <class T>
@@ -53,7 +54,9 @@ FitRecord record_of(const FitOutcome& fit) {
           field<std::string>(fit, "/model", "the name of a sky model"),
           quantity == "luminance_cd_m2" ? refs::Quantity::kLuminance
                                         : refs::Quantity::kRelativeLuminance,
-          field<double>(fit, "/reference/exclude_sun_deg", "a number")};
+          field<double>(fit, "/reference/exclude_sun_deg", "a number"),
+          field<std::string>(fit, "/likelihood/scale", "how the luminance scale was fitted") ==
+              "profiled"};
 }
 
 bool is_analytic(const std::string& reference) {
@@ -89,14 +92,15 @@ std::string label_of(std::span<const FitOutcome> fits, std::size_t index) {
   return fmt::format("{} ({})", preset.name, fits[index].folder);
 }
 
-std::string subtitle_of(const Comparison& comparison, const FitRecord& record) {
-  if (comparison.curves.size() > 1) return "luminance scale free per sun position";
+std::string subtitle_of(const Comparison& comparison, const FitRecord& record,
+                        std::string_view scale) {
+  if (comparison.curves.size() > 1) return std::string(scale);
   const Curve& curve = comparison.curves.front();
   return fmt::format(
       "fitted with the model \"{}\": RMS log error {:.2f} % in the panels, {:.2f} % over the whole "
-      "sky; luminance scale "
-      "free per sun position",
-      record.model, rms_log_percent(plane_samples(curve)), rms_log_percent(curve.hemisphere));
+      "sky; {}",
+      record.model, rms_log_percent(plane_samples(curve)), rms_log_percent(curve.hemisphere),
+      scale);
 }
 
 }  // namespace
@@ -116,20 +120,23 @@ Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& s
   comparison.reference_label = "reference " + first.reference;
   comparison.quantity = first.quantity;
   comparison.exclude_sun_deg = first.exclude_sun_deg;
-  bool one_reference = true;
+  bool one_reference = true, all_profiled = true;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const FitRecord record = record_of(fits[i]);
     if (record.quantity != first.quantity)
       throw std::invalid_argument(fmt::format("{}: its reference has another unit than that of {}",
                                               fits[i].folder, fits[0].folder));
     one_reference &= record.reference == first.reference;
+    all_profiled &= record.scale_is_profiled;
     comparison.exclude_sun_deg = std::max(comparison.exclude_sun_deg, record.exclude_sun_deg);
     comparison.curves.push_back(
         {label_of(fits, i), positive_samples(fits[i]),
          hemisphere_samples(fits[i], record, spectra, model_named(record.model))});
   }
   comparison.title = one_reference ? first.description : "Fits compared";
-  comparison.subtitle = subtitle_of(comparison, first);
+  comparison.subtitle = subtitle_of(
+      comparison, first,
+      all_profiled ? "luminance scale free per sun position" : "luminances as the fit scales them");
   return comparison;
 }
 

@@ -133,6 +133,7 @@ std::string preset_text() {
                   {"description", "A sky"},
                   {"quantity", "relative_luminance"},
                   {"exclude_sun_deg", 3}}},
+                {"likelihood", {{"scale", "profiled"}}},
                 {"covariance", {{"parameters", {"ground.albedo"}}, {"matrix", matrix}}}};
   return preset_to_json(preset);
 }

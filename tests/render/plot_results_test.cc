@@ -16,6 +16,7 @@ namespace skyfit::plot {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 constexpr double kRadian = std::numbers::pi / 180;
@@ -47,7 +48,8 @@ FitOutcome outcome(const std::string& reference,
                      {{"name", reference},
                       {"description", "A sky"},
                       {"quantity", quantity},
-                      {"exclude_sun_deg", 3}}}};
+                      {"exclude_sun_deg", 3}}},
+                    {"likelihood", {{"scale", "profiled"}}}};
   const auto samples =
       refs::load_reference("cie:12", {0, 40 * kRadian}, refs::Sampling::kPrincipalPlane);
   fit.samples = evaluated_samples(samples, fit.preset.atmosphere, refs::standard_spectral_data(),
@@ -96,6 +98,13 @@ TEST(ComparisonOf, MapsOfAnAnalyticReferenceShowTregenzasPatches) {
   EXPECT_EQ(comparison.curves[0].hemisphere.size(), 2u * 145u);
   EXPECT_EQ(comparison.title, "A sky");
   EXPECT_EQ(comparison.reference_label, "reference cie:12");
+}
+
+TEST(ComparisonOf, SaysWhetherTheScaleIsFree) {
+  FitOutcome fit = outcome("cie:12");
+  EXPECT_THAT(figure({fit}).subtitle, HasSubstr("luminance scale free per sun position"));
+  fit.preset.fit["likelihood"]["scale"] = "fixed";
+  EXPECT_THAT(figure({fit}).subtitle, Not(HasSubstr("free")));
 }
 
 TEST(ComparisonOf, MapsOfMeasurementsShowTheirSamples) {
