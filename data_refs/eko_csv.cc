@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -134,6 +135,7 @@ class EkoReader {
     const Instant end = time(date, fields[kEnd], *facts.utc_offset_h, line);
     PatchScan scan;
     scan.name = date + " " + fields[kStart];
+    std::ranges::replace(scan.name, '/', '-');  // no path of files
     // A clock of UTC from here on.
     facts.local_time = iso_text(start + (end - start) / 2).substr(0, 19);
     facts.utc_offset_h = 0;

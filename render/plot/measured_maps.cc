@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "model/base/text.h"
 #include "render/plot/hemisphere_maps.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/script.h"
@@ -14,6 +18,27 @@ namespace {
 constexpr double kCell = 330, kHeader = 92, kFooter = 84, kTitle = 30, kLabel = 176;
 constexpr std::size_t kMaxRows = 6;
 constexpr int kScaleSteps = 80;
+
+// A scan's name in lines that the column of names holds, broken at spaces; of a longer word the
+// end stays.
+std::vector<std::string> label_lines(const std::string& name) {
+  constexpr std::size_t kCharacters = 22;
+  std::vector<std::string> lines;
+  for (const std::string_view part : split(name, ' ')) {
+    std::string word(part);
+    if (word.size() > kCharacters) {
+      std::size_t begin = word.size() - kCharacters + 3;
+      while (begin < word.size() && (word[begin] & 0xC0) == 0x80) ++begin;  // inside a character
+      word = "..." + word.substr(begin);
+    }
+    if (!lines.empty() && lines.back().size() + 1 + word.size() <= kCharacters) {
+      lines.back() += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
 
 double ratio_percent(const Sample& s) { return 100 * (s.model / s.reference - 1); }
 
@@ -143,8 +168,12 @@ void draw_row(Script& script, const MeasuredOutcome& outcome, const Row& row, do
     return shown(s) ? diverging_color(ratio_percent(s), limit) : std::string(kLeftOutColor);
   });
   script.begin_axes(box(0));
-  script.text_label(kLabel - 4, top - side / 2 + 12, scan_label(outcome, row.scan),
-                    "right font ',11'");
+  const std::vector<std::string> name = label_lines(scan_label(outcome, row.scan));
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const double lines_below = static_cast<double>(name.size() - 1 - i);
+    script.text_label(kLabel - 4, top - side / 2 + 12 + 20 * lines_below, name[i],
+                      "right font ',11'");
+  }
   script.text_label(kLabel - 4, top - side / 2 - 8,
                     fmt::format("☉ {:.3g}°", row.sky.front().sun_zenith_deg), "right font ',11'");
   script.text_label(kLabel - 4, top - side / 2 - 28,
