@@ -2,6 +2,7 @@
 // The columns of a CSV of samples, which its reader and its writer share (meaning: sample_csv.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -26,6 +27,9 @@ inline constexpr std::array kValueColumns = {
     ValueColumn{"luminance_cd_m2", Quantity::kLuminance},
     ValueColumn{"relative_luminance", Quantity::kRelativeLuminance},
     ValueColumn{"spectral_radiance_w_m2_sr_nm", Quantity::kSpectralRadiance}};
+constexpr std::string_view value_column(Quantity quantity) {
+  return std::ranges::find(kValueColumns, quantity, &ValueColumn::quantity)->name;
+}
 
 inline constexpr std::array kColumns = {kSunZenith,
                                         kViewZenith,

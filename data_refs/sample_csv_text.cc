@@ -81,8 +81,7 @@ std::vector<OutputColumn> output_columns(const Reference& reference) {
   if (reference.quantity == Quantity::kSpectralRadiance)
     columns.push_back({kWavelength, [=](const Sample& s) { return number(s.wavelength_nm); }});
   columns.push_back(
-      {std::ranges::find(kValueColumns, reference.quantity, &ValueColumn::quantity)->name,
-       [=](const Sample& s) { return number(s.value); }});
+      {value_column(reference.quantity), [=](const Sample& s) { return number(s.value); }});
   if (all([](const Sample& s) { return s.sigma.has_value(); }))
     columns.push_back({kSigma, [=](const Sample& s) { return number(*s.sigma); }});
   columns.push_back({kWeight, [=](const Sample& s) { return number(s.weight); }});
