@@ -76,7 +76,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
   group.option("--color-map", options.color_map, "FILE",
                "Colours of the ground, with the layout of a height map");
-  group.option("--water-level-m", options.water_level, "LENGTH", "Height of the sea")
+  group
+      .option("--water-level-m", options.water_level, "LENGTH",
+              "Height of the sea and of the lowest ground, m; negative: in basins below the\n"
+              "bottom radius, into which the air is continued")
       ->capture_default_str();
   group.option("--textures", options.textures, "DIR",
                "Textures of the ground's materials; missing ones are made and kept there");
@@ -161,6 +164,7 @@ constexpr Pair kNeeds[] = {
     {"--time", "--date"},
     {"--utc-offset-h", "--date"},
     {"--height-range-m", "--height-map"},
+    {"--water-level-m", "--height-map"},
     {"--format", "--out-dir"},
 };
 constexpr Pair kExcludes[] = {

@@ -71,7 +71,6 @@ void check_cameras(const RenderRequest& request) {
     FrameOptions frame = request.frame;
     place_camera(keyframe.camera, shot_at(request.sequence, keyframe.time_s, sun_over).sun,
                  keyframe.preset.atmosphere.bottom_radius_m, flat, frame);
-    frame.camera.altitude_m = std::max(frame.camera.altitude_m, 1.0);
     validate(frame);
   }
 }

@@ -3,6 +3,7 @@
 
 #include "cli/light_check.h"
 #include "data_refs/spectra.h"
+#include "model/atmosphere/lowered_ground.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "model/tables/tables.h"
@@ -18,7 +19,7 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
       timeline_(std::move(timeline), [this](const Preset& preset) { return tables_of(preset); }) {}
 
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
-  return compute_tables_of(*model_, preset.atmosphere,
+  return compute_tables_of(*model_, lowered_by(basin_depth_m(request_.scene), preset.atmosphere),
                            color_rule(refs::spectral_data_of(preset.atmosphere)), TableSizes{},
                            request_.threads,
                            [this](double done) { report_(done, "tables of the atmosphere"); });

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "model/base/module_file.h"
@@ -37,11 +38,25 @@ void add_metadata(const std::string& preset, const FrameOptions& options, Frame&
   }
 }
 
+Scene raised(Scene scene, double by) {
+  scene.lowest_m += by;
+  scene.highest_m += by;
+  scene.water_level_m += by;
+  for (PlacedMesh& mesh : scene.meshes) mesh.altitude_m += by;
+  return scene;
+}
+
 }  // namespace
 
-Renderer::Renderer(const Scene& scene, GraphicsDevice device) {
+double basin_depth_m(const Scene& scene) {
+  if (scene.height_map.empty()) return 0;
+  return std::max(0.0, -std::max(scene.lowest_m, scene.water_level_m));
+}
+
+Renderer::Renderer(const Scene& scene, GraphicsDevice device)
+    : basin_depth_m_(basin_depth_m(scene)) {
   validate(scene);
-  drawer_ = module().make_drawer(scene, device);
+  drawer_ = module().make_drawer(raised(scene, basin_depth_m_), device);
 }
 
 Renderer::~Renderer() = default;
@@ -53,24 +68,34 @@ void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tabl
 }
 
 double Renderer::ground_height_m(const std::optional<Site>& site) const {
-  return drawer_->ground_height_m(site);
+  return drawer_->ground_height_m(site) - basin_depth_m_;
 }
 
-void Renderer::require_ready(const FrameOptions& options) const {
+// What the drawer wants: heights from the lowest ground, which is the bottom of its atmosphere.
+FrameOptions Renderer::above_lowest_ground(const FrameOptions& options) const {
+  constexpr double kRoom = 0.3;  // m
   validate(options);
   if (preset_.empty()) throw std::logic_error("render: a frame needs an atmosphere");
+  const double ground = ground_height_m(options.site);
+  if (options.camera.altitude_m < ground + kRoom) {
+    throw std::invalid_argument(
+        fmt::format("render.camera.altitude_m = {:.9g}: must be above the ground, {:.9g} m",
+                    options.camera.altitude_m, ground + kRoom));
+  }
+  FrameOptions raised = options;
+  raised.camera.altitude_m += basin_depth_m_;
+  if (raised.clouds) raised.clouds->altitude_m += basin_depth_m_;
+  return raised;
 }
 
 FrameStatistics Renderer::submit(const FrameOptions& options) {
-  require_ready(options);
-  return drawer_->submit(options);
+  return drawer_->submit(above_lowest_ground(options));
 }
 
 FrameStatistics Renderer::wait() { return drawer_->wait(); }
 
 Frame Renderer::draw(const FrameOptions& options, const std::function<void(double)>& progress) {
-  require_ready(options);
-  Frame frame = drawer_->draw(options, progress);
+  Frame frame = drawer_->draw(above_lowest_ground(options), progress);
   add_metadata(preset_, options, frame);
   return frame;
 }

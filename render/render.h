@@ -77,7 +77,7 @@ struct Scene {
   // sRGB colours of the ground, laid out as the height map; without one: materials by height and
   // slope.
   std::filesystem::path color_map;
-  double water_level_m = 0;  // above the bottom radius
+  double water_level_m = 0;  // above the bottom radius; a negative one lets the ground lie lower
   std::vector<PlacedMesh> meshes;
   // A directory of the materials' textures; those that are missing are made and saved there. Empty:
   // made and not saved.
@@ -135,6 +135,10 @@ struct FrameOptions {
 // range.
 void validate(const FrameOptions& options);
 void validate(const Scene& scene);
+
+// How far the lowest ground of a scene lies below the bottom radius, >= 0, in metres. Its frames
+// want the tables of the atmosphere lowered_by() this depth (model/atmosphere/lowered_ground.h).
+double basin_depth_m(const Scene& scene);
 
 // What the picture is made of, each [pixel][3], in Frame::primaries and not negative, as Frame::rgb
 // is. Light of the air and reflected light add up to the picture's, by their luminance alone where
@@ -197,7 +201,8 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
-  // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere.
+  // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere,
+  // lowered_by() the scene's basin_depth_m().
   // Throws std::invalid_argument when the planet has another radius than before.
   void set_atmosphere(const Preset& preset, const AtmosphereTables& tables);
 
@@ -218,9 +223,10 @@ class Renderer {
   FrameStatistics wait();
 
  private:
-  void require_ready(const FrameOptions& options) const;
+  FrameOptions above_lowest_ground(const FrameOptions& options) const;
 
   std::unique_ptr<FrameDrawer> drawer_;
+  double basin_depth_m_;
   std::string preset_;  // as JSON
 };
 

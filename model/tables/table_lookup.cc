@@ -2,9 +2,9 @@
 #include "model/tables/table_lookup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
-#include <vector>
 
 #include "model/atmosphere/phase_moments.h"
 #include "model/shared/shared.h"
@@ -94,14 +94,24 @@ struct TableRay {
                                                       planet.thickness);
     const double light = 1e-3 * length * deep_twilight(sun, kTableLowestSun);
     NodeValues sum;
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < 4; ++k)
       sum[k] = light * std::exp(rayleigh_like[k]) * rayleigh_phase;
-      for (std::size_t c = 0; c < single.size(); ++c) {
-        const auto phase = phase_at(tables.phases.others[c], tables.color.nodes[k].wavelength_nm);
-        sum[k] += light * std::exp(single[c][k]) * phase_value(phase, nu);
-      }
+    for (std::size_t c = 0; c < single.size(); ++c) {
+      const NodeValues phase = phase_values(tables.phases.others[c]);
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += light * std::exp(single[c][k]) * phase[k];
     }
     return sum;
+  }
+
+  NodeValues phase_values(const PhaseFunction<double>& phase) const {
+    NodeValues values;
+    if (phase.type != PhaseType::kByWavelength) {
+      values.fill(phase_value(phase, nu));
+      return values;
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      values[k] = phase_value(phase_at(phase, tables.color.nodes[k].wavelength_nm), nu);
+    return values;
   }
 
   const AtmosphereTables& tables;
@@ -180,7 +190,8 @@ NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double
   u.low += first * s.scattering_mu_s;
   u.high += first * s.scattering_mu_s;
   NodeValues rayleigh_like{};
-  std::vector<NodeValues> single(tables.phases.others.size(), NodeValues{});
+  std::array<NodeValues, kMostConstituents> values{};
+  const std::span single(values.data(), tables.phases.others.size());
   for (const double weight : {1 - turn + first, turn - first}) {
     accumulate(tables.rayleigh_like, u, v, w, weight, rayleigh_like);
     for (std::size_t c = 0; c < single.size(); ++c)
@@ -200,7 +211,8 @@ NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double m
       v(shared.texture_from_unit(ray.azimuth, texels.azimuth), texels.azimuth),
       w = ray.view(texels);
   NodeValues rayleigh_like{};
-  std::vector<NodeValues> single(tables.phases.others.size(), NodeValues{});
+  std::array<NodeValues, kMostConstituents> values{};
+  const std::span single(values.data(), tables.phases.others.size());
   accumulate(tables.sky_rays.air, u, v, w, 1, rayleigh_like);
   for (std::size_t c = 0; c < single.size(); ++c)
     accumulate(tables.sky_rays.aerosol, u, v, w.later(static_cast<int>(c) * texels.rows()), 1,

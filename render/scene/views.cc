@@ -104,7 +104,9 @@ void validate(const FrameOptions& options) {
           "1 to 4");
   require(within(options.samples_per_quad, 1, 64), "samples_per_quad", options.samples_per_quad,
           "1 to 64");
-  require(within(camera.altitude_m, 1, 1e9), "camera.altitude_m", camera.altitude_m, "1 to 1e9 m");
+  // That it is above the ground is known where there is a ground.
+  require(within(camera.altitude_m, -1e5, 1e9), "camera.altitude_m", camera.altitude_m,
+          "-1e5 to 1e9 m");
   require(within(camera.view_zenith, 0, std::numbers::pi), "camera.view_zenith", camera.view_zenith,
           "0 to pi");
   require(std::isfinite(camera.azimuth), "camera.azimuth", camera.azimuth, "finite");
@@ -142,8 +144,8 @@ void validate(const Scene& scene) {
   require(within(scene.lowest_m, -kHighest, kHighest), "lowest_m", scene.lowest_m, "-1e5 to 1e5 m");
   require(scene.highest_m > scene.lowest_m && scene.highest_m <= kHighest, "highest_m",
           scene.highest_m, "more than lowest_m and at most 1e5 m");
-  require(within(scene.water_level_m, 0, kHighest), "water_level_m", scene.water_level_m,
-          "0 to 1e5 m");
+  require(within(scene.water_level_m, -kHighest, kHighest), "water_level_m", scene.water_level_m,
+          "-1e5 to 1e5 m");
   for (const PlacedMesh& mesh : scene.meshes) {
     require_place("mesh", mesh.latitude, mesh.longitude);
     require(within(mesh.altitude_m, 0, 1e9), "mesh.altitude_m", mesh.altitude_m, "0 to 1e9 m");

@@ -73,8 +73,8 @@ TEST(RenderRequest, StepsAndFramesOfADay) {
 TEST(RenderRequest, SceneOptions) {
   const RenderRequest r =
       request({"--moon", "60,-20", "--second-sun", "70,90,0.5", "--clouds", "0.3,2500", "--shadows",
-               "--aerial", "pixel", "--gpu", "--layers", "--water-level-m", "12", "--out", "x.exr",
-               "--tone", "exponential", "--exposure", "1e-4"});
+               "--aerial", "pixel", "--gpu", "--layers", "--out", "x.exr", "--tone", "exponential",
+               "--exposure", "1e-4"});
   EXPECT_NEAR(r.frame.moon->azimuth, -20 * kDegree, 1e-12);
   EXPECT_EQ(r.frame.second_sun->irradiance, 0.5);
   EXPECT_EQ(r.frame.clouds->altitude_m, 2500);
@@ -82,7 +82,6 @@ TEST(RenderRequest, SceneOptions) {
   EXPECT_TRUE(r.frame.shadows && r.frame.layers);
   EXPECT_EQ(r.frame.aerial, AerialPerspective::kPerPixel);
   EXPECT_EQ(r.device, GraphicsDevice::kGpu);
-  EXPECT_EQ(r.scene.water_level_m, 12);
   EXPECT_EQ(r.tone.curve, ToneCurve::kExponential);
   EXPECT_EQ(r.tone.exposure, 1e-4);
 }

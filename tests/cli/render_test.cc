@@ -167,7 +167,9 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000"},
                         {"--height-range-m", "LOW..HIGH"});
   expect_render_refusal({"--height-range-m", "0..1"}, {"--height-range-m", "with --height-map"});
-  expect_render_refusal({"--water-level-m", "-3"}, {"water_level_m", "-3"});
+  expect_render_refusal({"--water-level-m", "-3"}, {"--water-level-m", "with --height-map"});
+  expect_render_refusal({"--height-map", "heights.png", "--water-level-m", "-1e6"},
+                        {"water_level_m", "-1000000"});
   expect_render_refusal({"--mesh", "tower.obj"}, {"--mesh", "tower.obj", "FILE@LATITUDE"});
   expect_render_refusal({"--mesh", "tower.obj@47,8,0"},
                         {"tower.obj: cannot be read", "--mesh", "No such"});

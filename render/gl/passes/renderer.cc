@@ -149,20 +149,9 @@ class GlRenderer final : public FrameDrawer {
     return site ? site_axes(*site) : home_;
   }
 
-  void require_above_ground(const FrameOptions& options) const {
-    constexpr double kRoom = 0.3;  // m
-    const double ground = ground_height_m(options.site);
-    if (options.camera.altitude_m < ground + kRoom) {
-      throw std::invalid_argument(
-          fmt::format("render.camera.altitude_m = {:.9g}: must be above the ground, {:.9g} m",
-                      options.camera.altitude_m, ground + kRoom));
-    }
-  }
-
   // With as many samples as the device can hold. Makes the context current.
   FrameOptions affordable(const FrameOptions& options) const {
     context_->make_current();
-    require_above_ground(options);
     FrameOptions sampled = options;
     sampled.samples_per_side = affordable_samples(options);
     return sampled;

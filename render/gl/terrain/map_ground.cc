@@ -37,7 +37,7 @@ MapGround::MapGround(const Scene& scene, double bottom_radius_m, const ColorRule
     : radius_m_(bottom_radius_m),
       lowest_m_(scene.lowest_m),
       highest_m_(scene.highest_m),
-      water_level_m_(std::max(scene.water_level_m, 0.0)),
+      water_level_m_(scene.water_level_m),
       heights_(read_planet_map(scene.height_map, PlanetMap::Values::kHeights)) {
   if (!scene.color_map.empty()) colors_ = std::make_unique<ColorMap>(scene.color_map, rule);
 }
@@ -49,7 +49,7 @@ double MapGround::height_m(const glm::dvec3& direction, double resolution_m) con
   const double height = lowest_m_ + range * sample.value.x;
   const double detail =
       detail_m(direction, range * sample.slope, height - water_level_m_, resolution);
-  return std::max(height + detail, water_level_m_);
+  return std::max({height + detail, lowest_m_, water_level_m_});
 }
 
 // `slope`: of the map, m per texel. Under water there is no roughness of flat land, so that a sea
