@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "model/atmosphere/lowered_ground.h"
 #include "tests/render/mesh_fixture.h"
 
 namespace skyfit {
@@ -106,6 +107,35 @@ TEST(Depth, OfASphereIsTheDistanceAlongTheRay) {
     EXPECT_GT(worst.count(), 800);
     EXPECT_LT(worst.error(), kMoonsTriangles * 2 + kFloatDepth * distance / options.moon->radius_m);
   }
+}
+
+// A planet whose whole ground lies 3 km below its bottom radius, and its sea there.
+TEST(Depth, OfABasinReachesToItsOwnFloor) {
+  const TemporaryDirectory directory;
+  Scene scene;
+  scene.height_map = directory.path() / "flat.pgm";
+  std::ofstream map(scene.height_map);
+  map << "P2 8 4 255";
+  for (int i = 0; i < 8 * 4; ++i) map << " 0";
+  map.close();
+  scene.lowest_m = -8000;
+  scene.water_level_m = -3000;
+  Preset lowered = earth_clear();
+  lowered.atmosphere = lowered_by(basin_depth_m(scene), lowered.atmosphere);
+  Renderer drawn(scene);
+  drawn.set_atmosphere(earth_clear(), tables_of(lowered, kSmallTables));
+  EXPECT_NEAR(drawn.ground_height_m({}), -3000, 1e-6);
+  for (const double above : {20.0, 2500.0, 4000.0}) {
+    const FrameOptions options = options_at({above - 3000, 180 * kDegree, 0, 0.1}, 1, 16, 16);
+    const Frame frame = drawn.draw(options);
+    for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+      const double drop = frame.depth_m[i] * -std::cos(frame.view_zenith_deg[i] * kDegree);
+      EXPECT_NEAR(drop, above, 1e-4 * above);
+      EXPECT_GT(frame.luminance[i], 0);
+    }
+  }
+  EXPECT_THROW(drawn.draw(options_at({-3001, 180 * kDegree, 0, 0.1}, 1, 16, 16)),
+               std::invalid_argument);
 }
 
 // Cameras a centimetre apart of which one has other blocks than the other: the blocks' shapes have
