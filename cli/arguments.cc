@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "model/base/text.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::cli {
 namespace {

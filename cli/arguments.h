@@ -4,6 +4,9 @@
 // each from 1 to 16384`.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -19,6 +22,17 @@ class UsageError : public std::invalid_argument {
  public:
   UsageError(std::string_view option, std::string_view text, std::string_view expected);
 };
+
+// A line per row of a registry, its name and its meaning, for help texts.
+template <class Rows>
+std::string named_lines(const Rows& rows) {
+  std::size_t longest = 0;
+  for (const auto& row : rows) longest = std::max(longest, row.name.size());
+  std::string text;
+  for (const auto& row : rows)
+    text += fmt::format("  {:<{}}{}\n", row.name, longest + 2, row.meaning);
+  return text;
+}
 
 inline constexpr std::size_t kMaxListValues = 1'000'000;
 

@@ -18,6 +18,7 @@
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
+#include "data_refs/measured_formats.h"
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "data_refs/table_csv.h"
@@ -260,7 +261,9 @@ void add_check_command(CLI::App& app) {
   add_import_options(*command, options->import);
   command->add_flag("--json", options->json, "Print the summary as JSON");
   command->footer(
-      "Examples:\n  skyfit check fitted/preset.json\n  skyfit check scan.csv --exclude-sample 0");
+      "Formats of measured skies, recognised by what a file holds:\n" +
+      named_lines(refs::measured_formats()) +
+      "\nExamples:\n  skyfit check fitted/preset.json\n  skyfit check scan.csv --exclude-sample 0");
   command->callback([options] {
     run_check(options->file, parse_import_options(options->import), options->json);
   });

@@ -213,13 +213,6 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
   print(options.json ? json_text(json) : text);
 }
 
-std::string model_list() {
-  std::string text = "Models:\n";
-  for (const SkyModelEntry& entry : sky_models())
-    text += fmt::format("  {:<18}{}\n", entry.name, entry.meaning);
-  return text;
-}
-
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
@@ -255,8 +248,9 @@ void add_compare_command(CLI::App& app) {
       "Leaves comparison.txt, comparison.csv, comparison.json, comparison.svg, comparison.png and\n"
       "fisheye.png in the directory. Agreement with a CIE sky says little about a model: single\n"
       "scattering alone, fitted, reaches it as well. Compare with truth and measurements "
-      "first.\n\n" +
-      model_list() +
+      "first.\n\n"
+      "Models:\n" +
+      named_lines(sky_models()) +
       "\nExamples:\n"
       "  skyfit compare --reference truth:earth-550nm-ground --out compared\n"
       "  skyfit compare --reference cie:12 --models reference,bodare,oneil --fitted --out "

@@ -86,11 +86,10 @@ void draw_comparison(const std::filesystem::path& directory, const plot::FitOutc
 
 void draw_measured(const std::filesystem::path& directory, const plot::MeasuredOutcome& outcome,
                    Figures& figures) {
-  for (const std::string_view name : plot::measured_figure_names()) {
-    const plot::MeasuredFigure figure = plot::measured_figure_from_name(name);
-    if (!plot::can_draw(figure, outcome)) continue;
-    figures.draw(directory, name, [&] {
-      plot::write_figure(plot::measured_figure(figure, {&outcome, 1}), files_in(directory, name));
+  for (const plot::MeasuredFigure& figure : plot::measured_figures()) {
+    if (!figure.can_draw(outcome)) continue;
+    figures.draw(directory, figure.name, [&] {
+      plot::write_figure(plot::draw(figure, {&outcome, 1}), files_in(directory, figure.name));
     });
   }
 }
@@ -103,7 +102,7 @@ std::vector<std::string> fit_files() {
     for (const std::string& file : files_of(figure)) files.push_back(file);
   };
   add(kComparison);
-  for (const std::string_view name : plot::measured_figure_names()) add(name);
+  for (const plot::MeasuredFigure& figure : plot::measured_figures()) add(figure.name);
   return files;
 }
 

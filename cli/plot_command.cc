@@ -36,10 +36,10 @@ void draw_measured(const PlotOptions& options, const std::vector<std::filesystem
   std::vector<plot::MeasuredOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(read_measured_outcome(directory));
-  const std::string name =
-      options.figure.empty() ? std::string(plot::measured_figure_names().front()) : options.figure;
-  plot::write_figure(
-      plot::measured_figure(plot::measured_figure_from_name(name), fits, options.scan), files);
+  const plot::MeasuredFigure& figure = options.figure.empty()
+                                           ? plot::measured_figures().front()
+                                           : plot::measured_figure(options.figure);
+  plot::write_figure(plot::draw(figure, fits, options.scan), files);
 }
 
 void run_plot(const PlotOptions& options) {
@@ -84,8 +84,7 @@ void add_plot_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--figure", options->figure,
-                   fmt::format("{}, or of absolute and spectral skies: {}", kComparison,
-                               fmt::join(plot::measured_figure_names(), ", ")))
+                   fmt::format("{}, or one of those of absolute and spectral skies", kComparison))
       ->type_name("NAME");
   command
       ->add_option("--model", options->model,
@@ -100,11 +99,8 @@ void add_plot_command(CLI::App& app) {
       "and maps of the\n"
       "residual over the sky. Several directories are drawn into one figure.\n"
       "\n"
-      "A fit of measured skies has figures of its own: maps of measured, model and ratio, "
-      "spectra,\n"
-      "residuals, the corner of the covariance, and series of unknowns over a day, of one fit "
-      "with\n"
-      "--per-scan or of several fits.\n"
+      "Figures of fits of absolute and spectral skies:\n" +
+      named_lines(plot::measured_figures()) +
       "\n"
       "Examples:\n"
       "  skyfit plot one-lobe two-lobes --out comparison.pdf\n"

@@ -15,11 +15,11 @@
 #include "data_refs/aeronet_table.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/scan_header.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::string_view kUnit = "uW cm-2 sr-1 nm-1";
 constexpr std::string_view kAlmucantar = "almucantar", kPrincipalPlane = "principal plane";
 
@@ -58,10 +58,10 @@ class ScanBuilder {
       reading.number = static_cast<int>(readings.size());
       reading.wavelength_nm = table_.wavelength_nm(line);
       const double up_deg = is_plane ? angle.deg : 0, turn_deg = is_plane ? 0 : angle.deg;
-      const double zenith_deg = sun.zenith / kDegree - up_deg;  // < 0: beyond the zenith
+      const double zenith_deg = sun.zenith / kRadiansPerDegree - up_deg;  // < 0: beyond the zenith
       reading.view_zenith_deg = std::abs(zenith_deg);
       reading.view_azimuth_deg =
-          sun.azimuth.value_or(0) / kDegree + (zenith_deg < 0 ? 180 : turn_deg);
+          sun.azimuth.value_or(0) / kRadiansPerDegree + (zenith_deg < 0 ? 180 : turn_deg);
       const std::optional<double> value = table_.radiance(line, angle);
       reading.value = value.value_or(0);
       if (value) values.insert(*value);

@@ -16,11 +16,11 @@
 #include "data_refs/patch_scan.h"
 #include "data_refs/scan_header.h"
 #include "data_refs/solar_position.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kHeaderLines = 9;
 
 struct EkoHeader {
@@ -141,7 +141,8 @@ class EkoReader {
     facts.utc_offset_h = 0;
     scan.sun = sun_of_scan(facts, fmt::format("{}:{}", source_, line));
     expect_altitude(number(fields, kAltitude, "altitude of the sun", line), scan.sun, line);
-    scan.stated_sun_azimuth = kDegree * number(fields, kSunAzimuth, "azimuth of the sun", line);
+    scan.stated_sun_azimuth =
+        kRadiansPerDegree * number(fields, kSunAzimuth, "azimuth of the sun", line);
     for (std::size_t i = 0; i < kPatches; ++i)
       scan.values.push_back(
           number(fields, kFirstPatch + i, fmt::format("channel {}", i + 1), line));
@@ -150,7 +151,7 @@ class EkoReader {
 
   void expect_altitude(double stated_deg, const ScanSun& sun, int line) const {
     constexpr double kMotion_deg = 1.5;  // of the sun in the 5 minutes of a scan, and rounding
-    const double computed_deg = 90 - sun.zenith / kDegree;
+    const double computed_deg = 90 - sun.zenith / kRadiansPerDegree;
     if (std::abs(stated_deg - computed_deg) <= kMotion_deg) return;
     fail_at(source_, line,
             fmt::format("altitude of the sun = {:.9g}: expected {:.2f} within {} deg, that of {}",

@@ -8,10 +8,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit::refs {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kPi = std::numbers::pi;
 
 [[noreturn]] void fail(std::string_view source, std::string_view message) {
   throw std::invalid_argument(fmt::format("{}: {}", source, message));
@@ -23,7 +25,7 @@ Fisheye::Fisheye(const ImportOptions& facts, int width, int height, std::string_
     : centre_x_(facts.centre_x_px.value_or(width / 2.0)),
       centre_y_(facts.centre_y_px.value_or(height / 2.0)),
       radius_px_(facts.radius_px.value_or(std::min(width, height) / 2.0)),
-      north_(facts.north_deg.value_or(0) * kDegree),
+      north_(facts.north_deg.value_or(0) * kRadiansPerDegree),
       east_is_left_(facts.east != "right") {
   if (!facts.projection) {
     fail(source,
@@ -43,7 +45,7 @@ Fisheye::Fisheye(const ImportOptions& facts, int width, int height, std::string_
   if (!facts.lens_polynomial) fail(source, "lens_polynomial: not stated, expected C1,C2,..");
   polynomial_ = number_list(*facts.lens_polynomial);
   for (int deg = 0; deg <= 90; ++deg) {
-    if (slope_of(deg * kDegree) > 0) continue;
+    if (slope_of(deg * kRadiansPerDegree) > 0) continue;
     fail(source,
          fmt::format("lens_polynomial = {}: expected a radius that grows to the horizon; at "
                      "{} deg it does not",

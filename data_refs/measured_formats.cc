@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data_refs/measured_formats.h"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "data_refs/absorption_bands.h"
@@ -22,47 +22,85 @@
 namespace skyfit::refs {
 namespace {
 
-struct LoadedSky {
-  Reference sky;
-  SkyFormats format;
-};
-
-LoadedSky load_text(const std::string& text, const std::string& name, const ImportOptions& facts) {
-  if (text.find('\0') != text.npos) {
-    throw std::invalid_argument(
-        name + ": no measured sky: expected text, or an image in OpenEXR or Radiance HDR");
+Reference read_samples(const SkyFile& file, const ImportOptions& facts) {
+  if (file.line().find("_zenith_deg") == std::string_view::npos) {  // which a CSV of samples has
+    if (const auto other = other_format(file.text()))
+      throw std::invalid_argument(file.name() + ": " + *other);
   }
-  const std::string_view line = first_line(text);
-  if (is_eko_csv(line)) return {parse_eko_csv(text, name, facts), kPatchScan};
-  if (is_aeronet_csv(text)) return {parse_aeronet_csv(text, name, facts), kAlmucantar};
-  if (is_spectral_scan(line)) return {parse_spectral_scan(text, name, facts), kSpectralScan};
-  if (is_patch_csv(line)) return {parse_patch_csv(text, name, facts), kPatchScan};
-  if (line.find("_zenith_deg") == line.npos) {  // which a CSV of samples has
-    if (const auto other = other_format(text)) throw std::invalid_argument(name + ": " + *other);
-  }
-  return {parse_sample_csv(text, name, facts.exclude_samples), kSampleCsv};
+  return parse_sample_csv(file.text(), file.name(), facts.exclude_samples);
 }
 
-LoadedSky load(const std::filesystem::path& file, const ImportOptions& facts) {
-  if (std::filesystem::is_directory(file))
-    return {load_spectral_scan_folder(file, facts), kSpectralFolder};
-  require_regular_file(file, "a measured sky", kMostImageBytes);
-  if (is_sky_image(file)) return {load_sky_image(file, facts), kSkyImage};
-  return load_text(read_csv_file(file, "a measured sky"), file.string(), facts);
+template <Reference parse(std::string_view, std::string_view, const ImportOptions&)>
+Reference read_text(const SkyFile& file, const ImportOptions& facts) {
+  return parse(file.text(), file.name(), facts);
+}
+
+constexpr std::array<MeasuredFormat, 7> kFormats = {{
+    {kSpectralFolder, "folder of spectra",
+     "DATE___HH.MM.SS_-_INDEX____AZIMUTH___ALTITUDE.asd.rad.txt, one a direction; averaged over 5 "
+     "nm",
+     [](const SkyFile& file) { return file.is_folder(); },
+     [](const SkyFile& file, const ImportOptions& facts) {
+       return load_spectral_scan_folder(file.path(), facts);
+     }},
+    {kSkyImage, "fisheye image", "OpenEXR or Radiance HDR; averaged over bins of 6 deg",
+     [](const SkyFile& file) { return is_sky_image(file.path()); },
+     [](const SkyFile& file, const ImportOptions& facts) {
+       return load_sky_image(file.path(), facts);
+     }},
+    {kPatchScan, "EKO MS-321LR", "the scanner's CSV of 145 patches; its luminances are read",
+     [](const SkyFile& file) { return is_eko_csv(file.line()); }, read_text<parse_eko_csv>},
+    {kAlmucantar, "AERONET", "almucantars and principal planes of sky radiance, versions 2 and 3",
+     [](const SkyFile& file) { return is_aeronet_csv(file.text()); }, read_text<parse_aeronet_csv>},
+    {kSpectralScan, "spectral scan",
+     "CSV with sample, view_azimuth_deg, view_zenith_deg, radiance_380, ..",
+     [](const SkyFile& file) { return is_spectral_scan(file.line()); },
+     read_text<parse_spectral_scan>},
+    {kPatchScan, "145 values", "nothing but the luminances of the patches, in the scanner's order",
+     [](const SkyFile& file) { return is_patch_csv(file.line()); }, read_text<parse_patch_csv>},
+    {kSampleCsv, "CSV of samples",
+     "any directions; luminance, relative luminance or spectral radiance",
+     [](const SkyFile&) { return true; }, read_samples},
+}};
+
+const MeasuredFormat& format_of(const SkyFile& file) {
+  return *std::ranges::find_if(kFormats, [&](const MeasuredFormat& f) { return f.matches(file); });
 }
 
 }  // namespace
 
-Reference load_measured_sky(const std::filesystem::path& file, const ImportOptions& options) {
-  validate(options);
-  const ImportOptions facts = with_sidecar(options, file);
-  LoadedSky loaded = load(file, facts);
-  mask_unknown_wavelengths(loaded.sky);
-  for (const ImportOptionRow& row : import_option_table()) {
-    if (row.is_set(facts) && (row.formats & loaded.format) == 0)
-      loaded.sky.notes.push_back(row.name + " is not used: it is not about this format");
+SkyFile::SkyFile(std::filesystem::path path)
+    : path_(std::move(path)), is_folder_(std::filesystem::is_directory(path_)) {
+  if (!is_folder_) require_regular_file(path_, "a measured sky", kMostImageBytes);
+}
+
+const std::string& SkyFile::text() const {
+  if (!text_) {
+    text_ = read_csv_file(path_, "a measured sky");
+    if (text_->find('\0') != std::string::npos) {
+      throw std::invalid_argument(
+          name() + ": no measured sky: expected text, or an image in OpenEXR or Radiance HDR");
+    }
   }
-  return std::move(loaded.sky);
+  return *text_;
+}
+
+std::string_view SkyFile::line() const { return first_line(text()); }
+
+std::span<const MeasuredFormat> measured_formats() { return kFormats; }
+
+Reference load_measured_sky(const std::filesystem::path& path, const ImportOptions& options) {
+  validate(options);
+  const ImportOptions facts = with_sidecar(options, path);
+  const SkyFile file(path);
+  const MeasuredFormat& format = format_of(file);
+  Reference sky = format.read(file, facts);
+  mask_unknown_wavelengths(sky);
+  for (const ImportOptionRow& row : import_option_table()) {
+    if (row.is_set(facts) && (row.formats & format.format) == 0)
+      sky.notes.push_back(row.name + " is not used: it is not about this format");
+  }
+  return sky;
 }
 
 }  // namespace skyfit::refs

@@ -14,11 +14,12 @@
 #include "data_refs/absorption_bands.h"
 #include "data_refs/solar_position.h"
 #include "data_refs/spectra.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180, kTurn = 2 * std::numbers::pi;
+constexpr double kTurn = 2 * std::numbers::pi;
 
 [[noreturn]] void fail(std::string_view place, const std::string& message) {
   throw std::invalid_argument(fmt::format("{}: {}", place, message));
@@ -44,10 +45,10 @@ std::optional<Instant> time_of(const ImportOptions& facts, std::string_view plac
 double stated_sun_apart_deg(const ImportOptions& facts, const SolarPosition& sun, double zenith) {
   Sample between;  // the angle between two suns, as that between sun and view
   between.sun_zenith = zenith;
-  between.view_zenith = *facts.sun_zenith_deg * kDegree;
+  between.view_zenith = *facts.sun_zenith_deg * kRadiansPerDegree;
   if (facts.sun_azimuth_deg)
-    between.relative_azimuth = *facts.sun_azimuth_deg * kDegree - sun.azimuth;
-  return scattering_angle(between) / kDegree;
+    between.relative_azimuth = *facts.sun_azimuth_deg * kRadiansPerDegree - sun.azimuth;
+  return scattering_angle(between) / kRadiansPerDegree;
 }
 
 // What to note of the stated sun; throws when it is another one.
@@ -60,13 +61,13 @@ std::string expect_agreement(const ImportOptions& facts, const SolarPosition& su
     return fmt::format(
         "sun_zenith_deg = {:.9g} is the apparent sun: refraction raises the sun of {} "
         "from zenith {:.3f} deg, where the model has it",
-        *facts.sun_zenith_deg, iso_text(time), sun.zenith / kDegree);
+        *facts.sun_zenith_deg, iso_text(time), sun.zenith / kRadiansPerDegree);
   }
   fail(place,
        fmt::format("sun_zenith_deg = {:.9g}: expected the sun of {} at this site, zenith {:.3f} "
                    "and azimuth {:.3f} deg, within {} deg; it is {:.2f} deg away",
-                   *facts.sun_zenith_deg, iso_text(time), sun.zenith / kDegree,
-                   sun.azimuth / kDegree, kSunAgreement_deg, apart_deg));
+                   *facts.sun_zenith_deg, iso_text(time), sun.zenith / kRadiansPerDegree,
+                   sun.azimuth / kRadiansPerDegree, kSunAgreement_deg, apart_deg));
 }
 
 [[noreturn]] void fail_without_sun(const ImportOptions& facts, std::string_view place) {
@@ -92,22 +93,22 @@ ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azi
   result.elevation_m = facts.elevation_m;
   if (result.time) result.distance_au = sun_distance_au(*result.time);
   if (result.time && facts.latitude_deg && facts.longitude_deg) {
-    const SolarPosition sun =
-        solar_position(*result.time, {*facts.latitude_deg * kDegree, *facts.longitude_deg * kDegree,
-                                      facts.elevation_m.value_or(0)});
+    const SolarPosition sun = solar_position(
+        *result.time, {*facts.latitude_deg * kRadiansPerDegree,
+                       *facts.longitude_deg * kRadiansPerDegree, facts.elevation_m.value_or(0)});
     result.remark = expect_agreement(facts, sun, *result.time, place);
     result.zenith = sun.zenith;
     result.azimuth = sun.azimuth;
   } else if (facts.sun_zenith_deg && (facts.sun_azimuth_deg || !azimuth_is_needed)) {
-    result.zenith = *facts.sun_zenith_deg * kDegree;
-    if (facts.sun_azimuth_deg) result.azimuth = *facts.sun_azimuth_deg * kDegree;
+    result.zenith = *facts.sun_zenith_deg * kRadiansPerDegree;
+    if (facts.sun_azimuth_deg) result.azimuth = *facts.sun_azimuth_deg * kRadiansPerDegree;
   } else {
     fail_without_sun(facts, place);
   }
-  if (!(result.zenith < 90 * kDegree)) {
-    fail(place,
-         fmt::format("sun_zenith_deg = {:.6g}{}: expected a sun above the horizon",
-                     result.zenith / kDegree, result.time ? " at " + iso_text(*result.time) : ""));
+  if (!(result.zenith < 90 * kRadiansPerDegree)) {
+    fail(place, fmt::format("sun_zenith_deg = {:.6g}{}: expected a sun above the horizon",
+                            result.zenith / kRadiansPerDegree,
+                            result.time ? " at " + iso_text(*result.time) : ""));
   }
   return result;
 }
@@ -162,9 +163,9 @@ void MeasuredSky::add(const Reading& reading) {
   sample.direction = reading.number;
   sample.sun_zenith = sun_.zenith;
   sample.sun_azimuth_since = std::remainder(sun_.azimuth.value_or(0) - first_sun_azimuth_, kTurn);
-  sample.view_zenith = reading.view_zenith_deg * kDegree;
+  sample.view_zenith = reading.view_zenith_deg * kRadiansPerDegree;
   sample.relative_azimuth =
-      std::remainder(from_north_deg * kDegree - sun_.azimuth.value_or(0), kTurn);
+      std::remainder(from_north_deg * kRadiansPerDegree - sun_.azimuth.value_or(0), kTurn);
   sample.wavelength_nm = reading.wavelength_nm;
   sample.value = reading.value * unit_.factor;
   sample.zero_weight_reason = flaw_of(reading, sample);
@@ -184,7 +185,7 @@ std::string MeasuredSky::flaw_of(const Reading& reading, const Sample& sample) c
   if (!std::isfinite(reading.value)) return "not finite";
   if (!(reading.value > 0)) return "not positive";
   if (facts_.saturation && reading.value >= *facts_.saturation) return "saturated";
-  if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kDegree)
+  if (facts_.near_sun_deg && scattering_angle(sample) < *facts_.near_sun_deg * kRadiansPerDegree)
     return "near the sun";
   return {};
 }

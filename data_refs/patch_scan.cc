@@ -9,10 +9,12 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit::refs {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kPi = std::numbers::pi;
 
 // Mean angle between the sun and the brightest patches of the scans, degrees, when azimuths start
 // at `zero`, radians from north.
@@ -34,7 +36,7 @@ double brightest_from_sun_deg(std::span<const PatchScan> scans,
       sample.view_zenith = patch.view_zenith;
       sample.relative_azimuth =
           zero + (counter ? -1 : 1) * patch.relative_azimuth - scan.sun.azimuth.value_or(0);
-      sum += scattering_angle(sample) / kDegree;
+      sum += scattering_angle(sample) / kRadiansPerDegree;
     }
   }
   return sum / static_cast<double>(kBrightest * scans.size());
@@ -50,7 +52,7 @@ std::optional<double> stated_azimuth_off_deg(std::span<const PatchScan> scans, d
     sum += std::abs(std::remainder(
         zero + (counter ? -1 : 1) * *scan.stated_sun_azimuth - *scan.sun.azimuth, 2 * kPi));
   }
-  return sum / kDegree / static_cast<double>(scans.size());
+  return sum / kRadiansPerDegree / static_cast<double>(scans.size());
 }
 
 // Where azimuths start, by the azimuth that the file states for the sun; sets facts.azimuth_zero.
@@ -124,8 +126,8 @@ Reference patch_reference(std::string source, const Unit& unit, ImportOptions fa
     for (std::size_t i = 0; i < kPatches; ++i) {
       Reading reading;
       reading.number = static_cast<int>(i) + 1;  // the channel
-      reading.view_zenith_deg = directions[i].view_zenith / kDegree;
-      reading.view_azimuth_deg = directions[i].relative_azimuth / kDegree;
+      reading.view_zenith_deg = directions[i].view_zenith / kRadiansPerDegree;
+      reading.view_azimuth_deg = directions[i].relative_azimuth / kRadiansPerDegree;
       reading.value = scan.values[i];
       sky.add(reading);
     }

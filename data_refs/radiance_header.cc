@@ -16,6 +16,7 @@
 
 #include "data_refs/csv.h"
 #include "model/base/text.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
@@ -161,7 +162,7 @@ ImportOptions with_view(const ImportOptions& facts, const std::string& view,
   // x is east, y north; `up` points to the upper edge.
   const std::vector<double> up = values_or(options, "-vu", {0, 1, 0});
   if (std::hypot(up[0], up[1]) < kStraight) refuse("an upper edge beside the zenith, -vu 0 1 0");
-  const double north_deg = std::atan2(up[0], up[1]) * 180 / std::numbers::pi;
+  const double north_deg = std::atan2(up[0], up[1]) * kDegreesPerRadian;
   if (facts.north_deg && std::abs(std::remainder(*facts.north_deg - north_deg, 360.0)) > 1)
     refuse(fmt::format("north_deg = {:.9g}, as options or sidecar state", *facts.north_deg));
   result.projection = projection;

@@ -16,6 +16,7 @@
 #include "data_refs/perez_sky.h"
 #include "data_refs/sampling.h"
 #include "data_refs/truth.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
@@ -35,7 +36,7 @@ void expect_suns(std::string_view name, const std::vector<double>& sun_zenith) {
     if (zenith >= 0 && zenith < std::numbers::pi / 2) continue;
     throw std::invalid_argument(fmt::format(
         "{}: sun_zenith_deg = {:.9g}: expected 0 <= sun_zenith_deg < 90, a sun above the horizon",
-        name, zenith * 180 / std::numbers::pi));
+        name, zenith * kDegreesPerRadian));
   }
 }
 
@@ -73,8 +74,7 @@ Reference analytic_reference(std::string_view name, const std::vector<double>& s
       throw std::invalid_argument(fmt::format(
           "{}: the luminance at sun zenith {:.6g}, view zenith {:.6g} deg is {:.3g} of the "
           "zenith's: expected a clearness and brightness that go together",
-          name, s.sun_zenith * 180 / std::numbers::pi, s.view_zenith * 180 / std::numbers::pi,
-          value));
+          name, s.sun_zenith * kDegreesPerRadian, s.view_zenith * kDegreesPerRadian, value));
     });
   }
   const std::span<const CieSky> skies = cie_skies();

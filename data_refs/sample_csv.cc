@@ -16,6 +16,7 @@
 #include "data_refs/csv.h"
 #include "data_refs/sample_csv_columns.h"
 #include "data_refs/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 
@@ -24,7 +25,6 @@ using namespace sample_csv;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 // The table has one of them.
 const ValueColumn& value_column(const CsvTable& table) {
@@ -67,14 +67,15 @@ class SampleReader {
   Sample read(const CsvRecord& record) {
     Sample sample;
     sample.sun_zenith =
-        kDegree * checked(record, kSunZenith, "0 <= sun_zenith_deg < 90, a sun above the horizon",
-                          [](double deg) { return deg >= 0 && deg < 90; });
-    sample.relative_azimuth = kDegree * relative_azimuth_deg(record);
+        kRadiansPerDegree * checked(record, kSunZenith,
+                                    "0 <= sun_zenith_deg < 90, a sun above the horizon",
+                                    [](double deg) { return deg >= 0 && deg < 90; });
+    sample.relative_azimuth = kRadiansPerDegree * relative_azimuth_deg(record);
     const auto positive = [](double x) { return x > 0; };
     if (table_.has(kWeight))
       sample.weight = checked(record, kWeight, "a number >= 0", [](double x) { return x >= 0; });
     if (sample.weight == 0) sample.zero_weight_reason = reason(record);
-    sample.view_zenith = kDegree * view_zenith_deg(record, sample.weight == 0);
+    sample.view_zenith = kRadiansPerDegree * view_zenith_deg(record, sample.weight == 0);
     sample.value = sample.weight == 0 ? table_.any_number(record, value_column_)
                                       : checked(record, value_column_, "a number > 0", positive);
     if (table_.has(kWavelength))
@@ -147,7 +148,8 @@ class SampleReader {
     Scan scan;
     scan.name = label;
     if (table_.has(kTime)) scan.time_utc = time(record);
-    if (table_.has(kSunAzimuth)) scan.sun_azimuth = kDegree * azimuth_deg(record, kSunAzimuth);
+    if (table_.has(kSunAzimuth))
+      scan.sun_azimuth = kRadiansPerDegree * azimuth_deg(record, kSunAzimuth);
     if (table_.has(kDistance)) {
       scan.sun_distance_au =
           checked(record, kDistance, "a number > 0", [](double x) { return x > 0; });

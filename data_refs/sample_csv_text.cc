@@ -10,6 +10,7 @@
 
 #include "data_refs/sample_csv.h"
 #include "data_refs/sample_csv_columns.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 
@@ -18,7 +19,6 @@ using namespace sample_csv;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 struct OutputColumn {
   std::string_view name;
@@ -52,7 +52,9 @@ void add_scan_columns(const std::vector<Scan>& scans, std::vector<OutputColumn>&
 }
 
 void add_direction_columns(const Reference& reference, std::vector<OutputColumn>& columns) {
-  const auto degrees = [](double radians) { return fmt::format("{:.9g}", radians / kDegree); };
+  const auto degrees = [](double radians) {
+    return fmt::format("{:.9g}", radians / kRadiansPerDegree);
+  };
   columns.push_back({kSunZenith, [=](const Sample& s) { return degrees(s.sun_zenith); }});
   columns.push_back({kViewZenith, [=](const Sample& s) { return degrees(s.view_zenith); }});
   const std::vector<Scan>& scans = reference.scans;

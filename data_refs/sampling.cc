@@ -6,11 +6,12 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit::refs {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 }  // namespace
 
@@ -18,7 +19,7 @@ std::vector<SkyDirection> principal_plane_directions() {
   constexpr int kLastDeg = 85, kStepDeg = 5;
   std::vector<SkyDirection> directions;
   for (int deg = -kLastDeg; deg <= kLastDeg; deg += kStepDeg) {
-    directions.push_back({std::abs(deg) * kDegree, deg < 0 ? kPi : 0.0});
+    directions.push_back({std::abs(deg) * kRadiansPerDegree, deg < 0 ? kPi : 0.0});
   }
   return directions;
 }
@@ -30,11 +31,12 @@ std::vector<TregenzaPatch> tregenza_patches() {
   double bottom = 0;  // sine of the row's lower edge
   for (std::size_t row = 0; row < kPatchesOfRow.size(); ++row) {
     const int top_deg = kRowHeightDeg * (static_cast<int>(row) + 1);
-    const double top = std::sin(top_deg * kDegree);
+    const double top = std::sin(top_deg * kRadiansPerDegree);
     const int count = kPatchesOfRow[row];
     for (int i = 0; i < count; ++i) {
-      patches.push_back({{(90 - top_deg + kRowHeightDeg / 2) * kDegree, 2 * kPi * i / count},
-                         2 * kPi * (top - bottom) / count});
+      patches.push_back(
+          {{(90 - top_deg + kRowHeightDeg / 2) * kRadiansPerDegree, 2 * kPi * i / count},
+           2 * kPi * (top - bottom) / count});
     }
     bottom = top;
   }

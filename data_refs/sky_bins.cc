@@ -5,17 +5,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit::refs {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kPi = std::numbers::pi;
 
 }  // namespace
 
 SkyBins::SkyBins(double bin_deg) {
   constexpr double kTregenza_deg = 12;
   if (bin_deg == kTregenza_deg) {
-    add_tregenza_rows(kTregenza_deg * kDegree);
+    add_tregenza_rows(kTregenza_deg * kRadiansPerDegree);
     return;
   }
   const int rows = std::max(1, static_cast<int>(std::lround(90 / bin_deg)));

@@ -23,7 +23,7 @@
 #include "model/base/input_file.h"
 #include "model/base/module_file.h"
 #include "model/base/text.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {

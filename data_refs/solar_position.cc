@@ -10,11 +10,12 @@
 
 #include "data_refs/csv.h"
 #include "data_refs/embedded.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi, kDegree = kTurn / 360, kArcsecond = kDegree / 3600;
+constexpr double kTurn = 2 * std::numbers::pi, kArcsecond = kRadiansPerDegree / 3600;
 constexpr double kDay_ms = 86400e3;
 
 double wrapped(double angle) {
@@ -81,9 +82,9 @@ struct Nutation {
 
 // Meeus, Astronomical Algorithms, chapter 22: within 0.5 and 0.1 arc seconds.
 Nutation nutation(double centuries) {
-  const double node = kDegree * (125.04452 - 1934.136261 * centuries);
-  const double sun = kDegree * (280.4665 + 36000.7698 * centuries);
-  const double moon = kDegree * (218.3165 + 481267.8813 * centuries);
+  const double node = kRadiansPerDegree * (125.04452 - 1934.136261 * centuries);
+  const double sun = kRadiansPerDegree * (280.4665 + 36000.7698 * centuries);
+  const double moon = kRadiansPerDegree * (218.3165 + 481267.8813 * centuries);
   return {kArcsecond * (-17.20 * std::sin(node) - 1.32 * std::sin(2 * sun) -
                         0.23 * std::sin(2 * moon) + 0.21 * std::sin(2 * node)),
           kArcsecond * (9.20 * std::cos(node) + 0.57 * std::cos(2 * sun) +
@@ -107,8 +108,8 @@ EquatorialSun equatorial_sun(Instant time) {
       orbit_coordinate("longitude", millennia) + std::numbers::pi + in_longitude + aberration;
   const double latitude = -orbit_coordinate("latitude", millennia);
   const double u = universal / 36525;
-  const double mean_sidereal =
-      kDegree * (280.46061837 + 360.98564736629 * universal + u * u * (0.000387933 - u / 38710000));
+  const double mean_sidereal = kRadiansPerDegree * (280.46061837 + 360.98564736629 * universal +
+                                                    u * u * (0.000387933 - u / 38710000));
   return {std::atan2(
               std::sin(longitude) * std::cos(obliquity) - std::tan(latitude) * std::sin(obliquity),
               std::cos(longitude)),
@@ -147,10 +148,11 @@ double sun_distance_au(Instant time) {
 }
 
 double refraction(double zenith) {
-  constexpr double kDegree = std::numbers::pi / 180, kArcMinute = kDegree / 60;
-  const double altitude_deg = 90 - zenith / kDegree;
+  constexpr double kArcMinute = kRadiansPerDegree / 60;
+  const double altitude_deg = 90 - zenith / kRadiansPerDegree;
   if (altitude_deg < -1) return 0;
-  return kArcMinute * 1.02 / std::tan((altitude_deg + 10.3 / (altitude_deg + 5.11)) * kDegree);
+  return kArcMinute * 1.02 /
+         std::tan((altitude_deg + 10.3 / (altitude_deg + 5.11)) * kRadiansPerDegree);
 }
 
 }  // namespace skyfit::refs

@@ -11,6 +11,7 @@
 #include "data_refs/csv.h"
 #include "data_refs/embedded.h"
 #include "data_refs/spectra.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
@@ -79,7 +80,7 @@ Reference truth_reference(std::string_view name) {
       continue;
     }
     const auto angle = [&](std::string_view column) {
-      return csv.number(record, column) * std::numbers::pi / 180;
+      return csv.number(record, column) * kRadiansPerDegree;
     };
     Sample sample;
     sample.sun_zenith = angle("sun_zenith_deg");

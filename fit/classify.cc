@@ -11,7 +11,7 @@
 
 #include "fit/problem/likelihood.h"
 #include "fit/solve/least_squares.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

@@ -16,7 +16,7 @@
 #include "fit/solve/multi_start.h"
 #include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/noise.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

@@ -16,7 +16,7 @@
 #include "fit/problem/starts.h"
 #include "fit/result/errors.h"
 #include "fit/result/record.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

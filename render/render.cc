@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "model/base/module_file.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 #include "render/module/module.h"
 
 namespace skyfit {

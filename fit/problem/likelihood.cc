@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

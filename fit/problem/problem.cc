@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "model/atmosphere/derived.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

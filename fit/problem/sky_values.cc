@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

@@ -8,7 +8,7 @@
 #include "data_refs/sample_csv_columns.h"
 #include "fit/result/findings.h"
 #include "model/atmosphere/derived.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

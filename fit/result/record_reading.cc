@@ -9,7 +9,7 @@
 #include "data_refs/sample_csv_columns.h"
 #include "fit/problem/free_parameters.h"
 #include "fit/result/record.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

@@ -7,7 +7,7 @@
 #include "fit/result/findings.h"
 #include "fit/result/record.h"
 #include "fit/result/report.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::fit {
 namespace {

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit {
 namespace {
 
@@ -38,9 +40,7 @@ void expect(bool holds, std::string_view path, double value, std::string_view ex
 
 const TableFormat kIrradianceFormat{{"wavelength_nm", "irradiance_w_m2_nm"}, irradiance_fault};
 
-double Star::angular_radius_rad() const {
-  return 0.5 * angular_diameter_deg * std::numbers::pi / 180;
-}
+double Star::angular_radius_rad() const { return 0.5 * angular_diameter_deg * kRadiansPerDegree; }
 
 void validate(const Star& star) {
   expect(star.distance_au >= 1e-3 && star.distance_au <= 1e3, "star.distance_au", star.distance_au,

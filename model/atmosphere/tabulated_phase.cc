@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/numerics/angles.h"
 #include "model/numerics/gauss.h"
 
 namespace skyfit {
@@ -45,7 +46,7 @@ std::vector<double> legendre_integrals(const std::vector<double>& angle,
 
 std::vector<double> radians(const std::vector<double>& degrees) {
   std::vector<double> result;
-  for (const double angle : degrees) result.push_back(angle * (kPi / 180));
+  for (const double angle : degrees) result.push_back(angle * kRadiansPerDegree);
   return result;
 }
 
@@ -136,7 +137,7 @@ std::shared_ptr<const TabulatedPhase> SpectralPhase::between(std::size_t above,
   TwoColumns mixed;
   std::ranges::set_union(low.table().x, high.table().x, std::back_inserter(mixed.x));
   for (const double degrees : mixed.x) {
-    const double angle = degrees * (kPi / 180);
+    const double angle = degrees * kRadiansPerDegree;
     mixed.y.push_back(
         std::exp(std::lerp(std::log(low.phase(angle)), std::log(high.phase(angle)), part)));
   }

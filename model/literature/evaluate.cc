@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit::literature {
 
 void check_request(std::string_view model, const Atmosphere<double>& atmosphere,
@@ -26,10 +28,9 @@ void check_request(std::string_view model, const Atmosphere<double>& atmosphere,
 }
 
 void check_daylight(std::string_view model, std::span<const SkyPoint> points, double highest_m) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   for (const SkyPoint& point : points) {
     check_model_value(model, point.sun_zenith < 0.5 * std::numbers::pi, "sun zenith (deg)",
-                      point.sun_zenith * kDegrees, "below 90: the model has no twilight");
+                      point.sun_zenith * kDegreesPerRadian, "below 90: the model has no twilight");
     check_model_value(model, point.altitude_m <= highest_m, "altitude_m", point.altitude_m,
                       fmt::format("at most {:.9g}, as high as the model is valid", highest_m));
   }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "model/literature/evaluate.h"
+#include "model/numerics/angles.h"
 #include "model/shared/shared.h"
 
 namespace skyfit {
@@ -109,9 +110,8 @@ Dual<N> turbidity_of(const Shells& shells, const Atmosphere<Dual<N>>& atmosphere
 }
 
 void check_view(const SkyPoint& point) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   check_model_value(kName, point.view_zenith < 0.5 * std::numbers::pi, "view zenith (deg)",
-                    point.view_zenith * kDegrees, "below 90: the model has the sky alone");
+                    point.view_zenith * kDegreesPerRadian, "below 90: the model has the sky alone");
 }
 
 void check_turbidity(double turbidity) {

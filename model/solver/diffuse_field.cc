@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "model/atmosphere/parameter_field.h"
+#include "model/numerics/angles.h"
 #include "model/solver/fourier_modes.h"
 
 namespace skyfit {
@@ -88,7 +89,7 @@ constexpr int kCouplings = 2;
 int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
   constexpr double kThin = 0.02;  // top height over radius
   if (shells.top > kThin * shells.bottom_radius) return 0;
-  constexpr double kLow = 86 * std::numbers::pi / 180;
+  constexpr double kLow = 86 * kRadiansPerDegree;
   int i = 0;
   while (grid.zenith(i) < kLow) ++i;
   return i;

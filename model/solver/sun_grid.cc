@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit {
 
 SunGrid::SunGrid() {
@@ -18,9 +20,9 @@ SunGrid::SunGrid() {
        {Range{60, 10}, Range{75, 5}, Range{85, 2.5}, Range{90, 2.5}, Range{108, 1.5}}) {
     if (range.end == 90) day_ = size();
     for (; zenith < range.end - 1e-9; zenith += range.step)
-      zenith_.push_back(zenith * std::numbers::pi / 180);
+      zenith_.push_back(zenith * kRadiansPerDegree);
   }
-  zenith_.push_back(zenith * std::numbers::pi / 180);
+  zenith_.push_back(zenith * kRadiansPerDegree);
   set_fours();
 }
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::plot {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::plot {
 namespace {

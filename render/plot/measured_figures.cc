@@ -11,65 +11,52 @@
 namespace skyfit::plot {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, MeasuredFigure>, 5> kFigures = {
-    {{"maps", MeasuredFigure::kMaps},
-     {"spectra", MeasuredFigure::kSpectra},
-     {"residuals", MeasuredFigure::kResiduals},
-     {"corner", MeasuredFigure::kCorner},
-     {"series", MeasuredFigure::kSeries}}};
+bool always(const MeasuredOutcome&) { return true; }
+
+bool has_series(const MeasuredOutcome& outcome) {
+  return outcome.scans.size() >= 2 &&
+         std::ranges::any_of(outcome.unknowns,
+                             [](const MeasuredUnknown& u) { return u.scan > 0; }) &&
+         std::ranges::none_of(outcome.scans,
+                              [](const MeasuredScan& s) { return s.time_utc.empty(); });
+}
+
+using Outcomes = std::span<const MeasuredOutcome>;
+
+constexpr std::array<MeasuredFigure, 5> kFigures = {{
+    {"maps", "measured, model and their ratio over the sky, a row per scan (at most 6)", false,
+     always, [](Outcomes fits, int) { return maps_figure(fits[0]); }},
+    {"spectra", "six directions of one scan with what a sample scatters by; spectral scans only",
+     false, [](const MeasuredOutcome& outcome) { return outcome.spectral; },
+     [](Outcomes fits, int scan) { return spectra_figure(fits[0], scan); }},
+    {"residuals", "model / measured - 1 against scattering angle, view zenith and wavelength",
+     false, always, [](Outcomes fits, int) { return residuals_figure(fits[0]); }},
+    {"corner", "the covariance: densities, and pairs with ellipses of 1 and 2 sigma", false,
+     [](const MeasuredOutcome& outcome) { return outcome.covariance.size() >= 2; },
+     [](Outcomes fits, int) { return corner_figure(fits[0]); }},
+    {"series", "unknowns over the time of their scans with one sigma; takes several fits", true,
+     has_series, [](Outcomes fits, int) { return series_figure(fits); }},
+}};
 
 }  // namespace
 
-std::vector<std::string_view> measured_figure_names() {
+std::span<const MeasuredFigure> measured_figures() { return kFigures; }
+
+const MeasuredFigure& measured_figure(std::string_view name) {
+  for (const MeasuredFigure& figure : kFigures) {
+    if (figure.name == name) return figure;
+  }
   std::vector<std::string_view> names;
-  for (const auto& [name, figure] : kFigures) names.push_back(name);
-  return names;
+  for (const MeasuredFigure& figure : kFigures) names.push_back(figure.name);
+  throw std::invalid_argument(
+      fmt::format("figure \"{}\": expected one of {}", name, fmt::join(names, ", ")));
 }
 
-MeasuredFigure measured_figure_from_name(std::string_view name) {
-  for (const auto& [known, figure] : kFigures) {
-    if (known == name) return figure;
-  }
-  throw std::invalid_argument(fmt::format("figure \"{}\": expected one of {}", name,
-                                          fmt::join(measured_figure_names(), ", ")));
-}
-
-bool can_draw(MeasuredFigure figure, const MeasuredOutcome& outcome) {
-  switch (figure) {
-    case MeasuredFigure::kSpectra:
-      return outcome.spectral;
-    case MeasuredFigure::kCorner:
-      return outcome.covariance.size() >= 2;
-    case MeasuredFigure::kSeries:
-      return outcome.scans.size() >= 2 &&
-             std::ranges::any_of(outcome.unknowns,
-                                 [](const MeasuredUnknown& u) { return u.scan > 0; }) &&
-             std::ranges::none_of(outcome.scans,
-                                  [](const MeasuredScan& s) { return s.time_utc.empty(); });
-    case MeasuredFigure::kMaps:
-    case MeasuredFigure::kResiduals:
-      break;
-  }
-  return true;
-}
-
-Figure measured_figure(MeasuredFigure figure, std::span<const MeasuredOutcome> fits, int scan) {
-  if (fits.size() != 1 && figure != MeasuredFigure::kSeries)
+Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits, int scan) {
+  if (fits.size() != 1 && !figure.takes_several)
     throw std::invalid_argument(
         fmt::format("figure: {} fits of measured skies: expected 1 for this figure", fits.size()));
-  switch (figure) {
-    case MeasuredFigure::kMaps:
-      return maps_figure(fits[0]);
-    case MeasuredFigure::kSpectra:
-      return spectra_figure(fits[0], scan);
-    case MeasuredFigure::kResiduals:
-      return residuals_figure(fits[0]);
-    case MeasuredFigure::kCorner:
-      return corner_figure(fits[0]);
-    case MeasuredFigure::kSeries:
-      break;
-  }
-  return series_figure(fits);
+  return figure.draw(fits, scan);
 }
 
 std::string short_name(const std::string& name) { return name.substr(name.rfind('/') + 1); }

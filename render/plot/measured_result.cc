@@ -6,7 +6,7 @@
 
 #include "data_refs/samples.h"
 #include "data_refs/spectra.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::plot {
 namespace {

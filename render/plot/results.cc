@@ -12,7 +12,7 @@
 #include "model/atmosphere/derived.h"
 #include "model/base/preset_reader.h"
 #include "model/base/text.h"
-#include "model/base/units.h"
+#include "model/numerics/angles.h"
 #include "render/plot/evaluate.h"
 
 namespace skyfit::plot {

@@ -8,11 +8,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/numerics/angles.h"
+
 namespace skyfit {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kDegrees = 360 / kTurn;
 
 using Vector = std::array<double, 3>;
 
@@ -43,9 +44,9 @@ void require_both(bool same, std::string_view field) {
 
 void require_place(const Place& place, std::string_view prefix) {
   require(std::abs(place.latitude) <= kTurn / 4, fmt::format("{}latitude_deg", prefix),
-          place.latitude * kDegrees, "-90 to 90 degrees");
+          place.latitude * kDegreesPerRadian, "-90 to 90 degrees");
   require(std::abs(place.longitude) <= kTurn, fmt::format("{}longitude_deg", prefix),
-          place.longitude * kDegrees, "-360 to 360 degrees");
+          place.longitude * kDegreesPerRadian, "-360 to 360 degrees");
 }
 
 }  // namespace
@@ -85,11 +86,11 @@ void validate(const CameraPose& pose) {
           pose.above_ground ? "above_ground_m" : "altitude_m", pose.altitude_m,
           pose.above_ground ? "0.1 to 1e9 m" : "1 to 1e9 m");
   require(pose.view_zenith >= 0 && pose.view_zenith <= kTurn / 2, "view_zenith_deg",
-          pose.view_zenith * kDegrees, "0 to 180 degrees");
+          pose.view_zenith * kDegreesPerRadian, "0 to 180 degrees");
   require(std::isfinite(pose.azimuth), pose.from_north ? "heading_deg" : "azimuth_deg",
-          pose.azimuth * kDegrees, "finite");
-  require(pose.vertical_fov >= 1 / kDegrees && pose.vertical_fov <= 150 / kDegrees,
-          "field_of_view_deg", pose.vertical_fov * kDegrees, "1 to 150 degrees");
+          pose.azimuth * kDegreesPerRadian, "finite");
+  require(pose.vertical_fov >= kRadiansPerDegree && pose.vertical_fov <= 150 * kRadiansPerDegree,
+          "field_of_view_deg", pose.vertical_fov * kDegreesPerRadian, "1 to 150 degrees");
   if (pose.place) require_place(*pose.place, "");
   if (!pose.place && (pose.from_north || pose.look_at))
     throw std::invalid_argument(

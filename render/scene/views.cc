@@ -5,52 +5,51 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/numerics/angles.h"
 #include "render/render.h"
 
 namespace skyfit {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 constexpr std::array<NamedView, 8> kViews = {{
     {"ground",
-     {2, 76 * kDegree, 0, 65 * kDegree},
-     40 * kDegree,
+     {2, 76 * kRadiansPerDegree, 0, 65 * kRadiansPerDegree},
+     40 * kRadiansPerDegree,
      {},
      "2 m above a plain, toward the sun, about noon"},
     {"sunset",
-     {2, 84 * kDegree, 0, 45 * kDegree},
-     88 * kDegree,
+     {2, 84 * kRadiansPerDegree, 0, 45 * kRadiansPerDegree},
+     88 * kRadiansPerDegree,
      {},
      "2 m above a plain, toward a low sun"},
     {"away",
-     {2, 80 * kDegree, 180 * kDegree, 60 * kDegree},
-     75 * kDegree,
+     {2, 80 * kRadiansPerDegree, 180 * kRadiansPerDegree, 60 * kRadiansPerDegree},
+     75 * kRadiansPerDegree,
      {},
      "2 m above a plain, away from the sun"},
     {"valley",
-     {350, 94 * kDegree, -100 * kDegree, 60 * kDegree},
-     62 * kDegree,
-     Site{-1.24989, -1.34078, 100 * kDegree},
+     {350, 94 * kRadiansPerDegree, -100 * kRadiansPerDegree, 60 * kRadiansPerDegree},
+     62 * kRadiansPerDegree,
+     Site{-1.24989, -1.34078, 100 * kRadiansPerDegree},
      "in the mountains, along a valley"},
     {"10km",
-     {10e3, 95 * kDegree, -80 * kDegree, 60 * kDegree},
-     60 * kDegree,
+     {10e3, 95 * kRadiansPerDegree, -80 * kRadiansPerDegree, 60 * kRadiansPerDegree},
+     60 * kRadiansPerDegree,
      {},
      "from 10 km, over the mountains"},
     {"orbit",
-     {400e3, 125 * kDegree, 150 * kDegree, 50 * kDegree},
-     50 * kDegree,
+     {400e3, 125 * kRadiansPerDegree, 150 * kRadiansPerDegree, 50 * kRadiansPerDegree},
+     50 * kRadiansPerDegree,
      {},
      "from 400 km, down to the ground"},
     {"limb",
-     {400e3, 106 * kDegree, -100 * kDegree, 40 * kDegree},
-     70 * kDegree,
+     {400e3, 106 * kRadiansPerDegree, -100 * kRadiansPerDegree, 40 * kRadiansPerDegree},
+     70 * kRadiansPerDegree,
      {},
      "from 400 km, the planet's limb"},
     {"space",
-     {11e6, 180 * kDegree, 90 * kDegree, 50 * kDegree},
-     45 * kDegree,
+     {11e6, 180 * kRadiansPerDegree, 90 * kRadiansPerDegree, 50 * kRadiansPerDegree},
+     45 * kRadiansPerDegree,
      {},
      "from 11 000 km, the full disc"},
 }};
@@ -110,8 +109,8 @@ void validate(const FrameOptions& options) {
   require(within(camera.view_zenith, 0, std::numbers::pi), "camera.view_zenith", camera.view_zenith,
           "0 to pi");
   require(std::isfinite(camera.azimuth), "camera.azimuth", camera.azimuth, "finite");
-  require(within(camera.vertical_fov, kDegree, 150 * kDegree), "camera.vertical_fov",
-          camera.vertical_fov, "1 to 150 degrees in radians");
+  require(within(camera.vertical_fov, kRadiansPerDegree, 150 * kRadiansPerDegree),
+          "camera.vertical_fov", camera.vertical_fov, "1 to 150 degrees in radians");
   require(within(options.sun_zenith, 0, std::numbers::pi), "sun_zenith", options.sun_zenith,
           "0 to pi");
   if (options.site) {

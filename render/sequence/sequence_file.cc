@@ -7,19 +7,19 @@
 
 #include "model/atmosphere/parameters.h"
 #include "model/base/preset_reader.h"
+#include "model/numerics/angles.h"
 #include "render/sequence/sequence.h"
 
 namespace skyfit {
 namespace {
 
 constexpr int kSequenceVersion = 1;
-constexpr double kDegree = std::numbers::pi / 180;
 
 double angle(const PresetReader& object, std::string_view field, double low, double high) {
   const double value = object.number(field);
   if (!(value >= low && value <= high))
     object.fail_value(field, fmt::format("an angle from {} to {} degrees", low, high));
-  return value * kDegree;
+  return value * kRadiansPerDegree;
 }
 
 double length(const PresetReader& object, std::string_view field, double low) {
@@ -67,7 +67,7 @@ void read_direction(const PresetReader& object, CameraPose& pose) {
     pose.azimuth = angle(object, pose.from_north ? "heading_deg" : "azimuth_deg", -360, 360);
   }
   if (object.has("pitch_deg")) {
-    pose.view_zenith = 90 * kDegree - angle(object, "pitch_deg", -90, 90);
+    pose.view_zenith = 90 * kRadiansPerDegree - angle(object, "pitch_deg", -90, 90);
   } else if (tilts) {
     pose.view_zenith = angle(object, "view_zenith_deg", 0, 180);
   }

@@ -184,9 +184,8 @@ class DamagedMeasuredResults : public DamagedResults {
 
   void draw() const {
     const MeasuredOutcome fit = cli::read_measured_outcome(folder_);
-    for (const std::string_view name : measured_figure_names())
-      if (can_draw(measured_figure_from_name(name), fit))
-        measured_figure(measured_figure_from_name(name), {&fit, 1}, 1);
+    for (const MeasuredFigure& figure : measured_figures())
+      if (figure.can_draw(fit)) plot::draw(figure, {&fit, 1}, 1);
   }
 
   static constexpr const char* kTime = "2020-06-01T09:00:00Z";

@@ -11,13 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "model/numerics/angles.h"
 #include "render/gl/passes/view_basis.h"
 #include "render/image/gamut.h"
 
 namespace skyfit {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 // Calls f(pixel, sample) for every sample; OpenGL's rows run upward, a frame's downward.
 template <class F>
@@ -109,8 +108,8 @@ void add_directions(const Camera& camera, Frame& frame) {
       const glm::dvec3 ray = basis.forward + u * basis.right + v * basis.up;
       const double zenith = std::atan2(std::sqrt(ray.x * ray.x + ray.y * ray.y), ray.z);
       const std::size_t i = static_cast<std::size_t>(y) * frame.width + x;
-      frame.view_zenith_deg[i] = static_cast<float>(kDegrees * zenith);
-      frame.view_azimuth_deg[i] = static_cast<float>(kDegrees * std::atan2(-ray.y, ray.x));
+      frame.view_zenith_deg[i] = static_cast<float>(kDegreesPerRadian * zenith);
+      frame.view_azimuth_deg[i] = static_cast<float>(kDegreesPerRadian * std::atan2(-ray.y, ray.x));
     }
   });
 }

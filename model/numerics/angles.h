@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Factors between the units that people write and those of the formulas.
+// Factors between the degrees that people write and the radians of the formulas.
 #pragma once
 
 #include <numbers>

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The documents name every row of the registries: models, formats of measured skies, figures,
+// shipped presets, and every option that a measured sky may want.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "data_refs/import_options.h"
+#include "data_refs/measured_formats.h"
+#include "data_refs/references.h"
+#include "model/registry.h"
+#include "render/plot/measured_figures.h"
+
+namespace skyfit {
+namespace {
+
+std::string document(const std::string& name) {
+  std::ifstream file(std::string(SKYFIT_SOURCE_DIR) + "/" + name);
+  EXPECT_TRUE(file) << name;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void expect_in(const std::string& text, const std::string& what) {
+  EXPECT_NE(text.find(what), std::string::npos) << what;
+}
+
+TEST(Documents, NameEveryModel) {
+  const std::string text = document("docs/models.md");
+  for (const SkyModelEntry& model : sky_models())
+    expect_in(text, fmt::format("| `{}` |", model.name));
+}
+
+TEST(Documents, NameEveryFormatOfMeasuredSkies) {
+  const std::string text = document("docs/measured-skies.md");
+  for (const refs::MeasuredFormat& format : refs::measured_formats())
+    expect_in(text, fmt::format("| {} | {} |", format.name, format.meaning));
+}
+
+TEST(Documents, NameEveryFigure) {
+  const std::string text = document("docs/fits.md");
+  for (const plot::MeasuredFigure& figure : plot::measured_figures())
+    expect_in(text, fmt::format("| {} | {} |", figure.name, figure.meaning));
+}
+
+TEST(Documents, NameEveryShippedPreset) {
+  const std::string text = document("docs/preset.md");
+  for (const std::string& name : refs::shipped_preset_names()) expect_in(text, "`" + name + "`");
+}
+
+TEST(Documents, NameWhatAMeasuredSkyMayLeaveOpen) {
+  const std::string text = document("docs/measured-skies.md");
+  for (const refs::ImportOptionRow& row : refs::import_option_table())
+    expect_in(text, fmt::format("| `{}` | {} | {} |", row.name, row.meaning, row.expectation));
+}
+
+}  // namespace
+}  // namespace skyfit
