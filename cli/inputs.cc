@@ -103,12 +103,17 @@ void add_import_options(CLI::App& command, ImportArguments& arguments) {
         fmt::format("{} ({})", row.meaning, row.expectation), row.number ? "NUMBER" : "TEXT");
   }
   add(kExcludeSample, arguments.exclude_samples, "Do not use the samples of these numbers", "LIST");
+  command
+      .add_flag("--accept-sun", arguments.accept_sun,
+                "Take the sun as it is stated, though the light of the sky puts it elsewhere")
+      ->group(kImportGroup);
   add("--sidecar", arguments.sidecar, "In the place of FILE.sidecar.json", "FILE");
 }
 
 refs::ImportOptions parse_import_options(const ImportArguments& arguments) {
   refs::ImportOptions options;
   options.named_files = named_files();
+  options.accept_sun = arguments.accept_sun;
   for (const refs::ImportOptionRow& row : refs::import_option_table()) {
     const auto given = arguments.facts.find(row.name);
     if (given == arguments.facts.end() || !given->second) continue;

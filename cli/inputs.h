@@ -40,6 +40,7 @@ void warn_of_unused_options(const CLI::App& command, const std::string& referenc
 struct ImportArguments {
   std::map<std::string, std::optional<std::string>, std::less<>> facts;
   std::optional<std::string> exclude_samples, sidecar;
+  bool accept_sun = false;
 };
 void add_import_options(CLI::App& command, ImportArguments& arguments);
 

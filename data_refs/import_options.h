@@ -36,7 +36,8 @@ struct ImportOptions {
   std::optional<double> centre_x_px, centre_y_px, radius_px, north_deg;
   std::optional<double> lumen_per_watt, calibration, bin_deg;
   std::vector<ExcludedSample> exclude_samples;
-  std::optional<std::filesystem::path> sidecar;       // in the place of the one beside the file
+  bool accept_sun = false;                       // though the light puts it elsewhere (sun_check.h)
+  std::optional<std::filesystem::path> sidecar;  // in the place of the one beside the file
   NamedFiles named_files = NamedFiles::kInItsFolder;  // which a sidecar may name
 };
 

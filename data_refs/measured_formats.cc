@@ -17,6 +17,7 @@
 #include "data_refs/sky_image.h"
 #include "data_refs/spectral_scan_csv.h"
 #include "data_refs/spectral_scan_folder.h"
+#include "data_refs/sun_check.h"
 #include "model/base/input_file.h"
 
 namespace skyfit::refs {
@@ -96,6 +97,7 @@ Reference load_measured_sky(const std::filesystem::path& path, const ImportOptio
   const MeasuredFormat& format = format_of(file);
   Reference sky = format.read(file, facts);
   mask_unknown_wavelengths(sky);
+  check_suns(facts, sky);
   for (const ImportOptionRow& row : import_option_table()) {
     if (row.is_set(facts) && (row.formats & format.format) == 0)
       sky.notes.push_back(row.name + " is not used: it is not about this format");

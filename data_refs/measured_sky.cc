@@ -93,9 +93,9 @@ ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azi
   result.elevation_m = facts.elevation_m;
   if (result.time) result.distance_au = sun_distance_au(*result.time);
   if (result.time && facts.latitude_deg && facts.longitude_deg) {
-    const SolarPosition sun = solar_position(
-        *result.time, {*facts.latitude_deg * kRadiansPerDegree,
-                       *facts.longitude_deg * kRadiansPerDegree, facts.elevation_m.value_or(0)});
+    result.site = {*facts.latitude_deg * kRadiansPerDegree,
+                   *facts.longitude_deg * kRadiansPerDegree, facts.elevation_m.value_or(0)};
+    const SolarPosition sun = solar_position(*result.time, *result.site);
     result.remark = expect_agreement(facts, sun, *result.time, place);
     result.zenith = sun.zenith;
     result.azimuth = sun.azimuth;
@@ -149,6 +149,7 @@ void MeasuredSky::begin_scan(std::string name, const ScanSun& sun) {
   scan.sun_azimuth = sun.azimuth;
   scan.sun_distance_au = sun.distance_au;
   scan.elevation_m = sun.elevation_m;
+  scan.site = sun.site;
   reference_.scans.push_back(std::move(scan));
   sun_ = sun;
   first_sun_azimuth_ = sun.azimuth.value_or(0);

@@ -15,6 +15,7 @@
 #include "data_refs/import_options.h"
 #include "data_refs/samples.h"
 #include "data_refs/scan_header.h"
+#include "data_refs/solar_position.h"
 #include "data_refs/units.h"
 
 namespace skyfit::refs {
@@ -27,6 +28,7 @@ struct ScanSun {
   double distance_au = 1;
   std::optional<Instant> time;
   std::optional<double> elevation_m;  // of the site
+  std::optional<Site> site = {};      // that the sun was computed for
   std::string remark;                 // what to note of it; empty otherwise
 };
 

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+#include "data_refs/solar_position.h"
+
 namespace skyfit::refs {
 
 enum class Quantity {
@@ -40,6 +42,7 @@ struct Scan {
   std::optional<double> sun_azimuth;  // radians clockwise from north, of the begin
   double sun_distance_au = 1;         // of the time; 1 where the time is not known
   std::optional<double> elevation_m;  // of the site above the sea
+  std::optional<Site> site = {};      // that the sun was computed for
 };
 
 struct Reference {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the stated sun of each scan, or that of its time and place, is where the scan's light
+// says (seen_sun.h), and which single change of clock, place or azimuths would mend it.
+#pragma once
+
+#include "data_refs/import_options.h"
+#include "data_refs/samples.h"
+
+namespace skyfit::refs {
+
+// Notes each scan whose sun is seen elsewhere. Throws std::invalid_argument in one line when most
+// scans that can tell see it more than 8 deg away, unless facts.accept_sun.
+void check_suns(const ImportOptions& facts, Reference& sky);
+
+}  // namespace skyfit::refs
