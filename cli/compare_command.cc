@@ -122,14 +122,25 @@ const std::optional<fit::ModelErrors>& shown(const fit::ModelComparison& row) {
   return row.fitted ? row.fitted : row.unfitted;
 }
 
+// The one nearest to 550 nm; 0 for luminances.
+double shown_wavelength(const refs::Reference& reference) {
+  return std::ranges::min_element(
+             reference.samples, {},
+             [](const refs::Sample& s) { return std::abs(s.wavelength_nm - 550); })
+      ->wavelength_nm;
+}
+
 // Panels of the principal plane; the scales are the curves' own, so that shapes compare.
 plot::Comparison figure_of(const refs::Reference& reference,
                            const std::vector<fit::ModelComparison>& rows, double exclude_sun_deg) {
   plot::Comparison figure;
-  figure.title = fmt::format("{}: {}", reference.name, reference.description);
-  figure.reference_label = reference.name;
+  const std::string file = std::filesystem::path(reference.name).filename().string();
+  figure.title =
+      reference.scans.empty() ? fmt::format("{}: {}", reference.name, reference.description) : file;
+  figure.reference_label = file;
   figure.quantity = reference.quantity;
   figure.exclude_sun_deg = exclude_sun_deg;
+  const double wavelength_nm = shown_wavelength(reference);
   const bool any_fitted =
       std::ranges::any_of(rows, [](const auto& row) { return row.fitted.has_value(); });
   for (const fit::ModelComparison& row : rows) {
@@ -138,11 +149,14 @@ plot::Comparison figure_of(const refs::Reference& reference,
         row.model + (any_fitted && !row.fitted ? " (unfitted)" : ""),
         plot::compared_samples(reference, shown(row)->model, {}, radians(exclude_sun_deg)),
         {}};
-    std::erase_if(curve.plane, [](const plot::Sample& s) { return !(s.model > 0); });
+    std::erase_if(curve.plane, [&](const plot::Sample& s) {
+      return !(s.model > 0) || s.wavelength_nm != wavelength_nm;
+    });
     if (!curve.plane.empty()) figure.curves.push_back(std::move(curve));
   }
   figure.subtitle =
-      fmt::format("{}; scale free per sun position", any_fitted ? "fitted" : "unfitted");
+      fmt::format("{}{}; scale free per sun position", any_fitted ? "fitted" : "unfitted",
+                  wavelength_nm > 0 ? fmt::format("; at {:g} nm", wavelength_nm) : "");
   return figure;
 }
 

@@ -2,6 +2,7 @@
 #include "data_refs/samples.h"
 
 #include <cmath>
+#include <set>
 
 namespace skyfit::refs {
 
@@ -11,6 +12,20 @@ std::map<std::string, int> samples_left_out(const Reference& reference) {
     if (!(sample.weight > 0)) ++counts[sample.zero_weight_reason];
   }
   return counts;
+}
+
+bool gives_luminance(const Reference& reference) {
+  constexpr double kFirst_nm = 450, kLast_nm = 660, kWidestStep_nm = 41;
+  if (reference.quantity != Quantity::kSpectralRadiance) return true;
+  std::set<double> wavelengths;
+  for (const Sample& s : reference.samples) {
+    if (s.weight > 0) wavelengths.insert(s.wavelength_nm);
+  }
+  double covered = kFirst_nm - kWidestStep_nm;
+  for (const double wavelength : wavelengths) {
+    if (wavelength <= kFirst_nm || wavelength - covered <= kWidestStep_nm) covered = wavelength;
+  }
+  return covered >= kLast_nm;
 }
 
 double scattering_angle(const Sample& sample) {

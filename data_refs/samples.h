@@ -54,6 +54,10 @@ struct Reference {
   std::vector<std::string> notes;  // what the reader of a measured sky concluded or left out
 };
 
+// Whether the values are luminances, or radiances of so many wavelengths that these sum up to
+// luminances of the same sky: from 450 to 660 nm no step is longer than 41 nm.
+bool gives_luminance(const Reference& reference);
+
 // How many samples have weight 0, by the reason.
 std::map<std::string, int> samples_left_out(const Reference& reference);
 

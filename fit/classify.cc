@@ -49,6 +49,12 @@ Directions directions_of(const refs::Reference& reference, const SpectralData& s
         "at least one",
         reference.name, exclude_sun * kDegreesPerRadian));
   }
+  if (!refs::gives_luminance(reference)) {
+    throw std::invalid_argument(
+        fmt::format("{}: its wavelengths give no luminance, expected 450 to 660 nm in steps of at "
+                    "most 41 nm: the standard skies are luminances",
+                    reference.name));
+  }
   Directions result;
   std::vector<double> logs;
   int last_scan = -1;

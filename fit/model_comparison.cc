@@ -148,6 +148,7 @@ constexpr std::string_view kColumns[] = {"model",
                                          "worst_sun_zenith_deg",
                                          "worst_view_zenith_deg",
                                          "worst_relative_azimuth_deg",
+                                         "worst_wavelength_nm",
                                          "precompute_s",
                                          "time_per_direction_us",
                                          "tables_mb",
@@ -165,6 +166,7 @@ nlohmann::json fields(const refs::Reference& reference, const ModelComparison& r
     line["worst_sun_zenith_deg"] = worst.sun_zenith * kDegreesPerRadian;
     line["worst_view_zenith_deg"] = worst.view_zenith * kDegreesPerRadian;
     line["worst_relative_azimuth_deg"] = worst.relative_azimuth * kDegreesPerRadian;
+    if (worst.wavelength_nm > 0) line["worst_wavelength_nm"] = worst.wavelength_nm;
     line["precompute_s"] = row.precompute_seconds;
     line["time_per_direction_us"] = 1e6 * row.seconds_per_direction;
     line["tables_mb"] = 1e-6 * static_cast<double>(row.table_bytes);
@@ -200,7 +202,7 @@ refs::Reference comparison_reference(const refs::Reference& reference,
     directions[{sample.scan, sample.direction}].push_back(&sample);
     wavelengths.insert(sample.wavelength_nm);
   }
-  if (reference.quantity != refs::Quantity::kSpectralRadiance || wavelengths.size() == 1)
+  if (reference.quantity != refs::Quantity::kSpectralRadiance || !gives_luminance(reference))
     return reference;
   constexpr double kLumenPerWatt = 683.002;
   refs::Reference luminances = reference;

@@ -34,9 +34,9 @@ struct ModelComparison {
   double seconds_per_direction = 0;  // of all nodes; of a model without tables, everything
 };
 
-// What of a reference can be compared: scans of many wavelengths as luminances, 683.002 lm/W times
-// the integral of y_bar L by trapezoids, of the directions whose samples all have weight. Others as
-// they are.
+// What of a reference can be compared: spectra that give a luminance (refs::gives_luminance()) as
+// luminances, 683.002 lm/W times the integral of y_bar L by trapezoids, of the directions whose
+// samples all have weight. Others as they are, each wavelength by itself under one scale per scan.
 refs::Reference comparison_reference(const refs::Reference& reference, const SpectralData& spectra);
 
 // `atmosphere` is what the unfitted model is given; `options`: fit, from there, with as many lobes

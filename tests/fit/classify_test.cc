@@ -61,5 +61,33 @@ TEST(ClassifyTest, FreeFitDescribesASkyBetweenTheTypes) {
   EXPECT_EQ(classification_json(found)["types"].size(), 15u);
 }
 
+// Radiances of CIE 12 at some wavelengths.
+refs::Reference spectral(const std::vector<double>& wavelengths_nm) {
+  refs::Reference reference = cie(12);
+  const std::vector<refs::Sample> samples = std::move(reference.samples);
+  reference.quantity = refs::Quantity::kSpectralRadiance;
+  reference.samples.clear();
+  for (refs::Sample s : samples) {
+    for (const double wavelength : wavelengths_nm) {
+      s.wavelength_nm = wavelength;
+      reference.samples.push_back(s);
+    }
+  }
+  return reference;
+}
+
+TEST(ClassifyTest, AFewWavelengthsAreNoLuminance) {
+  EXPECT_THAT(
+      [] {
+        classify(spectral({440, 675, 870}), refs::standard_spectral_data(), {});
+      },
+      testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("no luminance")));
+  EXPECT_FALSE(refs::gives_luminance(spectral({550})));
+  EXPECT_FALSE(refs::gives_luminance(spectral({440, 500, 540, 580, 620, 660})));
+  const refs::Reference many = spectral({400, 440, 480, 520, 560, 600, 640, 680});
+  EXPECT_TRUE(refs::gives_luminance(many));
+  EXPECT_EQ(classify(many, refs::standard_spectral_data(), {}).nearest().sky.type, 12);
+}
+
 }  // namespace
 }  // namespace skyfit::fit
