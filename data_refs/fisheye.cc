@@ -29,13 +29,15 @@ Fisheye::Fisheye(const ImportOptions& facts, int width, int height, std::string_
       east_is_left_(facts.east != "right") {
   if (!facts.projection) {
     fail(source,
-         "projection: not stated, expected equidistant, equisolid, orthographic or polynomial");
+         "projection: not stated, expected equidistant, equisolid, orthographic, stereographic, "
+         "polynomial or equirectangular");
   }
   const std::string& name = *facts.projection;
-  projection_ = name == "equidistant"    ? Projection::kEquidistant
-                : name == "equisolid"    ? Projection::kEquisolid
-                : name == "orthographic" ? Projection::kOrthographic
-                                         : Projection::kPolynomial;
+  projection_ = name == "equidistant"     ? Projection::kEquidistant
+                : name == "equisolid"     ? Projection::kEquisolid
+                : name == "orthographic"  ? Projection::kOrthographic
+                : name == "stereographic" ? Projection::kStereographic
+                                          : Projection::kPolynomial;
   if (projection_ != Projection::kPolynomial) {
     if (facts.lens_polynomial)
       fail(source,
@@ -61,6 +63,8 @@ double Fisheye::radius_of(double zenith) const {
       return std::sin(zenith / 2) / std::sin(kPi / 4);
     case Projection::kOrthographic:
       return std::sin(zenith);
+    case Projection::kStereographic:
+      return std::tan(zenith / 2);
     case Projection::kPolynomial:
       break;
   }
@@ -78,6 +82,8 @@ double Fisheye::slope_of(double zenith) const {
       return std::cos(zenith / 2) / 2 / std::sin(kPi / 4);
     case Projection::kOrthographic:
       return std::cos(zenith);
+    case Projection::kStereographic:
+      return 0.5 / (std::cos(zenith / 2) * std::cos(zenith / 2));
     case Projection::kPolynomial:
       break;
   }
@@ -96,6 +102,8 @@ double Fisheye::zenith_of(double radius) const {
       return 2 * std::asin(std::min(1.0, radius * std::sin(kPi / 4)));
     case Projection::kOrthographic:
       return std::asin(std::min(1.0, radius));
+    case Projection::kStereographic:
+      return 2 * std::atan(radius);
     case Projection::kPolynomial:
       break;
   }
@@ -108,7 +116,7 @@ double Fisheye::zenith_of(double radius) const {
   return low;
 }
 
-std::optional<Fisheye::View> Fisheye::view(double x_px, double y_px) const {
+std::optional<PixelView> Fisheye::view(double x_px, double y_px) const {
   const double right = x_px - centre_x_, down = y_px - centre_y_;
   const double radius = std::hypot(right, down) / radius_px_;
   if (radius >= radius_of(kPi / 2)) return {};
@@ -120,8 +128,8 @@ std::optional<Fisheye::View> Fisheye::view(double x_px, double y_px) const {
   constexpr double kAtZenith = 1e-6;
   const double per_area =
       radius < kAtZenith ? 1 / (slope * slope) : std::sin(zenith) / (radius * slope);
-  return View{zenith, std::remainder(east_is_left_ ? -turn : turn, 2 * kPi),
-              per_area / (radius_px_ * radius_px_)};
+  return PixelView{zenith, std::remainder(east_is_left_ ? -turn : turn, 2 * kPi),
+                   per_area / (radius_px_ * radius_px_)};
 }
 
 }  // namespace skyfit::refs

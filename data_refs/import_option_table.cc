@@ -108,37 +108,44 @@ Rows bands() {
 
 Rows images() {
   constexpr double kMostPixels = 1e6;
-  return {choice("projection", &Options::projection,
-                 {"equidistant", "equisolid", "orthographic", "polynomial"},
-                 "Projection of a fisheye image"),
-          text(
-              "lens_polynomial", &Options::lens_polynomial, "C1,C2,..",
-              [](const std::string& value) { return !number_list(value).empty(); },
-              "Radius over radius_px = C1 s + C2 s^2 + .., s the zenith angle over 90 deg"),
-          number("centre_x_px", &Options::centre_x_px, -kMostPixels, kMostPixels,
-                 "Zenith in an image, from the left edge; by default the middle"),
-          number("centre_y_px", &Options::centre_y_px, -kMostPixels, kMostPixels,
-                 "Zenith in an image, from the upper edge; by default the middle"),
-          number("radius_px", &Options::radius_px, 1, kMostPixels,
-                 "Radius of the horizon; by default half the shorter side"),
-          number("north_deg", &Options::north_deg, -360, 360,
-                 "Direction of north in the image, clockwise from its upper edge, by default 0"),
-          choice("east", &Options::east, {"left", "right"},
-                 "Side of east where north is up; left, unless the image was flipped"),
-          number("lumen_per_watt", &Options::lumen_per_watt, kSmallest, kInfinity,
-                 "Luminance per radiance (179 or 683) of pixels in W m-2 sr-1; replaces the unit"),
-          number("calibration", &Options::calibration, kSmallest, kInfinity,
-                 "Factor on the pixels of an image"),
-          choice("primaries", &Options::primaries, {"srgb", "radiance"},
-                 "Primaries of the pixels, by default srgb in EXR and radiance in HDR"),
-          text(
-              "mask", &Options::mask, "an image of the same size",
-              [](const std::string& value) { return !value.empty(); },
-              "Pixels that are dark in this image are not used; a sidecar names it from its own "
-              "folder"),
-          number("bin_deg", &Options::bin_deg, 1, 30,
-                 "Height of the bins over which pixels are averaged, by default 6; 12 gives the "
-                 "145 patches")};
+  return {
+      choice("projection", &Options::projection,
+             {"equidistant", "equisolid", "orthographic", "stereographic", "polynomial",
+              "equirectangular"},
+             "Projection of a fisheye image or of a panorama (equirectangular)"),
+      text(
+          "lens_polynomial", &Options::lens_polynomial, "C1,C2,..",
+          [](const std::string& value) { return !number_list(value).empty(); },
+          "Radius over radius_px = C1 s + C2 s^2 + .., s the zenith angle over 90 deg"),
+      number("centre_x_px", &Options::centre_x_px, -kMostPixels, kMostPixels,
+             "Zenith in an image, from the left edge; by default the middle"),
+      number(
+          "centre_y_px", &Options::centre_y_px, -kMostPixels, kMostPixels,
+          "Zenith in an image, or the horizon in a panorama, from the upper edge; by default the "
+          "middle"),
+      number("radius_px", &Options::radius_px, 1, kMostPixels,
+             "Radius of the horizon; by default half the shorter side"),
+      number(
+          "north_deg", &Options::north_deg, -360, 360,
+          "Direction of north in the image, clockwise from its upper edge, in a panorama right of "
+          "its middle; by default 0"),
+      choice("east", &Options::east, {"left", "right"},
+             "Side of east where north is up; by default left in a fisheye image, right in a "
+             "panorama"),
+      number("lumen_per_watt", &Options::lumen_per_watt, kSmallest, kInfinity,
+             "Luminance per radiance (179 or 683) of pixels in W m-2 sr-1; replaces the unit"),
+      number("calibration", &Options::calibration, kSmallest, kInfinity,
+             "Factor on the pixels of an image"),
+      choice("primaries", &Options::primaries, {"srgb", "radiance"},
+             "Primaries of the pixels, by default srgb in EXR and radiance in HDR"),
+      text(
+          "mask", &Options::mask, "an image of the same size",
+          [](const std::string& value) { return !value.empty(); },
+          "Pixels that are dark in this image are not used; a sidecar names it from its own "
+          "folder"),
+      number("bin_deg", &Options::bin_deg, 1, 30,
+             "Height of the bins over which pixels are averaged, by default 6; 12 gives the "
+             "145 patches")};
 }
 
 Rows make_table() {

@@ -44,7 +44,8 @@ constexpr std::array<MeasuredFormat, 7> kFormats = {{
      [](const SkyFile& file, const ImportOptions& facts) {
        return load_spectral_scan_folder(file.path(), facts);
      }},
-    {kSkyImage, "fisheye image", "OpenEXR or Radiance HDR; averaged over bins of 6 deg",
+    {kSkyImage, "image",
+     "OpenEXR or Radiance HDR, fisheye or panorama; averaged over bins of 6 deg",
      [](const SkyFile& file) { return is_sky_image(file.path()); },
      [](const SkyFile& file, const ImportOptions& facts) {
        return load_sky_image(file.path(), facts);

@@ -147,8 +147,9 @@ ImportOptions with_view(const ImportOptions& facts, const std::string& view,
   std::string projection;
   if (options.contains("-vta")) projection = "equidistant";
   if (options.contains("-vth")) projection = "orthographic";
+  if (options.contains("-vts")) projection = "stereographic";
   if (projection.empty())
-    refuse("a fisheye, -vta or -vth; remove the line where it is not that of the picture");
+    refuse("a fisheye, -vta, -vth or -vts; remove the line where it is not that of the picture");
   if (facts.projection && *facts.projection != projection)
     refuse(fmt::format("projection = {}, as options or sidecar state", *facts.projection));
   const std::vector<double> direction = values_or(options, "-vd", {0, 1, 0});

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "data_refs/csv.h"
-#include "data_refs/fisheye.h"
+#include "data_refs/image_directions.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/radiance_header.h"
 #include "data_refs/sky_bins.h"
@@ -120,10 +120,10 @@ class PixelReader {
               const ImportOptions& facts, const ScanSun& sun)
       : image_(image), mask_(mask), weights_(weights), factor_(factor), facts_(facts), sun_(sun) {}
 
-  void read(const Fisheye& lens, SkyBins& bins) const {
+  void read(const ImageDirections& directions, SkyBins& bins) const {
     for (int y = 0; y < image_.height; ++y) {
       for (int x = 0; x < image_.width; ++x) {
-        const auto view = lens.view(x + 0.5, y + 0.5);
+        const auto view = directions.view(x + 0.5, y + 0.5);
         if (!view) continue;
         const double luminance = luminance_of(x, y);
         bins.add({view->zenith, view->azimuth}, view->solid_angle_sr, luminance,
@@ -141,7 +141,7 @@ class PixelReader {
     return factor_ * sum;
   }
 
-  std::string_view flaw_of(int x, int y, const Fisheye::View& view, double luminance) const {
+  std::string_view flaw_of(int x, int y, const PixelView& view, double luminance) const {
     if (mask_ != nullptr && mask_->pixel(x, y)[0] < 0.5f) return "masked";
     if (!std::isfinite(luminance)) return "not finite";
     if (facts_.saturation && brightest_channel(x, y) >= *facts_.saturation) return "saturated";
@@ -215,17 +215,12 @@ Reference sky_image_reference(const Image& image, const Image* mask, bool is_rad
     fail(source, fmt::format("mask of {} x {} pixels: expected {} x {}", mask->width, mask->height,
                              image.width, image.height));
   }
-  if (image.width == 2 * image.height && !facts.radius_px) {
-    fail(source, fmt::format("{} x {} pixels: expected a fisheye, this is as wide as a panorama; "
-                             "state radius_px where it is none",
-                             image.width, image.height));
-  }
-  const Fisheye lens(facts, image.width, image.height, source);
+  const auto directions = image_directions(facts, image.width, image.height, source);
   const PixelUnit unit = pixel_unit(facts, source);
   const LuminanceWeights weights = luminance_weights(image, is_radiance_hdr, facts, source);
   const ScanSun sun = sun_of_scan(facts, source);
   SkyBins bins(facts.bin_deg.value_or(kDefaultBin_deg));
-  PixelReader(image, mask, weights, unit.factor, facts, sun).read(lens, bins);
+  PixelReader(image, mask, weights, unit.factor, facts, sun).read(*directions, bins);
 
   ImportOptions of_bins = facts;  // pixels are judged, bins need not be; directions are from north
   of_bins.saturation.reset();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fisheye image of the sky (OpenEXR or Radiance HDR) becomes luminances averaged over bins. The
-// facts of import_option_table() state the projection (fisheye.h), the unit or the lumen per watt,
-// and the sun or time and place. Loads OpenImageIO (image/image_module.h).
+// facts of import_option_table() state the projection (image_directions.h), the unit or the lumen
+// per watt, and the sun or time and place. Loads OpenImageIO (image/image_module.h).
 //
 // Luminance of a pixel: its channel Y, or 0.2126 R + 0.7152 G + 0.0722 B (sRGB), or 0.265 R +
 // 0.670 G + 0.065 B (Radiance's primaries), or by the chromaticities that an EXR file or PRIMARIES
 // of a Radiance file states, times `calibration`, times `lumen_per_watt` where the pixels are
 // radiances. Of a Radiance file EXPOSURE and COLORCORR are undone, the order of its pixels and VIEW
-// are obeyed (radiance_header.h). A panorama, twice as wide as high, is refused.
+// are obeyed (radiance_header.h). An image twice as wide as high is a panorama and wants to be
+// called one.
 //
 // Bins: rows about bin_deg high (6 deg where it is not stated) of cells about as wide, or the
 // patches of Tregenza with 12; numbered from 1 by rows from the horizon and from north clockwise. A

@@ -25,13 +25,14 @@ ImportOptions lens(const std::string& projection, const std::string& polynomial 
 }
 
 const std::vector<ImportOptions> kLenses = {lens("equidistant"), lens("equisolid"),
-                                            lens("orthographic"), lens("polynomial", "1.1,0,-0.1")};
+                                            lens("orthographic"), lens("stereographic"),
+                                            lens("polynomial", "1.1,0,-0.1")};
 
 TEST(Fisheye, RadiusOfEveryProjectionIsItsFormula) {
   for (const int deg : {1, 30, 60, 85}) {
     const double t = deg * kDegree, s = deg / 90.0;
     const std::vector<double> radii = {s, std::sin(t / 2) / std::sin(kPi / 4), std::sin(t),
-                                       1.1 * s - 0.1 * s * s * s};
+                                       std::tan(t / 2), 1.1 * s - 0.1 * s * s * s};
     for (std::size_t i = 0; i < kLenses.size(); ++i) {
       const Fisheye fisheye(kLenses[i], kSide, kSide, "sky.exr");
       const auto view = fisheye.view(kSide / 2.0, kSide / 2.0 * (1 - radii[i]));
@@ -95,8 +96,8 @@ TEST(Fisheye, FaultsAreNamed) {
     return complaint_of([&] { Fisheye(facts, kSide, kSide, "sky.exr"); });
   };
   EXPECT_EQ(complaint({}),
-            "sky.exr: projection: not stated, expected equidistant, equisolid, orthographic or "
-            "polynomial");
+            "sky.exr: projection: not stated, expected equidistant, equisolid, orthographic, "
+            "stereographic, polynomial or equirectangular");
   EXPECT_EQ(complaint(lens("polynomial")),
             "sky.exr: lens_polynomial: not stated, expected C1,C2,..");
   EXPECT_EQ(complaint(lens("equisolid", "1")),

@@ -90,6 +90,52 @@ TEST(SkyImage, BinsLookWhereTheirLuminanceIsFrom) {
   EXPECT_EQ(sky.samples[144].direction, 145);
 }
 
+// The same sky as a panorama, whole or of its upper half, north in its middle or elsewhere, seen
+// from within or from without.
+TEST(SkyImage, APanoramaShowsTheSameSky) {
+  constexpr double kCurvature = 0.01;
+  for (const bool whole : {true, false}) {
+    for (const char* east : {"right", "left"}) {
+      ImportOptions options = facts();
+      options.projection = "equirectangular";
+      options.north_deg = 70;
+      if (east == std::string("left")) options.east = east;
+      constexpr int kWidth = 360;
+      Image image{kWidth, whole ? kWidth / 2 : kWidth / 4, {"R", "G", "B"}, {}};
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          const double zenith = (y + 0.5) * kDegree;
+          const double right = (x + 0.5 - kWidth / 2 - 70) * kDegree;
+          const double azimuth = east == std::string("left") ? -right : right;
+          const double value =
+              zenith < 90 * kDegree
+                  ? 1000 * (2 + std::cos(zenith) + std::sin(zenith) * std::sin(azimuth))
+                  : 1e5;
+          image.pixels.insert(image.pixels.end(), 3, static_cast<float>(value));
+        }
+      }
+      const Reference sky = read(image, options);
+      ASSERT_EQ(sky.samples.size(), 145u);
+      for (const Sample& sample : sky.samples) {
+        const double azimuth = sample.relative_azimuth + 120 * kDegree;
+        EXPECT_NEAR(sample.value / (1000 * (2 + std::cos(sample.view_zenith) +
+                                            std::sin(sample.view_zenith) * std::sin(azimuth))),
+                    1, kCurvature);
+      }
+    }
+  }
+}
+
+TEST(SkyImage, APanoramaOfAnotherShapeWantsItsHorizon) {
+  ImportOptions options = facts();
+  options.projection = "equirectangular";
+  EXPECT_THAT(complaint_of([&] { read(kUniform, options); }), HasSubstr("centre_y_px"));
+  options.centre_y_px = 60;
+  EXPECT_EQ(read(kUniform, options).samples.size(), 145u);
+  options.radius_px = 100;
+  EXPECT_THAT(complaint_of([&] { read(kUniform, options); }), HasSubstr("radius_px"));
+}
+
 TEST(SkyImage, LuminanceIsThatOfThePixelsUnit) {
   Image red = kUniform;
   for (std::size_t i = 0; i < red.pixels.size(); i += 3) red.pixels[i + 1] = red.pixels[i + 2] = 0;
