@@ -52,6 +52,7 @@ void add_commands(CLI::App& app) {
   add_fit_command(app);
   add_report_command(app);
   add_sky_command(app);
+  add_sky_map_command(app);
   add_plot_command(app);
   add_render_command(app);
   add_presets_command(app);

@@ -10,6 +10,7 @@ namespace skyfit::cli {
 void add_fit_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_sky_command(CLI::App& app);
+void add_sky_map_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_presets_command(CLI::App& app);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "model/base/whole_file.h"
+#include "render/image/gamut.h"
 #include "render/image/tone.h"
 
 namespace skyfit {
@@ -99,6 +100,36 @@ void write_exr_file(const Frame& frame, const fs::path& file) {
       packed[i * channels.size() + c] = values[i * stride + first];
   }
   write_whole(file, spec, OIIO::TypeDesc::FLOAT, packed.data());
+}
+
+// [pixel][3] of the primaries from X, Y, Z.
+std::vector<float> in_primaries(const std::vector<float>& xyz, const ColorSpace& space) {
+  std::vector<float> result(xyz.size());
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    ColorChannels color{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < 3; ++k)
+        color[c] += space.from_xyz[c][k] * static_cast<double>(xyz[i + k]);
+    }
+    const ColorChannels held = into_gamut(color, static_cast<double>(xyz[i + 1]), space.white);
+    for (std::size_t c = 0; c < 3; ++c) result[i + c] = static_cast<float>(held[c]);
+  }
+  return result;
+}
+
+void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file) {
+  OIIO::ImageSpec spec(map.width, map.height, static_cast<int>(map.channels.size()),
+                       OIIO::TypeDesc::FLOAT);
+  spec.channelnames = map.channels;
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  for (const auto& [name, value] : map.metadata) spec.attribute(name, value);
+  if (!map.is_xyz) return write_whole(file, spec, OIIO::TypeDesc::FLOAT, map.pixels.data());
+  const ColorSpace& space = color_space(primaries);
+  spec.channelnames = {"R", "G", "B"};
+  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                 space.chromaticities.data());
+  write_whole(file, spec, OIIO::TypeDesc::FLOAT, in_primaries(map.pixels, space).data());
 }
 
 void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions& tone) {

@@ -7,10 +7,12 @@
 #include <span>
 
 #include "render/render.h"
+#include "render/sky_map/sky_map.h"
 
 namespace skyfit {
 
 void write_exr_file(const Frame& frame, const std::filesystem::path& file);
+void write_map_file(const SkyMap& map, Primaries primaries, const std::filesystem::path& file);
 void write_png_file(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone);
 
 // RGBA, 8 bit, as they are.

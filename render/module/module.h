@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "render/render.h"
+#include "render/sky_map/sky_map.h"
 
 namespace skyfit {
 
@@ -22,10 +23,11 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 6;
+  static constexpr int kRevision = 7;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice);
   void (*write_exr)(const Frame&, const std::filesystem::path&);
+  void (*write_map)(const SkyMap&, Primaries, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);
 };
 

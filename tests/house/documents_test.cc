@@ -13,6 +13,7 @@
 #include "data_refs/references.h"
 #include "model/registry.h"
 #include "render/plot/measured_figures.h"
+#include "render/sky_map/projection.h"
 
 namespace skyfit {
 namespace {
@@ -45,6 +46,12 @@ TEST(Documents, NameEveryFigure) {
   const std::string text = document("docs/fits.md");
   for (const plot::MeasuredFigure& figure : plot::measured_figures())
     expect_in(text, fmt::format("| {} | {} |", figure.name, figure.meaning));
+}
+
+TEST(Documents, NameEveryProjectionOfSkyMaps) {
+  const std::string text = document("docs/rendering.md");
+  for (const MapProjectionEntry& projection : map_projections())
+    expect_in(text, fmt::format("| {} | {} |", projection.name, projection.meaning));
 }
 
 TEST(Documents, NameEveryShippedPreset) {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/sky_map/light_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "model/numerics/angles.h"
+#include "render/sky_map/sky_map.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kDegree = kRadiansPerDegree;
+constexpr double kDarkest = 1e-30;  // cd/m^2 or W m^-2 sr^-1 nm^-1, in the place of 0
+
+// From `from` to `to`, each step as long as step(there) says at most.
+template <class Step>
+void append_range(double from, double to, const Step& step, std::vector<double>& nodes) {
+  nodes.push_back(from);
+  while (nodes.back() < to) nodes.push_back(std::min(nodes.back() + step(nodes.back()), to));
+}
+
+struct Between {
+  std::size_t low;
+  double part;
+};
+
+Between between(const std::vector<double>& nodes, std::size_t first, std::size_t end, double x) {
+  const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(first),
+             last = nodes.begin() + static_cast<std::ptrdiff_t>(end) - 1;
+  const auto above = std::clamp(std::upper_bound(begin, last, x), begin + 1, last);
+  const double low = *(above - 1), high = *above;
+  return {static_cast<std::size_t>(above - 1 - nodes.begin()),
+          std::clamp((x - low) / (high - low), 0.0, 1.0)};
+}
+
+}  // namespace
+
+LightGrid::LightGrid(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                     const MapChannels& channels, const SkyMapOptions& options)
+    : channels_(channels.names.size()) {
+  const double h = options.altitude_m, radius = atmosphere.bottom_radius_m;
+  horizon_ = kPi - std::asin(radius / (radius + h));
+  constexpr double kBeside = 1e-5;  // of the horizon, so that a ray is on its side
+  const auto zenith_step = [&](double zenith) {
+    if (std::abs(zenith - horizon_) < 2.05 * kDegree) return 0.1 * kDegree;
+    return std::abs(zenith - options.sun_zenith) < 12 * kDegree ? 0.25 * kDegree : 0.5 * kDegree;
+  };
+  append_range(0, horizon_ - kBeside, zenith_step, zeniths_);
+  first_ground_ = zeniths_.size();
+  append_range(horizon_ + kBeside, kPi, zenith_step, zeniths_);
+  append_range(
+      0, kPi, [](double a) { return a < 12 * kDegree ? 0.25 * kDegree : kDegree; }, azimuths_);
+  const std::size_t rows = options.ground ? zeniths_.size() : first_ground_;
+  std::vector<SkyPoint> points;
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (const double azimuth : azimuths_)
+      points.push_back({h, options.sun_zenith, zeniths_[i], azimuth});
+  }
+  const SkyValues sky = model.radiance(atmosphere, channels.nodes, points, {});
+  logs_.reserve(points.size() * channels_);
+  for (int p = 0; p < sky.points; ++p) {
+    for (const std::vector<double>& weight : channels.weight) {
+      double sum = 0;
+      for (std::size_t k = 0; k < weight.size(); ++k)
+        sum += weight[k] * sky.at(p, static_cast<int>(k));
+      logs_.push_back(std::log(std::max(sum, kDarkest)));
+    }
+  }
+}
+
+void LightGrid::add(double zenith, double azimuth, double share, std::vector<double>& light) const {
+  const bool is_ground = zenith > horizon_;
+  const Between z = is_ground ? between(zeniths_, first_ground_, zeniths_.size(), zenith)
+                              : between(zeniths_, 0, first_ground_, zenith);
+  const Between a =
+      between(azimuths_, 0, azimuths_.size(), std::abs(std::remainder(azimuth, 2 * kPi)));
+  const double* const low = &logs_[(z.low * azimuths_.size() + a.low) * channels_];
+  const double* const high = low + azimuths_.size() * channels_;
+  for (std::size_t c = 0; c < channels_; ++c) {
+    const double below = low[c] + a.part * (low[c + channels_] - low[c]),
+                 above = high[c] + a.part * (high[c + channels_] - high[c]);
+    const double value = std::exp(below + z.part * (above - below));
+    if (value > 2 * kDarkest) light[c] += share * value;
+  }
+}
+
+}  // namespace skyfit

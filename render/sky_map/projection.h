@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of all directions. World axes: x to the east, y to the north, z to the zenith; pixels
+// run from the upper left corner, the centre of the first at (0.5, 0.5).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace skyfit {
+
+using Axis = std::array<double, 3>;
+
+class MapProjection {
+ public:
+  virtual ~MapProjection() = default;
+  virtual int width() const = 0;
+  virtual int height() const = 0;
+  // Unit vector; nothing where the picture shows no direction.
+  virtual std::optional<Axis> direction(double x, double y) const = 0;
+  // The point that shows a direction; nothing outside the picture. Inverse of direction().
+  virtual std::optional<std::array<double, 2>> point(const Axis& direction) const = 0;
+  // Of the pixel in column x and row y, sr.
+  virtual double solid_angle_sr(int x, int y) const = 0;
+};
+
+struct MapProjectionEntry {
+  std::string_view name, meaning;
+  // `size`: rows of equirectangular, the side of the others or of a face.
+  std::unique_ptr<MapProjection> (*make)(int size);
+};
+std::span<const MapProjectionEntry> map_projections();
+
+// Throws std::invalid_argument that lists the names.
+std::unique_ptr<MapProjection> make_map_projection(std::string_view name, int size);
+
+}  // namespace skyfit

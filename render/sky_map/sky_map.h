@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of all directions about an observer as one picture, for other people's renderers: the
+// model's radiance, the sun's disc in it or beside it, the ground as the model has it or black.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/sky_model.h"
+#include "render/color_space.h"
+#include "render/sky_map/projection.h"
+
+namespace skyfit {
+
+// A quantity is a weighted sum over wavelengths of the model's value per unit solar irradiance.
+struct MapChannels {
+  std::vector<std::string> names;
+  std::vector<WavelengthNode> nodes;
+  std::vector<std::vector<double>> weight;  // [channel][node]
+};
+
+// X, Y, Z in cd/m^2 (irradiances: lx), by xyz_rule().
+MapChannels xyz_channels(const SpectralData& data);
+// W m^-2 sr^-1 nm^-1, named "550nm". Throws std::invalid_argument as spectral_nodes() does.
+MapChannels spectral_channels(const SpectralData& data, const std::vector<double>& wavelengths_nm);
+
+struct SkyMapOptions {
+  double altitude_m = 0;
+  double sun_zenith = 0, sun_azimuth = 0;  // radians, azimuth clockwise from north
+  bool sun_disc = true;
+  bool ground = true;  // else what lies below the horizon is black
+  std::function<void(double)> progress = [](double) {};
+};
+
+struct SkyMap {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  std::vector<float> pixels;  // [pixel][channel], rows from above
+  bool is_xyz = false;
+  std::vector<std::pair<std::string, std::string>> metadata;
+  // [channel]: of the beam on a plane that faces the sun; of the sky's diffuse light on a
+  // horizontal plane, by the model's own quadrature and as the sum over the map's pixels.
+  std::vector<double> direct_normal, diffuse_horizontal, map_horizontal;
+};
+
+// Pixels are means over 4 x 4 directions within 15 deg of the sun and at the horizon, else the
+// direction of their centres. Light is interpolated between the model's values every half degree in
+// zenith angle (a quarter within 12 deg of the sun's, 0.1 within 2 of the horizon) and every degree
+// in azimuth (0.25 within 12). The disc has the star's limb darkening and exactly the beam's
+// irradiance. Throws as SkyModel::radiance() does.
+SkyMap sky_map(const SkyModel& model, const Atmosphere<double>& atmosphere,
+               const MapChannels& channels, const MapProjection& projection,
+               const SkyMapOptions& options);
+
+// .exr, or .hdr of XYZ, whole or not at all; XYZ becomes the primaries. Throws std::runtime_error
+// that names the file.
+void write_sky_map(const SkyMap& map, Primaries primaries, const std::filesystem::path& file);
+
+}  // namespace skyfit
