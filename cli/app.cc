@@ -53,6 +53,8 @@ void add_commands(CLI::App& app) {
   add_report_command(app);
   add_sky_command(app);
   add_sky_map_command(app);
+  add_export_command(app);
+  add_import_command(app);
   add_plot_command(app);
   add_render_command(app);
   add_presets_command(app);

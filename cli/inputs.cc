@@ -15,6 +15,7 @@
 #include "data_refs/measured_sky.h"
 #include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
+#include "fit/exchange/engines.h"
 
 namespace skyfit::cli {
 namespace {
@@ -36,6 +37,19 @@ NamedFiles& named_files() {
   return named;
 }
 
+namespace {
+
+// Of a file that is no preset: whose parameters it holds.
+void expect_no_other_program(const std::string& file) {
+  constexpr std::size_t kMostBytes = 1 << 20;
+  const fit::Engine* engine = fit::engine_of(read_file(file, "a preset", kMostBytes));
+  if (engine == nullptr) return;
+  throw std::invalid_argument(
+      fmt::format("{}: is no preset but {}; `skyfit import` reads it", file, engine->meaning));
+}
+
+}  // namespace
+
 Preset preset_named(const std::string& name_or_file) {
   const std::vector<std::string> shipped = refs::shipped_preset_names();
   if (std::ranges::count(shipped, name_or_file) > 0) {
@@ -46,7 +60,12 @@ Preset preset_named(const std::string& name_or_file) {
         fmt::format("preset \"{}\": no such file, and none of the shipped presets {}", name_or_file,
                     fmt::join(shipped, ", ")));
   }
-  return load_preset(name_or_file, refs::load_table_csv, named_files());
+  try {
+    return load_preset(name_or_file, refs::load_table_csv, named_files());
+  } catch (const std::invalid_argument&) {
+    expect_no_other_program(name_or_file);
+    throw;
+  }
 }
 
 void add_site_pressure_option(CLI::App& command, std::string& site_pressure) {

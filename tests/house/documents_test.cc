@@ -11,6 +11,7 @@
 #include "data_refs/import_options.h"
 #include "data_refs/measured_formats.h"
 #include "data_refs/references.h"
+#include "fit/exchange/engines.h"
 #include "model/registry.h"
 #include "render/plot/measured_figures.h"
 #include "render/sky_map/projection.h"
@@ -52,6 +53,12 @@ TEST(Documents, NameEveryProjectionOfSkyMaps) {
   const std::string text = document("docs/rendering.md");
   for (const MapProjectionEntry& projection : map_projections())
     expect_in(text, fmt::format("| {} | {} |", projection.name, projection.meaning));
+}
+
+TEST(Documents, NameEveryProgramOfExports) {
+  const std::string text = document("docs/exchange.md");
+  for (const fit::Engine& engine : fit::engines())
+    expect_in(text, fmt::format("| {} | {} |", engine.name, engine.meaning));
 }
 
 TEST(Documents, NameEveryShippedPreset) {

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit export` and `skyfit import`: presets as the parameters of other people's programs.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/inputs.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "data_refs/spectra.h"
+#include "fit/exchange/engines.h"
+#include "fit/exchange/reduction.h"
+#include "model/base/input_file.h"
+#include "model/base/whole_file.h"
+#include "model/registry.h"
+
+namespace skyfit::cli {
+namespace {
+
+struct ExportArguments {
+  std::string preset, to, out, sun_zenith = "40", sun_azimuth = "180";
+  int threads = default_threads();
+};
+
+// Of comments in scripts: one line of plain characters, whatever the preset is called.
+std::string plain(std::string text) {
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return text;
+}
+
+void run_export(const ExportArguments& arguments) {
+  const fit::Engine* engine = nullptr;
+  try {
+    engine = &fit::engine_named(arguments.to);
+  } catch (const std::invalid_argument& unknown) {
+    throw UsageError("--to", arguments.to, unknown.what());
+  }
+  require_output_files({arguments.out}, {std::string(engine->extension)});
+  fit::ExportFacts facts;
+  facts.sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 90);
+  facts.sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
+  const Preset preset = preset_named(arguments.preset);
+  const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
+  const auto model = make_sky_model("reference", spectra, arguments.threads);
+  fit::EngineAtmosphere restricted =
+      fit::engine_atmosphere(fit::engine_form(preset.atmosphere, spectra, engine->lobe));
+  engine->restrict_to(restricted);
+  Atmosphere<double> start = fit::atmosphere_of(restricted);
+  start.star = preset.atmosphere.star;
+  Progress progress("refitting for " + std::string(engine->name));
+  fit::EngineAtmosphere exported = fit::engine_atmosphere(
+      fit::refitted(*model, spectra, preset.atmosphere, start, engine->free(),
+                    [&](double done) { progress.show(done, "parameters"); }));
+  engine->restrict_to(exported);  // to the ranges of its properties
+  Atmosphere<double> shown = fit::atmosphere_of(exported);
+  shown.star = preset.atmosphere.star;
+  facts.loss = fit::loss_text(fit::sky_loss(*model, spectra, preset.atmosphere, shown));
+  facts.preset = plain(preset.name);
+  facts.star = preset.atmosphere.star;
+  write_whole_file(arguments.out, engine->write(exported, facts));
+  print(fmt::format("{}: {} of the preset {}\nloss by what it cannot hold: {}\n", arguments.out,
+                    engine->meaning, preset.name, facts.loss));
+}
+
+struct ImportFileArguments {
+  std::string file, out;
+};
+
+void run_import(const ImportFileArguments& arguments) {
+  constexpr std::size_t kMostBytes = 1 << 20;
+  if (!arguments.out.empty()) require_output_files({arguments.out}, {".json"});
+  const std::string text =
+      read_file(arguments.file, "the parameters of another program", kMostBytes);
+  for (const fit::Engine& engine : fit::engines()) {
+    std::vector<std::string> notes;
+    const auto read = engine.read(text, arguments.file, notes);
+    if (!read) continue;
+    Preset preset{std::string(engine.name), fit::atmosphere_of(*read), nullptr,
+                  fmt::format("Imported from {}", engine.meaning)};
+    validate(preset.atmosphere);
+    const std::string json = preset_to_json(preset);
+    for (const std::string& note : notes) warn(fmt::format("{}: {}", arguments.file, note));
+    if (arguments.out.empty()) return print(json);
+    return write_whole_file(arguments.out, json);
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: not recognised, expected the parameters of one of the programs that `skyfit "
+                  "import --help` lists",
+                  arguments.file));
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app) {
+  const auto arguments = std::make_shared<ExportArguments>();
+  CLI::App& command = *app.add_subcommand(
+      "export", "Writes a preset as the parameters of another program, and what is lost.");
+  command.add_option("preset", arguments->preset, "Shipped preset or preset file")
+      ->required()
+      ->type_name("PRESET");
+  command.add_option("--to", arguments->to, "The program, see below")
+      ->required()
+      ->type_name("NAME");
+  command.add_option("--out", arguments->out, "The file")->required()->type_name("FILE");
+  command.add_option("--sun-zenith-deg", arguments->sun_zenith, "Zenith angle of its sun, 0 to 90")
+      ->type_name("ANGLE")
+      ->capture_default_str();
+  command
+      .add_option("--sun-azimuth-deg", arguments->sun_azimuth,
+                  "Azimuth of its sun, clockwise from north")
+      ->type_name("ANGLE")
+      ->capture_default_str();
+  add_threads_option(command, arguments->threads);
+  command.footer("Programs:\n" + named_lines(fit::engines()) +
+                 "\nWhat the program cannot hold (a second lobe, layers, heights that it fixes, a "
+                 "spectrum) is\n"
+                 "refitted to the preset's sky by the model reference, and the rest is stated as "
+                 "the loss. The\n"
+                 "program's own approximations come on top of it.\n"
+                 "\n"
+                 "Example: skyfit export fitted/preset.json --to unreal --out sky.json");
+  command.callback([arguments] { run_export(*arguments); });
+}
+
+void add_import_command(CLI::App& app) {
+  const auto arguments = std::make_shared<ImportFileArguments>();
+  CLI::App& command =
+      *app.add_subcommand("import", "Reads the parameters of another program as a preset.");
+  command.add_option("file", arguments->file, "The parameters")->required()->type_name("FILE");
+  command.add_option("--out", arguments->out, "The preset; by default it is printed")
+      ->type_name("FILE.json");
+  command.footer("Programs, recognised by what the file holds:\n" + named_lines(fit::engines()) +
+                 "\nExample: skyfit import sky.json --out preset.json");
+  command.callback([arguments] { run_import(*arguments); });
+}
+
+}  // namespace skyfit::cli

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/exchange/engines.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+#include <regex>
+#include <stdexcept>
+
+#include "fit/exchange/engine_files.h"
+
+namespace skyfit::fit {
+namespace {
+
+std::vector<Parameter> aerosol() {
+  return {Parameter::kMieScattering, Parameter::kMieAngstromExponent, Parameter::kMiePhaseG,
+          Parameter::kMieScaleHeight};
+}
+
+// Unity's aerosol is grey.
+void restrict_to_unity(EngineAtmosphere& engine) {
+  const double extinction = engine.mie_scattering[1] + engine.mie_absorption[1],
+               scattering = engine.mie_scattering[1];
+  engine.mie_scattering.fill(scattering);
+  engine.mie_absorption.fill(extinction - scattering);
+}
+
+std::vector<Parameter> grey_aerosol() {
+  return {Parameter::kMieScattering, Parameter::kMiePhaseG, Parameter::kMieScaleHeight};
+}
+
+std::vector<Parameter> amounts() {
+  return {Parameter::kRayleighScattering, Parameter::kMieScattering};
+}
+
+std::vector<Parameter> amounts_and_lobe() {
+  return {Parameter::kRayleighScattering, Parameter::kMieScattering, Parameter::kMiePhaseG};
+}
+
+constexpr PhaseType kHg = PhaseType::kHenyeyGreenstein, kCs = PhaseType::kCornetteShanks;
+
+constexpr std::array<Engine, 5> kEngines = {{
+    {"unreal", "Unreal Engine, component SkyAtmosphere (JSON of its properties)", ".json", kHg,
+     [](EngineAtmosphere&) {}, aerosol, unreal_text, read_unreal},
+    {"unity", "Unity HDRP, Physically Based Sky (JSON of its properties)", ".json", kCs,
+     restrict_to_unity, grey_aerosol, unity_text, read_unity},
+    {"bruneton", "Bruneton 2017, arguments of atmosphere::Model (JSON)", ".json", kCs,
+     [](EngineAtmosphere&) {}, aerosol, bruneton_text, read_bruneton},
+    {"blender", "Blender, sky texture node of the Nishita type (Python)", ".py", kCs,
+     restrict_to_blender, amounts, blender_text, read_blender},
+    {"threejs", "three.js, object Sky (JavaScript)", ".js", kHg, restrict_to_threejs,
+     amounts_and_lobe, threejs_text, read_threejs},
+}};
+
+}  // namespace
+
+std::span<const Engine> engines() { return kEngines; }
+
+const Engine& engine_named(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Engine& engine : kEngines) {
+    if (engine.name == name) return engine;
+    names.push_back(engine.name);
+  }
+  throw std::invalid_argument(
+      fmt::format("program \"{}\": expected one of {}", name, fmt::join(names, ", ")));
+}
+
+const Engine* engine_of(std::string_view text) {
+  for (const Engine& engine : kEngines) {
+    std::vector<std::string> notes;
+    try {
+      if (engine.read(text, "", notes)) return &engine;
+    } catch (const std::invalid_argument&) {  // its own, with something wrong
+      return &engine;
+    }
+  }
+  return nullptr;
+}
+
+double number_or(const PresetReader& object, std::string_view field, double if_none) {
+  if (!object.has(field)) return if_none;
+  const double value = object.number(field);
+  if (!std::isfinite(value) || value < 0) object.fail_value(field, "expected a number >= 0");
+  return value;
+}
+
+Rgb rgb_or(const PresetReader& object, std::string_view field, const Rgb& if_none) {
+  if (!object.has(field)) return if_none;
+  const std::vector<double> values = object.numbers(field);
+  if (values.size() != 3) object.fail_value(field, "expected three numbers");
+  for (const double value : values) {
+    if (!std::isfinite(value) || value < 0) object.fail_value(field, "expected numbers >= 0");
+  }
+  return {values[0], values[1], values[2]};
+}
+
+std::optional<double> assigned_number(std::string_view text, std::string_view name) {
+  const std::regex pattern(
+      std::string(name) +
+      R"(["'\]]*\s*(?:\.value)?\s*[=:]\s*([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?))");
+  std::match_results<std::string_view::const_iterator> match;
+  if (!std::regex_search(text.begin(), text.end(), match, pattern)) return {};
+  const double value = std::stod(match[1].str());
+  return value;
+}
+
+}  // namespace skyfit::fit

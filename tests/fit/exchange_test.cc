@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parameters of other programs: what is written is read back, what a program can hold loses
+// nothing, what it cannot hold is refitted and stated, and strangers' files are refused by name and
+// field.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "data_refs/references.h"
+#include "data_refs/spectra.h"
+#include "fit/exchange/engines.h"
+#include "fit/exchange/reduction.h"
+#include "model/atmosphere/preset.h"
+#include "model/registry.h"
+
+namespace skyfit::fit {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+const SpectralData& spectra() { return refs::standard_spectral_data(); }
+
+const SkyModel& model() {
+  static const auto made = make_sky_model("reference", spectra(), 2);
+  return *made;
+}
+
+Atmosphere<double> shipped(const std::string& name) {
+  return parse_preset(refs::shipped_preset_json(name), name).atmosphere;
+}
+
+EngineAtmosphere restricted(const Atmosphere<double>& atmosphere, const Engine& engine) {
+  EngineAtmosphere form = engine_atmosphere(engine_form(atmosphere, spectra(), engine.lobe));
+  engine.restrict_to(form);
+  return form;
+}
+
+void expect_near(const Rgb& a, const Rgb& b, std::string_view what) {
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(a[k], b[k], 2e-5 * std::abs(b[k]) + 1e-15) << what << " " << k;
+}
+
+class Engines : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Engines, ReadsWhatItWrites) {
+  const Engine& engine = engine_named(GetParam());
+  for (const char* name : {"earth-clear", "earth-alpine", "hillaire-2020"}) {
+    const EngineAtmosphere written = restricted(shipped(name), engine);
+    const std::string text = engine.write(written, {name, "", 0.5, 1, {}});
+    EXPECT_EQ(engine_of(text), &engine);
+    std::vector<std::string> notes;
+    const auto read = engine.read(text, "file", notes);
+    ASSERT_TRUE(read);
+    EXPECT_TRUE(notes.empty());
+    expect_near(read->rayleigh_scattering, written.rayleigh_scattering, "rayleigh");
+    expect_near(read->mie_scattering, written.mie_scattering, "mie");
+    expect_near(read->mie_absorption, written.mie_absorption, "mie absorption");
+    EXPECT_NEAR(read->rayleigh_scale_height_m, written.rayleigh_scale_height_m, 1e-3);
+    EXPECT_NEAR(read->mie_scale_height_m, written.mie_scale_height_m, 1e-3);
+    EXPECT_NEAR(read->g, written.g, 1e-5);
+    EXPECT_EQ(read->lobe, written.lobe);
+    if (engine.name != "unity") expect_near(read->absorption, written.absorption, "absorption");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Engines,
+                         ::testing::Values("unreal", "unity", "bruneton", "blender", "threejs"));
+
+TEST(Exchange, EveryEngineIsTested) { EXPECT_EQ(engines().size(), 5u); }
+
+TEST(Exchange, NothingIsLostWhereTheFormIsTheSame) {
+  const Atmosphere<double> a = shipped("hillaire-2020");
+  const Atmosphere<double> back = atmosphere_of(restricted(a, engine_named("bruneton")));
+  const SkyLoss loss = sky_loss(model(), spectra(), a, back);
+  EXPECT_LT(std::abs(loss.worst_percent), 0.05);
+  EXPECT_LT(loss.worst_uv, 1e-4);
+}
+
+TEST(Exchange, WhatAProgramCannotHoldIsRefitted) {
+  const Atmosphere<double> a = shipped("earth-hazy");
+  const Engine& engine = engine_named("unreal");
+  const Atmosphere<double> start = atmosphere_of(restricted(a, engine));
+  const Atmosphere<double> better =
+      refitted(model(), spectra(), a, start, engine.free(), [](double) {});
+  const double before = sky_loss(model(), spectra(), a, start).rms_percent,
+               after = sky_loss(model(), spectra(), a, better).rms_percent;
+  std::printf("[   loss ] %.2f %% before, %.2f %% after\n", before, after);
+  EXPECT_LT(after, 0.8 * before);
+  EXPECT_EQ(engine_atmosphere(better).lobe, PhaseType::kHenyeyGreenstein);
+}
+
+TEST(Exchange, UnrealsDefaultsAreHillaires) {
+  std::vector<std::string> notes;
+  const auto read = engine_named("unreal").read(
+      R"({"SkyAtmosphere": {"MultiScatteringFactor": 0.5}})", "sky.json", notes);
+  ASSERT_TRUE(read);
+  expect_near(read->rayleigh_scattering, {5.802e-6, 13.558e-6, 33.1e-6}, "rayleigh");
+  EXPECT_THAT(notes, ::testing::Contains(HasSubstr("MultiScatteringFactor")));
+}
+
+TEST(Exchange, StrangersFilesAreRefusedByField) {
+  std::vector<std::string> notes;
+  EXPECT_THAT(
+      [&] {
+        engine_named("unreal").read("{\"SkyAtmosphere\":\n{\"MieAnisotropy\": -2}}", "a.json",
+                                    notes);
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("a.json:2: SkyAtmosphere.MieAnisotropy")));
+  EXPECT_THAT(
+      [&] {
+        engine_named("unity").read(R"({"PhysicallyBasedSky": {"airDensityR": 1}})", "b.json",
+                                   notes);
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("airDensityR")));
+  EXPECT_THAT(
+      [&] {
+        engine_named("blender").read("air_density = 1\ndust_density = 11\nozone_density = 1\n",
+                                     "c.py", notes);
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("c.py: dust_density = 11")));
+  EXPECT_EQ(engine_of("{\"skyfit_preset\": 2}"), nullptr);
+  EXPECT_THAT([] { engine_named("quake"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("unreal, unity")));
+}
+
+}  // namespace
+}  // namespace skyfit::fit
