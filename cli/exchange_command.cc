@@ -81,7 +81,11 @@ void run_import(const ImportFileArguments& arguments) {
     if (!read) continue;
     Preset preset{std::string(engine.name), fit::atmosphere_of(*read), nullptr,
                   fmt::format("Imported from {}", engine.meaning)};
-    validate(preset.atmosphere);
+    try {
+      validate(preset.atmosphere);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("{}: as a preset: {}", arguments.file, error.what()));
+    }
     const std::string json = preset_to_json(preset);
     for (const std::string& note : notes) warn(fmt::format("{}: {}", arguments.file, note));
     if (arguments.out.empty()) return print(json);

@@ -24,20 +24,20 @@ Json layer(double width, double exp_term, double exp_scale, double linear_term,
 
 double scale_height(const PresetReader& root, std::string_view field) {
   const std::vector<PresetReader> layers = root.objects(field);
-  if (layers.empty()) root.fail_value(field, "expected at least one layer");
+  if (layers.empty()) root.fail_value(field, "at least one layer");
   const PresetReader& last = layers.back();
   if (last.number("exp_term") != 1 || !(last.number("exp_scale") < 0) ||
       last.number("linear_term") != 0 || last.number("constant_term") != 0)
-    root.fail_value(field, "expected the density exp(-h / H), one layer with exp_term 1");
+    root.fail_value(field, "the density exp(-h / H), one layer with exp_term 1");
   return -1 / last.number("exp_scale");
 }
 
 // Two linear layers, a tent.
 void read_tent(const PresetReader& root, EngineAtmosphere& engine) {
   const std::vector<PresetReader> layers = root.objects("absorption_density");
-  if (layers.size() != 2) root.fail_value("absorption_density", "expected two layers, a tent");
+  if (layers.size() != 2) root.fail_value("absorption_density", "two layers, a tent");
   const double slope = layers[0].number("linear_term");
-  if (!(slope > 0)) root.fail_value("absorption_density", "expected a density that rises first");
+  if (!(slope > 0)) root.fail_value("absorption_density", "a density that rises first");
   engine.tent_peak_m = layers[0].number("width");
   engine.tent_half_width_m = 1 / slope;
 }
@@ -76,7 +76,7 @@ std::optional<EngineAtmosphere> read_bruneton(std::string_view text, std::string
   const PresetReader root = document.root();
   const std::vector<double> nm = root.numbers("wavelengths");
   if (!std::ranges::equal(nm, kEngineWavelengths_nm))
-    root.fail_value("wavelengths", "expected [680, 550, 440]");
+    root.fail_value("wavelengths", "[680, 550, 440]");
   EngineAtmosphere engine;
   engine.lobe = PhaseType::kCornetteShanks;
   engine.bottom_radius_m = root.number("bottom_radius");
@@ -88,7 +88,7 @@ std::optional<EngineAtmosphere> read_bruneton(std::string_view text, std::string
   const Rgb extinction = rgb_or(root, "mie_extinction", engine.mie_scattering);
   for (std::size_t k = 0; k < 3; ++k) {
     if (extinction[k] < engine.mie_scattering[k])
-      root.fail_value("mie_extinction", "expected at least mie_scattering");
+      root.fail_value("mie_extinction", "at least mie_scattering");
     engine.mie_absorption[k] = extinction[k] - engine.mie_scattering[k];
   }
   engine.g = root.number("mie_phase_function_g");

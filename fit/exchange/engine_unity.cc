@@ -24,7 +24,7 @@ double opacity(double per_m, double scale_height_m) {
 double coefficient(const PresetReader& sky, std::string_view field, double if_none,
                    double scale_height_m) {
   const double value = number_or(sky, field, if_none);
-  if (!(value < 1)) sky.fail_value(field, "expected an opacity from 0 to 1, 1 not included");
+  if (!(value < 1)) sky.fail_value(field, "an opacity from 0 to 1, 1 not included");
   return -std::log(1 - value) / scale_height_m;
 }
 
@@ -78,7 +78,7 @@ std::optional<EngineAtmosphere> read_unity(std::string_view text, std::string_vi
       coefficient(sky, "aerosolDensity", 0.01192748, engine.mie_scale_height_m);
   const Rgb tint = rgb_or(sky, "aerosolTint", {0.9, 0.9, 0.9});
   for (std::size_t k = 0; k < 3; ++k) {
-    if (tint[k] > 1) sky.fail_value("aerosolTint", "expected numbers from 0 to 1");
+    if (tint[k] > 1) sky.fail_value("aerosolTint", "numbers from 0 to 1");
     engine.mie_scattering[k] = extinction * tint[k];
     engine.mie_absorption[k] = extinction * (1 - tint[k]);
   }

@@ -83,16 +83,16 @@ const Engine* engine_of(std::string_view text) {
 double number_or(const PresetReader& object, std::string_view field, double if_none) {
   if (!object.has(field)) return if_none;
   const double value = object.number(field);
-  if (!std::isfinite(value) || value < 0) object.fail_value(field, "expected a number >= 0");
+  if (!std::isfinite(value) || value < 0) object.fail_value(field, "a number >= 0");
   return value;
 }
 
 Rgb rgb_or(const PresetReader& object, std::string_view field, const Rgb& if_none) {
   if (!object.has(field)) return if_none;
   const std::vector<double> values = object.numbers(field);
-  if (values.size() != 3) object.fail_value(field, "expected three numbers");
+  if (values.size() != 3) object.fail_value(field, "three numbers");
   for (const double value : values) {
-    if (!std::isfinite(value) || value < 0) object.fail_value(field, "expected numbers >= 0");
+    if (!std::isfinite(value) || value < 0) object.fail_value(field, "numbers >= 0");
   }
   return {values[0], values[1], values[2]};
 }
