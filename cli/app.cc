@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/app.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -8,6 +12,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -63,13 +68,26 @@ void add_commands(CLI::App& app) {
   add_check_command(app);
   add_classify_command(app);
   add_compare_command(app);
+  add_completion_command(app);
+  add_doctor_command(app);
   for (CLI::App* const command : app.get_subcommands({})) command->fallthrough();
   app.footer(
       "Example: skyfit fit --reference cie:12 --out fitted\nMore about a command: skyfit COMMAND "
       "--help");
 }
 
+// A first word that is no command.
+void expect_known_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::ranges::count(names, argv[1]) == 0)
+    throw UsageError("command", argv[1], fmt::format("expected one of {}", fmt::join(names, ", ")));
+}
+
 int run_command(CLI::App& app, int argc, char** argv) {
+  expect_known_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

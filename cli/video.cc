@@ -87,7 +87,7 @@ fs::path make_video(const fs::path& ffmpeg, const fs::path& directory, int frame
     whole.fail(0, fmt::format("ffmpeg: {}: {}", outcome.ending(),
                               words.empty() ? "no message" : excerpt(split(words, '\n').front())));
   }
-  if (!is_complete(drawn)) whole.fail(0, "ffmpeg left half a film, as on a full disk");
+  if (!is_complete(drawn)) whole.fail(0, "ffmpeg left half a video, as on a full disk");
   whole.publish();
   return video;
 }

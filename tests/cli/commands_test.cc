@@ -2,6 +2,7 @@
 // Every command does what its help says, and what one command writes another reads.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "model/version.h"
 #include "tests/cli/program.h"
@@ -26,13 +27,49 @@ class CommandsTest : public ProgramTest {
 };
 
 TEST_F(CommandsTest, EveryCommandHasHelpWithAnExample) {
-  for (const char* command :
-       {"fit", "sky", "plot", "render", "presets", "references", "check", "classify", "compare"}) {
+  const Outcome unknown = run({"nonsense"});
+  EXPECT_EQ(unknown.status, 2);
+  const std::string known = unknown.err.substr(unknown.err.find("one of ") + 7);
+  std::istringstream list(known);
+  int count = 0;
+  for (std::string command; std::getline(list >> std::ws, command, ','); ++count) {
+    if (command.ends_with('\n')) command.pop_back();
+    if (command == "doctor") continue;  // takes nothing
     EXPECT_THAT(output({command, "--help"}), HasSubstr(std::string("skyfit ") + command + " "))
         << command;
     EXPECT_THAT(output({command, "--help"}), HasSubstr("Example")) << command;
     EXPECT_THAT(output({"--help"}), HasSubstr(command));
   }
+  EXPECT_GE(count, 16);
+}
+
+TEST_F(CommandsTest, CompletionKnowsCommandsAndOptions) {
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    const std::string script = output({"completion", shell});
+    for (const char* word : {"sky-map", "export", "primaries", "sun-zenith-deg"})
+      EXPECT_THAT(script, HasSubstr(word)) << shell;
+  }
+}
+
+TEST_F(CommandsTest, SkyMapIsWrittenWithItsSun) {
+  EXPECT_THAT(output({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--size", "16", "--out",
+                      "sky.hdr", "--sun-file", "sun.json"}),
+              HasSubstr("diffuse horizontal: "));
+  EXPECT_THAT(files(), UnorderedElementsAre("sky.hdr", "sun.json"));
+  EXPECT_NEAR(json::parse(read("sun.json"))["zenith_deg"].get<double>(), 40, 1e-9);
+  const Outcome wrong = run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--projection",
+                             "mercator", "--out", "sky.exr"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("equirectangular, fisheye"));
+}
+
+TEST_F(CommandsTest, ExportIsReadBack) {
+  output({"export", "hillaire-2020", "--to", "bruneton", "--out", "sky.json"});
+  output({"import", "sky.json", "--out", "back.json"});
+  EXPECT_THAT(output({"check", "back.json"}), HasSubstr("valid preset"));
+  const Outcome taken = run({"check", "sky.json"});
+  EXPECT_EQ(taken.status, 1);
+  EXPECT_THAT(taken.err, HasSubstr("`skyfit import` reads it"));
 }
 
 TEST_F(CommandsTest, CompareLeavesTablesAndFigures) {
