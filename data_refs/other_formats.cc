@@ -26,7 +26,7 @@ constexpr std::array<OtherFormat, 11> kFormats = {{
      "is aerosol optical depths of AERONET; skyfit reads AERONET's sky radiances, not yet these"},
     {R"(^location,[^\n]*\n\s*design conditions)",
      "is an EnergyPlus weather file (EPW), which holds irradiances; skyfit reads skies with "
-     "directions, not yet these"},
+     "directions, and an hour of such a file as perez:FILE@YYYY-MM-DDTHH:MM"},
     {R"(^\s*(#\?radiance[^\n]*\n)?(#[^\n]*\n|\s*\n)*\s*(void\s+(light|glow|brightfunc|plastic)\s|!\s*gen))",
      "is a scene of Radiance, such as gendaylit and gensky write; skyfit reads skies as samples "
      "and "

@@ -16,6 +16,7 @@
 #include "data_refs/perez_sky.h"
 #include "data_refs/sampling.h"
 #include "data_refs/truth.h"
+#include "data_refs/weather_file.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -58,6 +59,32 @@ Reference sampled(const std::vector<double>& sun_zenith, Sampling sampling,
 }
 
 // `name` is one of the analytic ones of shipped_references(), or "perez:EPSILON,DELTA".
+Reference perez_reference(const PerezSky& sky, std::string_view name,
+                          const std::vector<double>& suns, Sampling sampling) {
+  return sampled(suns, sampling, [&](const Sample& s) {
+    const double value =
+        perez_relative_luminance(sky, s.sun_zenith, s.view_zenith, scattering_angle(s));
+    if (value > 0) return value;
+    throw std::invalid_argument(fmt::format(
+        "{}: the luminance at sun zenith {:.6g}, view zenith {:.6g} deg is {:.3g} of the "
+        "zenith's: expected a clearness and brightness that go together",
+        name, s.sun_zenith * kDegreesPerRadian, s.view_zenith * kDegreesPerRadian, value));
+  });
+}
+
+// "perez:FILE@TIME": the sun is that of the hour.
+Reference weather_reference(std::string_view name, Sampling sampling) {
+  const WeatherHour hour = weather_hour(name.substr(name.find(':') + 1));
+  const PerezHour perez = perez_hour(hour, name);
+  Reference reference = perez_reference(perez.sky, name, {perez.sun.zenith}, sampling);
+  reference.description = fmt::format(
+      "Perez, Seals & Michalsky 1993 of direct normal {:.6g} and diffuse horizontal {:.6g} W/m^2: "
+      "clearness {:.4g}, brightness {:.4g}, sun zenith {:.2f} deg at {}",
+      hour.direct_normal, hour.diffuse_horizontal, perez.sky.epsilon, perez.sky.delta,
+      perez.sun.zenith * kDegreesPerRadian, iso_text(hour.middle));
+  return reference;
+}
+
 Reference analytic_reference(std::string_view name, const std::vector<double>& suns,
                              Sampling sampling) {
   if (name == kTraditionalOvercast) {
@@ -66,16 +93,7 @@ Reference analytic_reference(std::string_view name, const std::vector<double>& s
     });
   }
   if (is_perez_name(name)) {
-    const PerezSky sky = perez_sky_named(name);
-    return sampled(suns, sampling, [&](const Sample& s) {
-      const double value =
-          perez_relative_luminance(sky, s.sun_zenith, s.view_zenith, scattering_angle(s));
-      if (value > 0) return value;
-      throw std::invalid_argument(fmt::format(
-          "{}: the luminance at sun zenith {:.6g}, view zenith {:.6g} deg is {:.3g} of the "
-          "zenith's: expected a clearness and brightness that go together",
-          name, s.sun_zenith * kDegreesPerRadian, s.view_zenith * kDegreesPerRadian, value));
-    });
+    return perez_reference(perez_sky_named(name), name, suns, sampling);
   }
   const std::span<const CieSky> skies = cie_skies();
   const auto sky = std::find_if(skies.begin(), skies.end(),
@@ -100,6 +118,11 @@ std::vector<ReferenceEntry> shipped_references() {
 
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
                          Sampling sampling, const ImportOptions& options) {
+  if (is_perez_name(name) && name.find('@') != std::string_view::npos) {
+    Reference reference = weather_reference(name, sampling);
+    reference.name = name;
+    return reference;
+  }
   if (is_perez_name(name)) {
     expect_suns(name, sun_zenith);
     Reference reference = analytic_reference(name, sun_zenith, sampling);

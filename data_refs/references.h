@@ -24,7 +24,8 @@ struct ReferenceEntry {
 // The analytic references with a name of their own: cie:1 .. cie:15 and cie:traditional-overcast.
 std::vector<ReferenceEntry> shipped_references();
 
-// `name` is a shipped reference, "perez:EPSILON,DELTA" (data_refs/perez_sky.h), one of
+// `name` is a shipped reference, "perez:EPSILON,DELTA" (data_refs/perez_sky.h),
+// "perez:FILE@TIME" of an hour of a weather file (data_refs/weather_file.h), one of
 // truth_references() (data_refs/truth.h) or the path of a measured sky
 // (data_refs/measured_formats.h). For analytic references the suns (zenith, radians)
 // and the sampling say where they are read; a measured sky and a table of truth bring their own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Atmospheres and their tables between two others: timeline that changes from frame to frame
+// Atmospheres and their tables between two others: an atmosphere that changes from frame to frame
 // without tables of its own for every frame.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The all-timeline sky of Perez 1993 by hand, its overcast bin included; names that it refuses.
+// The all-weather sky of Perez 1993 by hand, its overcast bin included; names that it refuses.
 #include "data_refs/perez_sky.h"
 
 #include <gmock/gmock.h>

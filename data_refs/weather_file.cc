@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/weather_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "data_refs/csv.h"
+#include "model/base/text.h"
+#include "model/numerics/angles.h"
+
+namespace skyfit::refs {
+namespace {
+
+struct Clock {
+  unsigned month, day;
+  double hour;  // of the day
+};
+
+// What a file says of itself and how its rows are read.
+struct Layout {
+  Site site = {};
+  double utc_offset_h = 0;
+  int first_row = 0;  // line
+  char separator = ',';
+  // Fields of a row; `clock`: the end of the hour, or its middle.
+  std::size_t direct = 0, diffuse = 0;
+  Clock (*clock)(const std::vector<std::string>& fields, std::string_view source,
+                 int line) = nullptr;
+  bool clock_is_middle = false;
+};
+
+double number_of(const std::vector<std::string>& fields, std::size_t i, std::string_view name,
+                 std::string_view source, int line) {
+  const std::optional<double> value =
+      i < fields.size() ? csv_number(fields[i]) : std::optional<double>{};
+  if (value && std::isfinite(*value)) return *value;
+  fail_at(source, line,
+          fmt::format("{} = \"{}\": expected a number", name,
+                      i < fields.size() ? fields[i] : std::string()));
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+Clock epw_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
+  return {static_cast<unsigned>(number_of(fields, 1, "month", source, line)),
+          static_cast<unsigned>(number_of(fields, 2, "day", source, line)),
+          number_of(fields, 3, "hour", source, line)};
+}
+
+Clock wea_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
+  return {static_cast<unsigned>(number_of(fields, 0, "month", source, line)),
+          static_cast<unsigned>(number_of(fields, 1, "day", source, line)),
+          number_of(fields, 2, "hour", source, line)};
+}
+
+// MM/DD/YYYY and HH:MM, 24:00 for midnight.
+Clock tmy_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
+  unsigned month = 0, day = 0, hour = 0, minute = 0;
+  if (fields.size() < 2 || std::sscanf(fields[0].c_str(), "%2u/%2u/", &month, &day) != 2 ||
+      std::sscanf(fields[1].c_str(), "%2u:%2u", &hour, &minute) != 2)
+    fail_at(source, line, "expected a date MM/DD/YYYY and a time HH:MM");
+  return {month, day, hour + minute / 60.0};
+}
+
+Layout epw_layout(const std::string& first, std::string_view source) {
+  const std::vector<std::string> fields = csv_fields(first, source, 1);
+  Layout layout{.first_row = 9, .direct = 14, .diffuse = 15, .clock = epw_clock};
+  layout.site = {number_of(fields, 6, "latitude", source, 1) * kRadiansPerDegree,
+                 number_of(fields, 7, "longitude", source, 1) * kRadiansPerDegree,
+                 number_of(fields, 9, "elevation", source, 1)};
+  layout.utc_offset_h = number_of(fields, 8, "time zone", source, 1);
+  return layout;
+}
+
+// West is positive, and so is the meridian of its time.
+Layout wea_layout(const std::vector<std::string>& lines, std::string_view source) {
+  Layout layout{.first_row = 7,
+                .separator = ' ',
+                .direct = 3,
+                .diffuse = 4,
+                .clock = wea_clock,
+                .clock_is_middle = true};
+  const auto header = [&](std::size_t line, const std::string& name) {
+    const std::vector<std::string> words =
+        line < lines.size() ? words_of(lines[line]) : std::vector<std::string>{};
+    if (words.empty() || words[0] != name)
+      fail_at(source, static_cast<int>(line) + 1, fmt::format("expected a line {}", name));
+    return number_of(words, 1, name, source, static_cast<int>(line) + 1);
+  };
+  layout.site = {header(1, "latitude") * kRadiansPerDegree,
+                 -header(2, "longitude") * kRadiansPerDegree, 0};
+  layout.utc_offset_h = -header(3, "time_zone") / 15;
+  layout.site.elevation_m = header(4, "site_elevation");
+  if (header(5, "weather_data_file_units") != 1)
+    fail_at(source, 6, "weather_data_file_units: expected 1, irradiances in W/m^2");
+  return layout;
+}
+
+Layout tmy_layout(const std::vector<std::string>& lines, std::string_view source) {
+  const std::vector<std::string> fields = csv_fields(lines[0], source, 1),
+                                 names = csv_fields(lines.at(1), source, 2);
+  Layout layout{.first_row = 3, .clock = tmy_clock};
+  const auto column = [&](std::string_view name) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i].starts_with(name)) return i;
+    }
+    fail_at(source, 2, fmt::format("expected a column {}", name));
+  };
+  layout.direct = column("DNI (");
+  layout.diffuse = column("DHI (");
+  layout.utc_offset_h = number_of(fields, 3, "time zone", source, 1);
+  layout.site = {number_of(fields, 4, "latitude", source, 1) * kRadiansPerDegree,
+                 number_of(fields, 5, "longitude", source, 1) * kRadiansPerDegree,
+                 number_of(fields, 6, "elevation", source, 1)};
+  return layout;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+Layout layout_of(const std::vector<std::string>& lines, std::string_view source) {
+  if (!lines.empty() && lines[0].starts_with("LOCATION,")) return epw_layout(lines[0], source);
+  if (!lines.empty() && lines[0].starts_with("place ")) return wea_layout(lines, source);
+  if (lines.size() > 1 && lines[1].starts_with("Date (MM/DD/YYYY)"))
+    return tmy_layout(lines, source);
+  throw std::invalid_argument(
+      fmt::format("{}: no weather file, expected EPW, WEA or TMY3", source));
+}
+
+}  // namespace
+
+WeatherHour weather_hour(std::string_view file_and_time) {
+  const std::size_t at = file_and_time.rfind('@');
+  const std::string file(file_and_time.substr(0, at)), time(file_and_time.substr(at + 1));
+  const std::optional<Instant> wanted = instant(time, 0);
+  if (!wanted) {
+    throw std::invalid_argument(
+        fmt::format("{}: time = \"{}\": expected YYYY-MM-DDTHH:MM", file, printable(time)));
+  }
+  const auto day = std::chrono::floor<std::chrono::days>(*wanted);
+  const std::chrono::year_month_day date(day);
+  const double clock = std::chrono::duration<double, std::ratio<3600>>(*wanted - day).count();
+  const double begin = std::floor(clock);
+  const std::vector<std::string> lines = lines_of(read_csv_file(file, "a weather file"));
+  const Layout layout = layout_of(lines, file);
+  for (std::size_t i = static_cast<std::size_t>(layout.first_row) - 1; i < lines.size(); ++i) {
+    if (trim(lines[i]).empty()) continue;
+    const int line = static_cast<int>(i) + 1;
+    const std::vector<std::string> fields =
+        layout.separator == ',' ? csv_fields(lines[i], file, line) : words_of(lines[i]);
+    const Clock row = layout.clock(fields, file, line);
+    const double of_row = layout.clock_is_middle ? std::floor(row.hour) : std::ceil(row.hour) - 1;
+    if (row.month != static_cast<unsigned>(date.month()) ||
+        row.day != static_cast<unsigned>(date.day()) || of_row != begin)
+      continue;
+    WeatherHour hour;
+    hour.middle =
+        day + std::chrono::milliseconds(std::llround((begin + 0.5 - layout.utc_offset_h) * 3.6e6));
+    hour.site = layout.site;
+    hour.direct_normal = number_of(fields, layout.direct, "direct normal", file, line);
+    hour.diffuse_horizontal = number_of(fields, layout.diffuse, "diffuse horizontal", file, line);
+    constexpr double kMost = 2000;  // W/m^2; 9999 stands for a missing value
+    for (const auto& [name, value] : {std::pair{"direct normal", hour.direct_normal},
+                                      {"diffuse horizontal", hour.diffuse_horizontal}}) {
+      if (!(value >= 0 && value < kMost))
+        fail_at(file, line, fmt::format("{} = {:.9g}: expected 0 to 2000 W/m^2", name, value));
+    }
+    return hour;
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: time = {}: expected an hour that the file has", file, printable(time)));
+}
+
+PerezHour perez_hour(const WeatherHour& hour, std::string_view name) {
+  constexpr double kSolarConstant = 1367, kKappa = 1.041;
+  PerezHour result;
+  result.sun = solar_position(hour.middle, hour.site);
+  const double zenith = result.sun.zenith, zenith_deg = zenith * kDegreesPerRadian;
+  if (!(zenith_deg < 89)) {
+    throw std::invalid_argument(
+        fmt::format("{}: the sun of {} is {:.2f} deg from the zenith: expected less than 89", name,
+                    iso_text(hour.middle), zenith_deg));
+  }
+  if (!(hour.diffuse_horizontal > 0)) {
+    throw std::invalid_argument(
+        fmt::format("{}: diffuse horizontal = {:.9g} W/m^2: expected more than 0", name,
+                    hour.diffuse_horizontal));
+  }
+  const double cube = kKappa * zenith * zenith * zenith;
+  result.sky.epsilon =
+      ((hour.diffuse_horizontal + hour.direct_normal) / hour.diffuse_horizontal + cube) /
+      (1 + cube);
+  const double air_mass =
+      1 / (std::cos(zenith) + 0.50572 * std::pow(96.07995 - zenith_deg, -1.6364));
+  result.sky.delta = air_mass * hour.diffuse_horizontal * result.sun.distance_au *
+                     result.sun.distance_au / kSolarConstant;
+  if (!(result.sky.delta > 0 && result.sky.delta <= 1)) {
+    throw std::invalid_argument(
+        fmt::format("{}: brightness {:.4g} of {:.9g} W/m^2 of diffuse light: expected at most 1",
+                    name, result.sky.delta, hour.diffuse_horizontal));
+  }
+  return result;
+}
+
+}  // namespace skyfit::refs

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The three layouts of weather files give the same hour and the same Perez sky; what is wrong in
+// one is named by line and field.
+#include "data_refs/weather_file.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "complaint.h"
+#include "data_refs/references.h"
+#include "model/base/temporary_directory.h"
+#include "model/base/whole_file.h"
+#include "model/numerics/angles.h"
+
+namespace skyfit::refs {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Made up: one hour of a place at 40 N, 105 W, 1800 m, on the clock of UTC - 7.
+const std::string kEpw =
+    "LOCATION,Somewhere,CO,USA,made up,1,40.0,-105.0,-7.0,1800\n"
+    "DESIGN CONDITIONS,0\nTYPICAL/EXTREME PERIODS,0\nGROUND TEMPERATURES,0\n"
+    "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\nCOMMENTS 1,\nCOMMENTS 2,\n"
+    "DATA PERIODS,1,1,Data,Sunday,1/1,12/31\n"
+    "1999,6,21,11,60,flags,20,5,40,82000,1200,1330,300,870,800,120,0,0,0,0\n"
+    "1999,6,21,12,60,flags,20,5,40,82000,1200,1330,300,950,850,110,0,0,0,0\n";
+const std::string kWea =
+    "place Somewhere\nlatitude 40.0\nlongitude 105.0\ntime_zone 105\nsite_elevation 1800\n"
+    "weather_data_file_units 1\n6 21 10.5 800 120\n6 21 11.5 850 110\n";
+const std::string kTmy =
+    "1,\"Somewhere\",CO,-7.0,40.0,-105.0,1800\n"
+    "Date (MM/DD/YYYY),Time (HH:MM),GHI (W/m^2),DNI (W/m^2),DHI (W/m^2)\n"
+    "06/21/1999,11:00,870,800,120\n06/21/1999,12:00,950,850,110\n";
+
+class WeatherFile : public ::testing::Test {
+ protected:
+  std::string hour_of(const std::string& text, const std::string& time) const {
+    const auto file = directory_.path() / "weather.txt";
+    write_whole_file(file, text);
+    return file.string() + "@" + time;
+  }
+  TemporaryDirectory directory_;
+};
+
+TEST_F(WeatherFile, TheLayoutsGiveTheSameHour) {
+  for (const std::string& text : {kEpw, kWea, kTmy}) {
+    const WeatherHour hour = weather_hour(hour_of(text, "2026-06-21T11:20"));
+    EXPECT_EQ(hour.direct_normal, 850);
+    EXPECT_EQ(hour.diffuse_horizontal, 110);
+    EXPECT_EQ(iso_text(hour.middle), "2026-06-21T18:30:00Z");
+    EXPECT_NEAR(hour.site.latitude, 40 * kRadiansPerDegree, 1e-12);
+    EXPECT_NEAR(hour.site.longitude, -105 * kRadiansPerDegree, 1e-12);
+    EXPECT_EQ(hour.site.elevation_m, 1800);
+  }
+}
+
+TEST_F(WeatherFile, ClearnessAndBrightnessAreThoseOfTheFormulas) {
+  const PerezHour hour = perez_hour(weather_hour(hour_of(kEpw, "2026-06-21T11:20")), "x");
+  const double z = hour.sun.zenith, cube = 1.041 * z * z * z;
+  EXPECT_NEAR(hour.sky.epsilon, (960.0 / 110 + cube) / (1 + cube), 1e-12);
+  // Near the zenith the air mass is 1 / cos z.
+  EXPECT_NEAR(hour.sky.delta, 110 / std::cos(z) * std::pow(hour.sun.distance_au, 2) / 1367, 1e-4);
+}
+
+TEST_F(WeatherFile, AnHourIsAReference) {
+  const Reference sky =
+      load_reference("perez:" + hour_of(kWea, "2026-06-21T11:20"), {}, Sampling::kTregenza);
+  EXPECT_EQ(sky.samples.size(), 145u);
+  EXPECT_THAT(sky.description, HasSubstr("diffuse horizontal 110 W/m^2"));
+  EXPECT_NEAR(sky.samples[0].sun_zenith / kRadiansPerDegree, 18, 2);
+}
+
+TEST_F(WeatherFile, FaultsAreNamed) {
+  const auto complaint = [&](const std::string& text, const std::string& time) {
+    return complaint_of([&] { weather_hour(hour_of(text, time)); });
+  };
+  EXPECT_THAT(complaint(kEpw, "2026-06-22T11:20"), HasSubstr("an hour that the file has"));
+  EXPECT_THAT(complaint(kEpw, "noon"), HasSubstr("YYYY-MM-DDTHH:MM"));
+  EXPECT_THAT(complaint("hello\n", "2026-06-21T11:20"), HasSubstr("expected EPW, WEA or TMY3"));
+  std::string bad = kEpw;
+  bad.replace(bad.find(",950,850,"), 9, ",950,9999,");
+  EXPECT_THAT(complaint(bad, "2026-06-21T11:20"),
+              HasSubstr("weather.txt:10: direct normal = 9999"));
+  EXPECT_THAT(complaint("place x\nlatitude 40\n", "2026-06-21T11:20"),
+              HasSubstr("weather.txt:3: expected a line longitude"));
+  EXPECT_THAT(complaint_of([&] {
+                perez_hour(weather_hour(hour_of("place x\nlatitude 40\nlongitude 0\ntime_zone 0\n"
+                                                "site_elevation 0\nweather_data_file_units 1\n"
+                                                "6 21 0.5 0 0\n",
+                                                "2026-06-21T00:10")),
+                           "perez:x");
+              }),
+              HasSubstr("deg from the zenith"));
+}
+
+}  // namespace
+}  // namespace skyfit::refs
