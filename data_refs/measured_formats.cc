@@ -40,29 +40,34 @@ constexpr std::array<MeasuredFormat, 7> kFormats = {{
     {kSpectralFolder, "folder of spectra",
      "DATE___HH.MM.SS_-_INDEX____AZIMUTH___ALTITUDE.asd.rad.txt, one a direction; averaged over 5 "
      "nm",
+     "Kider et al. 2014, their published measurements", "spectral_scan_folder",
      [](const SkyFile& file) { return file.is_folder(); },
      [](const SkyFile& file, const ImportOptions& facts) {
        return load_spectral_scan_folder(file.path(), facts);
      }},
     {kSkyImage, "image",
      "OpenEXR or Radiance HDR, fisheye or panorama; averaged over bins of 6 deg",
+     "OpenEXR and Radiance, through OpenImageIO; Radiance manual, file formats", "fisheye.exr",
      [](const SkyFile& file) { return is_sky_image(file.path()); },
      [](const SkyFile& file, const ImportOptions& facts) {
        return load_sky_image(file.path(), facts);
      }},
     {kPatchScan, "EKO MS-321LR", "the scanner's CSV of 145 patches; its luminances are read",
+     "EKO, instruction manual of the MS-321LR, section 7-4", "sky_scan_eko.csv",
      [](const SkyFile& file) { return is_eko_csv(file.line()); }, read_text<parse_eko_csv>},
     {kAlmucantar, "AERONET", "almucantars and principal planes of sky radiance, versions 2 and 3",
+     "AERONET, data descriptions and files of its web service", "aeronet_almucantar.csv",
      [](const SkyFile& file) { return is_aeronet_csv(file.text()); }, read_text<parse_aeronet_csv>},
     {kSpectralScan, "spectral scan",
-     "CSV with sample, view_azimuth_deg, view_zenith_deg, radiance_380, ..",
-     [](const SkyFile& file) { return is_spectral_scan(file.line()); },
+     "CSV with sample, view_azimuth_deg, view_zenith_deg, radiance_380, ..", "of this project",
+     "spectral_scan.csv", [](const SkyFile& file) { return is_spectral_scan(file.line()); },
      read_text<parse_spectral_scan>},
     {kPatchScan, "145 values", "nothing but the luminances of the patches, in the scanner's order",
+     "Tregenza 1987, the numbering of the patches", "sky_scan_145.csv",
      [](const SkyFile& file) { return is_patch_csv(file.line()); }, read_text<parse_patch_csv>},
     {kSampleCsv, "CSV of samples",
-     "any directions; luminance, relative luminance or spectral radiance",
-     [](const SkyFile&) { return true; }, read_samples},
+     "any directions; luminance, relative luminance or spectral radiance", "of this project",
+     "clear_sky_two_suns.csv", [](const SkyFile&) { return true; }, read_samples},
 }};
 
 const MeasuredFormat& format_of(const SkyFile& file) {

@@ -38,6 +38,8 @@ struct MeasuredFormat {
   SkyFormats format;
   std::string_view name;     // "EKO MS-321LR"
   std::string_view meaning;  // what is read of it
+  std::string_view layout;   // where the layout is described
+  std::string_view example;  // in data_refs/examples/
   bool (*matches)(const SkyFile& file);
   Reference (*read)(const SkyFile& file, const ImportOptions& facts);
 };

@@ -40,7 +40,8 @@ TEST(Documents, NameEveryModel) {
 TEST(Documents, NameEveryFormatOfMeasuredSkies) {
   const std::string text = document("docs/measured-skies.md");
   for (const refs::MeasuredFormat& format : refs::measured_formats())
-    expect_in(text, fmt::format("| {} | {} |", format.name, format.meaning));
+    expect_in(text, fmt::format("| {} | {} | {} | {} |", format.name, format.meaning, format.layout,
+                                format.example));
 }
 
 TEST(Documents, NameEveryFigure) {
