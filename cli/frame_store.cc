@@ -72,7 +72,9 @@ ordered_json json_of(const FrameOptions& frame) {
                        {"samples_per_quad", frame.samples_per_quad},
                        {"aerial", static_cast<int>(frame.aerial)},
                        {"shadows", frame.shadows},
+                       {"wind_m_s", frame.wind_m_s},
                        {"primaries", static_cast<int>(frame.primaries)},
+                       {"glare", static_cast<int>(frame.glare)},
                        {"layers", frame.layers}};
   if (const auto& sun = frame.second_sun)
     json["second_sun"] = {sun->zenith, sun->azimuth, sun->irradiance};
@@ -120,8 +122,8 @@ Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<Timel
              {"scene", json_of(request.scene)},
              {"frame", json_of(request.frame)},
              {"tone",
-              {static_cast<int>(request.tone.curve), request.tone.exposure_stops,
-               request.tone.exposure.value_or(0)}}};
+              {static_cast<int>(request.tone.curve), static_cast<int>(request.tone.transform),
+               request.tone.exposure_stops, request.tone.exposure.value_or(0)}}};
 }
 
 std::string Fingerprints::of(const Shot& shot, double time_s) const {

@@ -93,6 +93,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
                "Another sun (degrees, from the first) and its share of the first's light");
   group.option("--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
                "A sheet of clouds: fraction of the sky, altitude in metres, opacity");
+  group
+      .option("--wind-m-s", options.wind, "SPEED",
+              "Wind over the sea, 12.5 m above it, 0 to 30: how rough the sea is")
+      ->capture_default_str();
   group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
 }
 
@@ -114,12 +118,21 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   group.option("--exposure", options.exposure, "K",
                "K times the luminance goes through the tone curve, m^2/cd; by default automatic");
   group
-      .option("--exposure-stops", options.exposure_stops, "STOPS",
-              "Brightens the PNG by powers of two")
+      .option("--exposure-ev,--exposure-stops", options.exposure_ev, "EV",
+              "Brightens the PNG by powers of two, on top of the exposure")
       ->capture_default_str();
   group
       .option("--tone", options.tone, "filmic|exponential",
               "Tone curve of the PNG: a fit of the ACES curve, or 1 - exp(-K L)")
+      ->capture_default_str();
+  group
+      .option("--view-transform", options.view_transform, "hue|channels",
+              "Colours of the PNG: the tone curve goes over the luminance and the hue stays, or it "
+              "goes over each channel, which is clipped by itself")
+      ->capture_default_str();
+  group
+      .option("--glare", options.glare, "eye|none",
+              "Light of the sun that the eye scatters over the PNG, by the CIE's glare function")
       ->capture_default_str();
   group
       .option("--primaries", options.primaries, "rec709|rec2020|xyz",

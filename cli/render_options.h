@@ -24,10 +24,11 @@ struct RenderOptions {
   int frames = 0;
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
-  std::string moon, second_sun, clouds;
+  std::string moon, second_sun, clouds, wind = "5";
   std::vector<std::string> meshes;
   // Picture
-  std::string size = "1280x720", aerial = "volume", exposure, exposure_stops = "0", tone = "filmic";
+  std::string size = "1280x720", aerial = "volume", exposure, exposure_ev = "0", tone = "filmic";
+  std::string view_transform = "hue", glare = "eye";
   std::string primaries = "rec709";
   int samples_per_side = FrameOptions{}.samples_per_side;
   bool shadows = false, layers = false, gpu = false, stats = false;

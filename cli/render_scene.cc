@@ -99,11 +99,17 @@ FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) 
   frame.height = size.height;
   frame.samples_per_side = options.samples_per_side;
   frame.shadows = options.shadows;
+  frame.wind_m_s = parse_number("--wind-m-s", options.wind);
+  if (!(frame.wind_m_s >= 0 && frame.wind_m_s <= 30))
+    throw UsageError("--wind-m-s", options.wind, "expected m/s from 0 to 30");
   frame.layers = options.layers;
   if (options.aerial != "pixel" && options.aerial != "volume")
     throw UsageError("--aerial", options.aerial, "expected pixel or volume");
   frame.aerial =
       options.aerial == "pixel" ? AerialPerspective::kPerPixel : AerialPerspective::kVolume;
+  if (options.glare != "eye" && options.glare != "none")
+    throw UsageError("--glare", options.glare, "expected eye or none");
+  frame.glare = options.glare == "eye" ? Glare::kEye : Glare::kNone;
   frame.primaries = parse_primaries(options.primaries);
   parse_sky_objects(options, command, frame);
   validate(frame);
@@ -112,9 +118,9 @@ FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) 
 
 ToneOptions parse_tone(const RenderOptions& options, const CLI::App& command) {
   ToneOptions tone;
-  tone.exposure_stops = parse_number("--exposure-stops", options.exposure_stops);
+  tone.exposure_stops = parse_number("--exposure-ev", options.exposure_ev);
   if (std::abs(tone.exposure_stops) > kMaxStops)
-    throw UsageError("--exposure-stops", options.exposure_stops,
+    throw UsageError("--exposure-ev", options.exposure_ev,
                      fmt::format("expected stops from {} to {}", -kMaxStops, kMaxStops));
   if (command.count("--exposure") > 0) {
     tone.exposure = parse_number("--exposure", options.exposure);
@@ -124,6 +130,9 @@ ToneOptions parse_tone(const RenderOptions& options, const CLI::App& command) {
   if (options.tone != "filmic" && options.tone != "exponential")
     throw UsageError("--tone", options.tone, "expected filmic or exponential");
   tone.curve = options.tone == "filmic" ? ToneCurve::kFilmic : ToneCurve::kExponential;
+  if (options.view_transform != "hue" && options.view_transform != "channels")
+    throw UsageError("--view-transform", options.view_transform, "expected hue or channels");
+  tone.transform = options.view_transform == "hue" ? ViewTransform::kHue : ViewTransform::kChannels;
   return tone;
 }
 

@@ -9,6 +9,7 @@
 // otherwise.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -115,6 +116,12 @@ enum class AerialPerspective {
   kVolume,
 };
 
+// Light of the suns' discs that the eye or the camera scatters over the picture.
+enum class Glare {
+  kNone,
+  kEye,  // the CIE's point-spread function of the eye, render/image/glare.h
+};
+
 struct FrameOptions {
   int width = 1280, height = 720;
   Camera camera;
@@ -123,10 +130,12 @@ struct FrameOptions {
   int samples_per_side = 2;  // each pixel is the mean of samples_per_side^2 samples: 1 to 4
   AerialPerspective aerial = AerialPerspective::kVolume;
   bool shadows = false;  // of the terrain, on the ground and in the air
+  double wind_m_s = 5;   // 12.5 m above the sea: how rough it is, 0 to 30
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;
   std::optional<CloudLayer> clouds;
   bool layers = false;                       // fill Frame::layers
+  Glare glare = Glare::kNone;                // fill Frame::glare
   Primaries primaries = Primaries::kRec709;  // of the light in Frame
   double samples_per_quad = 16;  // side of a terrain quad in the picture, in samples: 1 to 64
 };
@@ -152,6 +161,15 @@ struct FrameLayers {
   std::vector<float> albedo;         // of sunlight; 0 for sky
 };
 
+// The part of a pixel that suns' discs cover. A display shows it apart from the rest of the pixel:
+// the mean of the sky and of a disc a million times brighter is as white as the disc.
+struct DiscPixel {
+  std::size_t pixel;
+  float cover;               // share of the pixel, above 0
+  std::array<float, 3> rgb;  // cd/m^2: the discs' part of Frame::rgb
+  float luminance;           // cd/m^2: of Frame::luminance
+};
+
 struct PassTime {
   std::string pass;
   double milliseconds;
@@ -171,6 +189,7 @@ struct FrameStatistics {
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
 struct Frame {
   int width = 0, height = 0;
+  int samples_per_side = 0;  // of a pixel, that were drawn; 0: unknown
   Primaries primaries = Primaries::kRec709;
   // [pixel][3] red, green, blue or X, Y, Z, cd/m^2, not negative: light outside the gamut of the
   // primaries is less saturated, of the same luminance and hue
@@ -180,6 +199,8 @@ struct Frame {
   std::vector<float> view_azimuth_deg;  // [pixel] relative to the sun, -180 .. 180
   std::vector<float>
       depth_m;  // [pixel] nearest distance from the camera along the ray, infinite for sky
+  std::vector<DiscPixel> discs;  // in the order of the pixels
+  std::vector<float> glare;      // [pixel][3] cd/m^2, or empty; not part of rgb
   std::optional<FrameLayers> layers;
   FrameStatistics statistics;
   std::vector<std::pair<std::string, std::string>>
@@ -247,17 +268,24 @@ enum class ToneCurve {
   kExponential,  // 1 - exp(-k L), Sperlhofer 2011
 };
 
+// How a tone curve, and the display's range, apply to colours.
+enum class ViewTransform {
+  kHue,       // the curve to the luminance; the hue in Oklab stays, render/image/gamut.h
+  kChannels,  // the curve to each channel, which is clipped by itself
+};
+
 struct ToneOptions {
   double exposure_stops = 0;       // added to the automatic exposure, or to `exposure`
   std::optional<double> exposure;  // k, m^2/cd; without one: from the mean logarithm of the
                                    // luminance, within limits
   ToneCurve curve = ToneCurve::kFilmic;
+  ViewTransform transform = ViewTransform::kHue;
 };
 
 // The automatic exposure of a frame by itself, m^2/cd.
 double metered_exposure(const Frame& frame);
 
-// PNG, 8 bit sRGB, dithered.
+// PNG, 8 bit sRGB, dithered, with the frame's glare.
 void write_png(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone = {});
 
 }  // namespace skyfit

@@ -16,8 +16,13 @@ std::vector<RayNode> ray_nodes(const Shells& shells, const ViewRay& ray) {
     const double x = i / static_cast<double>(kShells);
     heights.push_back(shells.top * x * x * x);
   }
-  const auto breaks =
+  std::vector<double> breaks =
       with_profile_breaks(shells, ray, shell_crossings(ray, shells.bottom_radius, heights));
+  // Along the horizon in haze, all light comes from a small part of the way to the first shell.
+  constexpr double kLow = 0.1, kLongPiece = 2e3;  // of the top; m
+  if (ray.entry_height < kLow * shells.top && breaks.size() > 1 &&
+      breaks[1] - breaks[0] > kLongPiece)
+    breaks = with_piece_breaks(ray, breaks);
   std::vector<RayNode> nodes;
   for (const QuadratureNode& q : composite_gauss(breaks, kNodes)) {
     const RayPoint at = ray_point(ray, shells.bottom_radius, q.s);

@@ -19,8 +19,9 @@ struct RayNode {
 };
 
 // Three nodes by Gauss's rule between every two of six shells that the ray crosses, and between
-// the corners of tabulated profiles. Deviation: the sources take some 50 equal steps, which are
-// longer than an aerosol's scale height.
+// the corners of tabulated profiles; along the horizon near the ground, of the pieces of
+// with_piece_breaks(). Deviation: the sources take some 50 equal steps, which are longer than an
+// aerosol's scale height.
 std::vector<RayNode> ray_nodes(const Shells& shells, const ViewRay& ray);
 
 // The ray from height h whose cosine is mu, inside the atmosphere; `ground`: that it ends there is

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/phase_moments.h"
@@ -154,9 +156,20 @@ void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
   }
 }
 
-void tabulate(const SkyModel& model, const Shells& shells, AtmosphereTables& tables,
-              const std::function<void(double)>& progress) {
-  model.prepare(tables.atmosphere, tables.color.nodes);
+// Where the renderer sums the sky itself, the scattering tables hold the light before the ground
+// and in the irradiance alone, of single scattering, which is smooth.
+TableSizes sizes_beside(const std::optional<SkyRayTables>& own, TableSizes sizes) {
+  if (!own || own->mapping != SkyRayMapping::kONeil) return sizes;
+  sizes.scattering_r = std::min(sizes.scattering_r, 16);
+  sizes.scattering_ground = std::min(sizes.scattering_ground, 16);
+  sizes.scattering_sky = std::min(sizes.scattering_sky, 24);
+  sizes.scattering_mu_s = std::min(sizes.scattering_mu_s, 32);
+  sizes.scattering_azimuth = std::min(sizes.scattering_azimuth, 8);
+  return sizes;
+}
+
+void tabulate(const SkyModel& model, std::optional<SkyRayTables> own, const Shells& shells,
+              AtmosphereTables& tables, const std::function<void(double)>& progress) {
   const RayTexels texels = tables.sizes.scattering();
   const std::size_t slice = static_cast<std::size_t>(texels.rows()) * texels.row();
   const int slices = tables.sizes.scattering_r;
@@ -166,7 +179,7 @@ void tabulate(const SkyModel& model, const Shells& shells, AtmosphereTables& tab
                   tables.single, slice * static_cast<std::size_t>(i));
     progress((i + 1.0) / (slices + 1));
   }
-  if (std::optional<SkyRayTables> own = model.sky_rays(tables.atmosphere, tables.color.nodes)) {
+  if (own) {
     tables.sky_rays = std::move(*own);
   } else {
     tables.sky_rays = outside_tables(tables.sizes.outside(), tables.phases);
@@ -183,24 +196,29 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   AtmosphereTables tables;
   tables.atmosphere = atmosphere;
   tables.color = color;
-  tables.sizes = sizes;
+  std::optional<SkyRayTables> own;
+  if (model != nullptr) {
+    model->prepare(atmosphere, color.nodes);
+    own = model->sky_rays(atmosphere, color.nodes);
+  }
+  tables.sizes = sizes_beside(own, sizes);
   tables.phases = phase_classes(atmosphere);
   tables.phase = phase_table(tables.phases, color);
   const Atmosphere<double> effective =
       model != nullptr ? model->effective_atmosphere(atmosphere) : atmosphere;
   const Shells shells = shells_of(effective, Keep::kWhatMatters);
   const NodeOptics optics = optics_of(shells, effective, color);
-  const RayTexels texels = sizes.scattering();
-  tables.rayleigh_like =
-      make_table(texels.mu_s * texels.azimuth, texels.rows(), sizes.scattering_r);
+  const RayTexels texels = tables.sizes.scattering();
+  const int heights = tables.sizes.scattering_r;
+  tables.rayleigh_like = make_table(texels.mu_s * texels.azimuth, texels.rows(), heights);
   tables.single = make_table(texels.mu_s * texels.azimuth, texels.rows(),
-                             sizes.scattering_r * static_cast<int>(tables.phases.others.size()));
+                             heights * static_cast<int>(tables.phases.others.size()));
   constexpr double kBefore = 0.15, kScattering = 0.75;  // shares of the time
   const auto of_scattering = [&](double part) {
     if (progress) progress(kBefore + kScattering * part);
   };
   if (model != nullptr) {
-    tabulate(*model, shells, tables, of_scattering);
+    tabulate(*model, std::move(own), shells, tables, of_scattering);
   } else {
     tables.sky_rays = outside_tables(sizes.outside(), tables.phases);
     make_scattering_tables(shells, optics, tables, of_scattering);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that a colour space cannot hold: a channel of it would be negative.
+// Light that a colour space or a display cannot hold. What is changed keeps its hue, the angle in
+// the plane a, b of Oklab (render/image/oklab.h): along a straight line to white in linear light,
+// blue becomes purple and orange becomes yellow.
 #pragma once
 
 #include <array>
@@ -15,9 +17,13 @@ double luminance_of(const ColorChannels& color, const ColorSpace& space);
 
 ColorChannels converted(const ColorChannels& color, const ColorSpace& from, const ColorSpace& to);
 
-// The light along the line to `white`, which has luminance 1, until no channel is negative: of the
-// same luminance and hue, less saturated. Light that the space holds stays as it is; what has no
-// luminance becomes 0.
-ColorChannels into_gamut(const ColorChannels& color, double luminance, const ColorChannels& white);
+// Less chroma at the same luminance and hue, until no channel is negative. Light that the space
+// holds stays as it is; what has no luminance becomes 0.
+ColorChannels into_gamut(const ColorChannels& color, double luminance, const ColorSpace& space);
+
+// Linear light of a display whose channels are 0..1, of the same hue as `color`, which must not be
+// negative. What is brighter loses chroma, and little lightness: Ottosson 2021, "sRGB gamut
+// clipping", towards a grey that depends on lightness and chroma.
+ColorChannels into_display(const ColorChannels& color);
 
 }  // namespace skyfit

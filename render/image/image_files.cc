@@ -54,6 +54,21 @@ void write_whole(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDe
   whole.publish();
 }
 
+// [pixel][3] of the primaries from X, Y, Z.
+std::vector<float> in_primaries(const std::vector<float>& xyz, const ColorSpace& space) {
+  std::vector<float> result(xyz.size());
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    ColorChannels color{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < 3; ++k)
+        color[c] += space.from_xyz[c][k] * static_cast<double>(xyz[i + k]);
+    }
+    const ColorChannels held = into_gamut(color, static_cast<double>(xyz[i + 1]), space);
+    for (std::size_t c = 0; c < 3; ++c) result[i + c] = static_cast<float>(held[c]);
+  }
+  return result;
+}
+
 }  // namespace
 
 void write_exr_file(const Frame& frame, const fs::path& file) {
@@ -100,21 +115,6 @@ void write_exr_file(const Frame& frame, const fs::path& file) {
       packed[i * channels.size() + c] = values[i * stride + first];
   }
   write_whole(file, spec, OIIO::TypeDesc::FLOAT, packed.data());
-}
-
-// [pixel][3] of the primaries from X, Y, Z.
-std::vector<float> in_primaries(const std::vector<float>& xyz, const ColorSpace& space) {
-  std::vector<float> result(xyz.size());
-  for (std::size_t i = 0; i < xyz.size(); i += 3) {
-    ColorChannels color{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < 3; ++k)
-        color[c] += space.from_xyz[c][k] * static_cast<double>(xyz[i + k]);
-    }
-    const ColorChannels held = into_gamut(color, static_cast<double>(xyz[i + 1]), space.white);
-    for (std::size_t c = 0; c < 3; ++c) result[i + c] = static_cast<float>(held[c]);
-  }
-  return result;
 }
 
 void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file) {

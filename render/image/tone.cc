@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image/tone.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "render/image/gamut.h"
+#include "render/image/silhouette.h"
 
 namespace skyfit {
 namespace {
@@ -13,6 +16,10 @@ namespace {
 double film(double x) {
   x *= 0.8;
   return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+double curved(double x, ToneCurve curve) {
+  return curve == ToneCurve::kFilmic ? film(x) : 1 - std::exp(-std::max(x, 0.0));
 }
 
 double srgb_transfer(double x) {
@@ -29,27 +36,96 @@ double white_noise(std::uint32_t index) {
   return index * (1.0 / 4294967296.0);
 }
 
+// A frame's pixels as the display's light.
+class Display {
+ public:
+  Display(const Frame& frame, const ToneOptions& tone)
+      : frame_(frame),
+        tone_(tone),
+        space_(color_space(frame.primaries)),
+        exposure_(tone.exposure.value() * std::exp2(tone.exposure_stops)) {}
+
+  ColorChannels pixel(std::size_t pixel) const { return display_light(scene_light(pixel), tone_); }
+
+  // The parts of a pixel that a disc does and does not cover, each by itself.
+  ColorChannels pixel_with(const DiscPixel& disc) const {
+    const ColorChannels light = scene_light(disc.pixel);
+    const ColorChannels sun = exposed({disc.rgb[0], disc.rgb[1], disc.rgb[2]});
+    ColorChannels around, covered;
+    for (std::size_t k = 0; k < 3; ++k) {
+      around[k] = std::max(light[k] - sun[k], 0.0);
+      covered[k] = around[k] + sun[k] / disc.cover;
+    }
+    around = display_light(around, tone_);
+    covered = display_light(covered, tone_);
+    ColorChannels mixed;
+    for (std::size_t k = 0; k < 3; ++k)
+      mixed[k] = std::lerp(around[k], covered[k], static_cast<double>(disc.cover));
+    return mixed;
+  }
+
+ private:
+  // In linear sRGB, without a negative channel.
+  ColorChannels exposed(ColorChannels light) const {
+    for (double& channel : light) channel *= exposure_;
+    return into_gamut(converted(light, space_, color_space(Primaries::kRec709)),
+                      luminance_of(light, space_), color_space(Primaries::kRec709));
+  }
+
+  ColorChannels scene_light(std::size_t pixel) const {
+    ColorChannels light;
+    for (std::size_t k = 0; k < 3; ++k) {
+      light[k] = frame_.rgb[3 * pixel + k];
+      if (!frame_.glare.empty()) light[k] += frame_.glare[3 * pixel + k];
+    }
+    return exposed(light);
+  }
+
+  const Frame& frame_;
+  const ToneOptions& tone_;
+  const ColorSpace& space_;
+  double exposure_;
+};
+
+void smooth_silhouette(const Frame& frame, std::vector<ColorChannels>& light) {
+  std::vector<bool> is_sky;
+  for (const float depth : frame.depth_m) is_sky.push_back(std::isinf(depth));
+  const std::vector<ColorChannels> steps = light;
+  for (const SilhouettePixel& at : silhouette(is_sky, frame.width, frame.height)) {
+    for (std::size_t k = 0; k < 3; ++k)
+      light[at.pixel][k] = std::lerp(light[at.pixel][k], steps[at.beside][k], at.share);
+  }
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone) {
-  const double exposure = tone.exposure.value() * std::exp2(tone.exposure_stops);
-  const ColorSpace& display = color_space(Primaries::kRec709);
-  const auto curve = [&](double x) {
-    return tone.curve == ToneCurve::kFilmic ? film(x) : 1 - std::exp(-std::max(x, 0.0));
-  };
-  std::vector<std::uint8_t> bytes(frame.rgb.size());
-  for (std::size_t pixel = 0; pixel < frame.luminance.size(); ++pixel) {
-    ColorChannels rgb;
-    for (std::size_t k = 0; k < 3; ++k) rgb[k] = exposure * frame.rgb[3 * pixel + k];
-    rgb = into_gamut(converted(rgb, color_space(frame.primaries), display),
-                     exposure * frame.luminance[pixel], display.white);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto index = static_cast<std::uint32_t>(3 * pixel + k);
-      const double noise = white_noise(2 * index) - white_noise(2 * index + 1);
-      const double level = 255 * srgb_transfer(curve(rgb[k])) + 0.5 + noise;
-      bytes[3 * pixel + k] = static_cast<std::uint8_t>(std::clamp(std::floor(level), 0.0, 255.0));
-    }
+ColorChannels display_light(const ColorChannels& scene, const ToneOptions& tone) {
+  ColorChannels light = scene;
+  if (tone.transform == ViewTransform::kChannels) {
+    for (double& channel : light) channel = std::min(curved(channel, tone.curve), 1.0);
+    return light;
   }
+  const double luminance = luminance_of(scene, color_space(Primaries::kRec709));
+  if (!(luminance > 0)) return {};
+  const double factor = curved(luminance, tone.curve) / luminance;
+  for (double& channel : light) channel *= factor;
+  return into_display(light);
+}
+
+std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone) {
+  const Display display(frame, tone);
+  std::vector<ColorChannels> light(frame.luminance.size());
+  tbb::parallel_for(std::size_t{0}, light.size(),
+                    [&](std::size_t pixel) { light[pixel] = display.pixel(pixel); });
+  for (const DiscPixel& disc : frame.discs) light[disc.pixel] = display.pixel_with(disc);
+  if (frame.samples_per_side == 1) smooth_silhouette(frame, light);
+  std::vector<std::uint8_t> bytes(frame.rgb.size());
+  tbb::parallel_for(std::size_t{0}, bytes.size(), [&](std::size_t i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    const double noise = white_noise(2 * index) - white_noise(2 * index + 1);
+    const double level = 255 * srgb_transfer(light[i / 3][i % 3]) + 0.5 + noise;
+    bytes[i] = static_cast<std::uint8_t>(std::clamp(std::floor(level), 0.0, 255.0));
+  });
   return bytes;
 }
 

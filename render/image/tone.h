@@ -5,12 +5,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/image/gamut.h"
 #include "render/render.h"
 
 namespace skyfit {
 
-// [pixel][3], with an exposure that is set: the tone curve, the sRGB transfer function (IEC
-// 61966-2-1), dithered with triangular noise of one step.
+// Linear light of an sRGB display, 0..1, for light in linear sRGB, not negative, times the
+// exposure: tone curve and view transform.
+ColorChannels display_light(const ColorChannels& scene, const ToneOptions& tone);
+
+// [pixel][3], with an exposure that is set: display_light() of the light with the frame's glare, of
+// the parts of a pixel that a disc does and does not cover each by itself; the sRGB transfer
+// function (IEC 61966-2-1), dithered with triangular noise of one step. With one sample to a pixel
+// the line between sky and ground is smoothed, render/image/silhouette.h.
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone);
 
 }  // namespace skyfit

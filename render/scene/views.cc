@@ -113,6 +113,7 @@ void validate(const FrameOptions& options) {
           "camera.vertical_fov", camera.vertical_fov, "1 to 150 degrees in radians");
   require(within(options.sun_zenith, 0, std::numbers::pi), "sun_zenith", options.sun_zenith,
           "0 to pi");
+  require(within(options.wind_m_s, 0, 30), "wind_m_s", options.wind_m_s, "0 to 30 m/s");
   if (options.site) {
     require_place("site", options.site->latitude, options.site->longitude);
     require(std::isfinite(options.site->sun_azimuth), "site.sun_azimuth", options.site->sun_azimuth,

@@ -3,39 +3,84 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "render/render.h"
 
 namespace skyfit {
 namespace {
 
-// A mean of this becomes middle grey.
-constexpr double kMiddleGrey = 0.18;
-// At most one pixel in ten becomes brighter than this.
-constexpr double kHighlights = 0.9, kHighlightLevel = 0.45;
+// A picture whose mean logarithm is that of kOrdinary, cd/m^2, has middle grey as its mean;
+// brighter ones are shown brighter and darker ones darker, as to the eye.
+constexpr double kMiddleGrey = 0.18, kOrdinary = 500, kKeyPower = 0.15;
+// At most one pixel in a hundred becomes brighter than this.
+constexpr double kHighlights = 0.99, kHighlightLevel = 1;
 // Below this luminance pictures stay dark, as for the eye; above, a camera stops down no further.
 // cd/m^2.
 constexpr double kDarkest = 0.02;
 constexpr double kBrightest = 3e4;
+// Space is darker than this share of the highlights. A picture with a tenth of it, or more, is
+// exposed for a white surface in the sun, as a photograph of a planet, or for four times the
+// highlights where they are darker: the planet does not become grey because nothing on it is white.
+constexpr double kSpace = 1e-4, kSpaceShare = 0.1, kSunlitWhite = 3e4, kPlanetHighlight = 4;
+// A disc as wide as the second share of the picture's height is what the picture is exposed for,
+// one below the first does not count.
+constexpr double kSmallDisc = 0.08, kLargeDisc = 0.16, kDiscLevel = 0.8;
+
+double quantile(std::vector<double>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// Luminances without the suns' discs.
+std::vector<double> without_discs(const Frame& frame) {
+  std::vector<double> luminances(frame.luminance.begin(), frame.luminance.end());
+  for (const DiscPixel& disc : frame.discs)
+    luminances[disc.pixel] = std::max(luminances[disc.pixel] - disc.luminance, 0.0);
+  return luminances;
+}
+
+// That the picture of a planet in space is exposed for; `level` otherwise.
+double level_in_space(double level, double highlight, double space) {
+  const double planet = std::min(kPlanetHighlight * highlight, kSunlitWhite);
+  const double share = std::min(space / kSpaceShare, 1.0);
+  return planet > level ? level * std::pow(planet / level, share) : level;
+}
+
+double level_of_disc(double level, const Frame& frame) {
+  double area = 0, light = 0;
+  for (const DiscPixel& disc : frame.discs) {
+    area += disc.cover;
+    light += disc.luminance;
+  }
+  const double across = 2 * std::sqrt(area / std::numbers::pi) / frame.height;
+  const double part = std::clamp((across - kSmallDisc) / (kLargeDisc - kSmallDisc), 0.0, 1.0);
+  if (part <= 0) return level;
+  return std::max(level, level * std::pow(light / area / kDiscLevel / level, part));
+}
 
 }  // namespace
 
 double metered_exposure(const Frame& frame) {
-  std::vector<float> seen;
-  double sum = 0;
-  for (const float luminance : frame.luminance) {
-    if (!(luminance > kDarkest * 1e-3)) continue;  // space
-    seen.push_back(luminance);
-    sum +=
-        std::log(std::min<double>(luminance, kBrightest));  // the sun's disc counts as a bright sky
+  std::vector<double> luminances = without_discs(frame);
+  const double highlight = quantile(luminances, kHighlights);
+  const double space_level = std::max(kSpace * highlight, 1e-3 * kDarkest);
+  double sum = 0, seen = 0;
+  for (const double luminance : luminances) {
+    if (!(luminance > space_level)) continue;
+    sum += std::log(std::min(luminance, kBrightest));
+    ++seen;
   }
-  if (seen.empty()) return kMiddleGrey / kDarkest;
-  const double mean = std::exp(sum / static_cast<double>(seen.size()));
-  const auto high = seen.begin() +
-                    static_cast<std::ptrdiff_t>(kHighlights * static_cast<double>(seen.size() - 1));
-  std::nth_element(seen.begin(), high, seen.end());
-  const double level = std::max(mean / kMiddleGrey, *high / kHighlightLevel);
-  return 1 / std::clamp(level, kDarkest / kMiddleGrey, kBrightest / kMiddleGrey);
+  if (seen == 0) return 1 / level_of_disc(kDarkest / kMiddleGrey, frame);
+  const double mean = std::exp(sum / seen);
+  const double key = kMiddleGrey * std::pow(std::max(mean, kDarkest) / kOrdinary, kKeyPower);
+  double level = std::max(mean / key, highlight / kHighlightLevel);
+  level = level_in_space(level, highlight, 1 - seen / static_cast<double>(luminances.size()));
+  level = std::clamp(level, kDarkest / kMiddleGrey, kBrightest / kMiddleGrey);
+  return 1 / level_of_disc(level, frame);
 }
 
 double Adaptation::next(double metered, double passed_s) {

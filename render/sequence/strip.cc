@@ -49,6 +49,7 @@ Frame side_by_side(std::span<const Frame> frames, int gap) {
   Frame whole = empty_frame(width, frames[0].height, frames[0].layers.has_value());
   whole.metadata = frames[0].metadata;
   whole.primaries = frames[0].primaries;
+  whole.samples_per_side = frames[0].samples_per_side;
   int left = 0;
   for (const Frame& frame : frames) {
     const auto add = [&](const std::vector<float>& from, std::size_t values,
@@ -65,8 +66,17 @@ Frame side_by_side(std::span<const Frame> frames, int gap) {
       add(frame.layers->normal, 3, whole.layers->normal);
       add(frame.layers->albedo, 3, whole.layers->albedo);
     }
+    if (!frame.glare.empty()) {
+      whole.glare.resize(whole.rgb.size());
+      add(frame.glare, 3, whole.glare);
+    }
+    for (DiscPixel disc : frame.discs) {
+      disc.pixel = disc.pixel / frame.width * whole.width + left + disc.pixel % frame.width;
+      whole.discs.push_back(disc);
+    }
     left += frame.width + gap;
   }
+  std::ranges::sort(whole.discs, {}, &DiscPixel::pixel);
   return whole;
 }
 

@@ -13,11 +13,17 @@ layout(location = 4) out vec4 transmittance_layer;
 layout(location = 5) out vec4 albedo_layer;
 layout(location = 6) out vec4 normal_layer;
 #endif
+#ifdef DISC
+layout(location = DISC_LOCATION) out vec4 disc_light;
+#endif
 
 void main() {
   Seen seen = seen_at(ivec2(gl_FragCoord.xy), site_ray, planet_ray);
   light = seen.light;
   distance_km = seen.distance_km;
+#ifdef DISC
+  disc_light = seen.disc;
+#endif
 #ifdef LAYERS
   in_scatter_layer = seen.in_scatter;
   reflected_layer = seen.reflected;

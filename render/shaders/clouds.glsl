@@ -14,14 +14,24 @@ layout(std140, binding = 4) uniform Clouds {
 
 const vec4 kCloudLengths = vec4(1400.0, 170.0, 37.0, 9.0);  // km, periods of the noise
 const vec4 kCloudWeights = vec4(0.30, 0.40, 0.22, 0.08);
+// A turn about (1, 2, 3) by 1.1 rad: the lattices of the octaves do not line up with one another.
+const mat3 kCloudTurn = mat3(0.492624970, 0.792613254, -0.359283826, -0.636497861, 0.609711515, 0.472358277, 0.593456917, -0.004012095, 0.804855758);
 
-// At a point above or below the sheet, relative to the planet's centre; seen along the vertical.
-float cloud_opacity_at(vec3 from_centre) {
+// At a point above or below the sheet, relative to the planet's centre, seen along the vertical: the mean over about a
+// pixel, `distance_km` away.
+float cloud_opacity_at(vec3 from_centre, float distance_km) {
   vec3 place = planet_from_site * normalize(from_centre) * bottom_km;
-  float noise = 0.0;
+  float pixel_km = distance_km * pixel_angle;
+  float noise = 0.0, kept = 0.0;
   for (int i = 0; i < 4; ++i) {
-    noise += kCloudWeights[i] * texture(cloud_noise, place / kCloudLengths[i] + vec3(0.37 * float(i))).x;
+    float level = log2(max(64.0 * pixel_km / kCloudLengths[i], 1.0));
+    noise += kCloudWeights[i] * textureLod(cloud_noise, place / kCloudLengths[i] + vec3(0.37 * float(i)), level).x;
+    float part = kCloudWeights[i] * clamp(1.0 - 0.25 * level, 0.0, 1.0);  // of its deviation; the fifth mipmap is flat
+    kept += part * part;
+    place = kCloudTurn * place;
   }
+  // Of the same deviation, so that the cover stays.
+  noise = 0.5 + (noise - 0.5) * sqrt(dot(kCloudWeights, kCloudWeights) / max(kept, 0.01));
   return cloud_opacity * smoothstep(cloud_threshold - 0.02, cloud_threshold + 0.07, noise);
 }
 
@@ -43,7 +53,7 @@ float cloud_opacity_on(ViewRay ray, float end) {
   float d = cloud_distance(ray);
   if (isinf(d) || d >= end) return 0.0;
   vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + d * ray.direction;
-  return slanted(cloud_opacity_at(from_centre), dot(normalize(from_centre), ray.direction));
+  return slanted(cloud_opacity_at(from_centre, d), dot(normalize(from_centre), ray.direction));
 }
 
 // Share of a sun's beam that the sheet takes on its way to a place; `position` is relative to the camera.
@@ -51,7 +61,7 @@ float cloud_shadow(vec3 position, Place at, vec3 sun) {
   if (at.h >= cloud_km || at.mu_s <= 0.0) return 0.0;
   float d = distance_to_outer_sphere(bottom_km, at.h, at.mu_s, cloud_km);
   vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + position + d * sun;
-  return slanted(cloud_opacity_at(from_centre), dot(normalize(from_centre), sun));
+  return slanted(cloud_opacity_at(from_centre, length(position)), dot(normalize(from_centre), sun));
 }
 
 // Two thirds of the light come back from the side that it falls on, the rest passes. The roughness keeps a low sun's beam

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The G-buffer of Sperlhofer 2011, 4.4: colour at the four wavelengths, scaled to a largest component of 1, in eight bits
 // each; normal in the planet's axes and that largest reflectance / pi; depth. Deviations: the normal takes two components
-// (an octahedron, Meyer et al. 2010), the third is the share of the second material, -1 where there is none of either; all
+// (an octahedron, Meyer et al. 2010), the third is the share of the second material, below 0 where there is none of either; all
 // are packed into one target of four words, which a renderer in software reads sooner than a target each.
 #include "render/shaders/pi.glsl"
+
+// In the place of a material's share: of things that are no ground, and of water (Ground::rock()), below the limit.
+#define NO_MATERIAL -0.5
+#define WATER_LIMIT -0.75
 
 vec2 signs_of(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
 

@@ -6,20 +6,46 @@
 layout(binding = 18) uniform sampler3D grains;
 layout(binding = 19) uniform sampler3D crags;
 
-// Phases are texture coordinates of the camera, 0..1; the mean of the grains' texture is its last mipmap;
-// finer_grain_levels = log2(grains_per_km / crags_per_km).
+// Phases are texture coordinates of the camera, 0..1; the mean of the grains' texture is its last mipmap.
 #define MATERIAL_CONSTANTS(HOW) \
   HOW vec3 grain_phase;         \
   HOW float grains_per_km;      \
   HOW vec3 crag_phase;          \
   HOW float crags_per_km;       \
-  HOW vec4 grain_mean;          \
-  HOW float finer_grain_levels;
+  HOW vec4 grain_mean;
 CONSTANTS(5, Materials, MATERIAL_CONSTANTS)
 
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
 const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);
 const vec2 kGrainContrast = vec2(1.0, 0.8), kCragContrast = vec2(0.4, 0.5);
+
+#ifdef GRAINS
+// Grit is the grains' texture again, smaller by this, a whole number (the phase is known but for whole ones): the ground near the feet.
+const float kGritScale = 6.0, kGritSlope = 0.6, kGritContrast = 0.8;
+
+// The mean of four points along a pixel's long side, which lies away from the eye.
+vec4 along(sampler3D solid, vec3 at, vec3 side, float level) {
+  return 0.25 * (textureLod(solid, at - 0.375 * side, level) + textureLod(solid, at - 0.125 * side, level) +
+                 textureLod(solid, at + 0.125 * side, level) + textureLod(solid, at + 0.375 * side, level));
+}
+
+// The grains and the grit seen at a slant: mipmaps whose texels are a pixel's short side, not the mean of both, which would
+// blur the ground across.
+vec4 grains_at(vec3 place, float d, vec3 ray, vec3 normal) {
+  const float kMostSlant = 6.0;
+  float cosine = max(abs(dot(ray, normal)), 1e-3);
+  float slant = min(1.0 / cosine, kMostSlant);
+  vec3 away = ray - dot(ray, normal) * normal;
+  vec3 side = (d * pixel_angle * slant * inversesqrt(max(dot(away, away), 1e-6))) * away;
+  float texels = 64.0 * d * pixel_angle * max(0.25 * slant, 1.0) * max(1.0 / (cosine * slant), 1.0);
+  float level = log2(texels * grains_per_km);
+  vec3 at = grain_phase + grains_per_km * place;
+  side *= grains_per_km;
+  vec4 grain = along(grains, at, side, level);
+  vec4 grit = along(grains, kGritScale * at, kGritScale * side, level + log2(kGritScale)) - grain_mean;
+  return grain + vec4(vec3(kGritSlope), kGritContrast) * grit;
+}
+#endif
 
 // Tilts the normal and returns the factor of the reflectance. `place` is relative to the camera, km, in the planet's axes,
 // as `ray` and `normal` are; rock < 0: neither material.
@@ -28,7 +54,7 @@ float add_material(vec3 place, float d, vec3 ray, float rock, inout vec3 normal)
   float texels = 64.0 * d * pixel_angle * inversesqrt(max(abs(dot(ray, normal)), 0.1));
   float level = log2(texels * crags_per_km);
 #ifdef GRAINS
-  vec4 grain = textureLod(grains, grain_phase + grains_per_km * place, level + finer_grain_levels);
+  vec4 grain = grains_at(place, d, ray, normal);
 #else
   vec4 grain = grain_mean;
 #endif

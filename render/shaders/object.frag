@@ -5,4 +5,4 @@
 in vec3 planet_normal;
 in vec4 object_reflectance;
 
-void main() { write_gbuffer(gl_FrontFacing ? planet_normal : -planet_normal, -1.0, object_reflectance); }
+void main() { write_gbuffer(gl_FrontFacing ? planet_normal : -planet_normal, NO_MATERIAL, object_reflectance); }

@@ -11,6 +11,9 @@
 #ifdef VOLUME
 #include "render/shaders/aerial_volume.glsl"
 #endif
+#ifdef SEA
+#include "render/shaders/sea_light.glsl"
+#endif
 #ifdef CLOUDS
 #include "render/shaders/clouds.glsl"
 #endif
@@ -28,19 +31,49 @@ const float kInfinity = uintBitsToFloat(0x7f800000u);
 vec3 color_of(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
 
 #ifdef DISC
-// A sun's disc with its limb darkening, its edge softened over a pixel; its mean is 1.
-float disc(vec3 ray, vec3 sun) {
-  float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
-  float cover = clamp((kSunRadius - away) / pixel_angle + 0.5, 0.0, 1.0);
-  float inside = min(away / kSunRadius, 1.0);
-  float fall = 1.0 - sqrt(1.0 - inside * inside);  // 1 - mu
-  return cover * (1.0 - dot(kLimbDarkening, vec2(fall, fall * fall))) / (1.0 - dot(kLimbDarkening, vec2(1.0 / 3.0, 1.0 / 6.0)));
+vec3 square_ray, square_across, square_along;  // of the pixel that seen_at() is asked for
+
+// A sun's disc with its limb darkening, whose mean over the disc is 1, as the mean over a square of the picture about a ray
+// that is not normalised, with the square's sides. x: the disc, y: the share of the square that it covers. By points on
+// rows and columns of 8, the edge softened over their distance.
+vec2 disc(vec3 site_ray, vec3 across, vec3 along, vec3 sun) {
+  const int kSide = 8;
+  float softness = length(across) / (float(kSide) * length(site_ray));
+  vec2 sum = vec2(0.0);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    vec2 place = (vec2(i % kSide, i / kSide) + 0.5) / float(kSide) - 0.5;
+    vec3 ray = normalize(site_ray + place.x * across + place.y * along);
+    float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
+    float cover = clamp((kSunRadius - away) / softness + 0.5, 0.0, 1.0);
+    // Where the covered part has its mean; near the limb, which is steep.
+    float inside = clamp((away - 0.3 * (1.0 - cover) * softness) / kSunRadius, 0.0, 1.0);
+    float fall = 1.0 - sqrt(1.0 - inside * inside);  // 1 - mu
+    sum += cover * vec2(1.0 - dot(kLimbDarkening, vec2(fall, fall * fall)), 1.0);
+  }
+  // An edge that rises evenly over the width w makes a disc larger by w^2 / (12 r^2).
+  sum /= 1.0 + softness * softness / (12.0 * kSunRadius * kSunRadius);
+  return sum / float(kSide * kSide) * vec2(1.0 / (1.0 - dot(kLimbDarkening, vec2(1.0 / 3.0, 1.0 / 6.0))), 1.0);
 }
 #endif
 
 struct PathLight {
   vec4 in_scatter, reflected, transmittance;
+#ifdef DISC
+  vec4 disc;  // part of the reflected
+  float disc_cover;
+#endif
 };
+
+PathLight no_light() {
+  PathLight path;
+  path.in_scatter = path.reflected = vec4(0.0);
+  path.transmittance = vec4(1.0);
+#ifdef DISC
+  path.disc = vec4(0.0);
+  path.disc_cover = 0.0;
+#endif
+  return path;
+}
 
 // What reaches the eye by the light of one sun.
 #ifdef SURFACE
@@ -48,6 +81,7 @@ struct Surface {
   float d;  // from the eye
   vec3 normal, up;
   vec4 reflectance;
+  bool water;
 };
 
 PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
@@ -56,7 +90,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   Place start = place_of(ray, sun, nu);
   float in_air = max(surface.d - ray.entry, 0.0);
   Place end = place_along(start, nu, in_air);
-  PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
+  PathLight path = no_light();
 #ifdef VOLUME
   VolumeLight light = volume_light(ray, in_air);
   path.in_scatter = radiance(light.scattering, nu);
@@ -82,21 +116,26 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
 #else
   Place at = Place(height_after(bottom_km, camera_km, ray.direction.z, surface.d), end.mu, dot(surface.up, sun));
 #endif
-  path.reflected = clear * path.transmittance * (kInversePi * surface.reflectance) *
-                   surface_irradiance(at, surface.normal, surface.up, sun, lit);
+  vec4 reflected = (kInversePi * surface.reflectance) * surface_irradiance(at, surface.normal, surface.up, sun, lit);
+#ifdef SEA
+  if (surface.water) reflected += sea_radiance(at, -ray.direction, surface.up, sun, lit);
+#endif
+  path.reflected = clear * path.transmittance * reflected;
 #else
 PathLight light_of(int i, ViewRay ray, float clear) {
   vec3 sun = suns[i].xyz;
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Place start = place_of(ray, sun, nu);
-  PathLight path = PathLight(vec4(0.0), vec4(0.0), vec4(1.0));
+  PathLight path = no_light();
   if (ray.air) {
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     path.in_scatter = radiance(whole.scattering, nu);
     path.transmittance = exp(-whole.depth);
   }
 #ifdef DISC
-  path.reflected = clear * path.transmittance * (disc(ray.direction, sun) / kSunSolidAngle);
+  vec2 disc_and_cover = disc(square_ray, square_across, square_along, sun);
+  path.disc = suns[i].w * clear * path.transmittance * (disc_and_cover.x / kSunSolidAngle);
+  path.disc_cover = disc_and_cover.y;
 #endif
 #endif
 #ifndef SURFACE
@@ -117,12 +156,18 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #endif
   path.in_scatter *= suns[i].w;
   path.reflected *= suns[i].w;
+#ifdef DISC
+  path.reflected += path.disc;
+#endif
   return path;
 }
 
 struct Seen {
   vec4 light;  // in the frame's primaries and luminance, cd/m^2
   float distance_km;
+#ifdef DISC
+  vec4 disc;  // the suns' part of the light's colour; the share of the pixel that they cover
+#endif
 #ifdef LAYERS
   vec4 in_scatter, reflected, transmittance, albedo, normal;
 #endif
@@ -133,6 +178,11 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
 #ifdef SHADOWS
   pixel_centre = vec2(pixel) + 0.5;
 #endif
+#ifdef DISC
+  square_ray = site_ray;
+  square_across = dFdx(site_ray);
+  square_along = dFdy(site_ray);
+#endif
   float stretch = length(site_ray);
   ViewRay ray = view_ray(site_ray * (1.0 / stretch));
 #ifdef SURFACE
@@ -140,6 +190,7 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   GroundSample ground = unpack_ground(texelFetch(gbuffer, pixel, 0));
   float along_axis = near_km / ground.depth;
   surface.d = along_axis * stretch;
+  surface.water = ground.rock < WATER_LIMIT;
   surface.normal = ground.normal;
   float light_or_dark =
       add_material(along_axis * planet_ray, surface.d, planet_ray * (1.0 / stretch), ground.rock, surface.normal);
@@ -172,10 +223,17 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
 #endif
   path.in_scatter += other.in_scatter;
   path.reflected += other.reflected;
+#ifdef DISC
+  path.disc += other.disc;
+  path.disc_cover = min(path.disc_cover + other.disc_cover, 1.0);
+#endif
 #endif
   Seen seen;
   seen.light = light_from_nodes * (path.in_scatter + path.reflected);
   seen.distance_km = d;
+#ifdef DISC
+  seen.disc = vec4(color_of(path.disc), path.disc_cover);
+#endif
 #ifdef LAYERS
   vec3 white = color_of(vec4(1.0));
   seen.in_scatter = vec4(color_of(path.in_scatter), 1.0);

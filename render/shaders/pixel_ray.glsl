@@ -23,6 +23,7 @@ void pass_constants() {
   view.near_km = near_km;
   view.pixel_angle = pixel_angle;
   view.volume_km = volume_km;
+  view.slope_variance = slope_variance;
   view.suns = suns;
   atmosphere.depolarisation = depolarisation;
   atmosphere.phase_parameters = phase_parameters;
@@ -32,5 +33,4 @@ void pass_constants() {
   material.crag_phase = crag_phase;
   material.crags_per_km = crags_per_km;
   material.grain_mean = grain_mean;
-  material.finer_grain_levels = finer_grain_levels;
 }

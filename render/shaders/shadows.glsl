@@ -33,6 +33,12 @@ vec4 place_off(vec3 position, vec3 normal) {
   return place_in_maps(position + shadow_offset_km[int(max(map, 0.0))] * normal);
 }
 
+// Of the shadow that the largest map holds at a position: it fades toward the map's border, beyond which there is none.
+float shadow_strength(vec3 position) {
+  vec2 from_middle = abs((map_from_site[int(shadow_map_count) - 1] * vec4(position, 1.0)).xy - 0.5);
+  return 1.0 - smoothstep(0.36, 0.48, max(from_middle.x, from_middle.y));
+}
+
 // Share of the sun that reaches a surface.
 float sunlit(vec3 position, vec3 normal) {
   vec4 place = place_off(position, normal);
@@ -43,7 +49,7 @@ float sunlit(vec3 position, vec3 normal) {
     vec2 corner = vec2((i & 1) == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
     sum += texture(shadow_maps, vec4(place.xy + corner * texel, place.zw));
   }
-  return 0.25 * sum;
+  return mix(1.0, 0.25 * sum, shadow_strength(position));
 }
 
 // What the sun's beam would scatter into a view ray from the parts that are in shadow, which the tables hold as lit.
@@ -64,7 +70,7 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
     float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, place);
     Place at = place_along(start, nu, t);
     vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);
-    sum += (1.0 - lit) * light * radiance(scattering_at(at.h), nu);
+    sum += shadow_strength(position) * (1.0 - lit) * light * radiance(scattering_at(at.h), nu);
   }
   return sum * step_km;
 }

@@ -9,7 +9,7 @@ const int kSuns = 2;
 const int kSuns = 1;
 #endif
 
-// Of a frame. Half the field of view; the camera's height; a pixel's angle, rad; the farthest distance of the volume; of each
+// Of a frame. Half the field of view; the camera's height; a pixel's angle, rad; the farthest distance of the volume; the variance of the sea's slopes; of each
 // sun the unit vector in the camera frame and the irradiance as a share of the first one's.
 #define VIEW_CONSTANTS(HOW)  \
   HOW mat3 site_from_view;   \
@@ -19,6 +19,7 @@ const int kSuns = 1;
   HOW float near_km;         \
   HOW float pixel_angle;     \
   HOW float volume_km;       \
+  HOW float slope_variance;  \
   HOW vec4 suns[kSuns];
 CONSTANTS(1, View, VIEW_CONSTANTS)
 

@@ -273,7 +273,7 @@ TEST_F(BadInputTest, RenderNumbers) {
   refuse("--field-of-view-deg", "160");
   refuse("--altitude-m", "high");
   refuse("--altitude-m", "");
-  refuse("--exposure-stops", "1e6");
+  refuse("--exposure-ev", "1e6");
 }
 
 TEST_F(BadInputTest, WhatAModelCannotDo) {

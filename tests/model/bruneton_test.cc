@@ -125,6 +125,25 @@ TEST(Bruneton, FollowsTheReferenceFromEveryHeight) {
 }
 
 // At midnight the planet is dark from space and from the ground.
+// Where the path is many mean free paths long, the light is that of its first few, whose source
+// hardly changes with the view; for every model of tables.
+TEST(Bruneton, HorizonInHazeIsNotDark) {
+  Atmosphere<double> haze = earth_clear();
+  haze.at("mie").amount = 2e-3;
+  const auto node = luminance_rule(refs::standard_spectral_data()).nodes.front();
+  std::vector<SkyPoint> points;
+  for (const double view : {80.0, 85.0, 88.0, 89.0, 89.7})
+    points.push_back({2, 60 * kDegree, view * kDegree, 90 * kDegree});
+  for (const char* name : {"bruneton", "bodare"}) {
+    const auto model = make_sky_model(name, refs::standard_spectral_data(), 2);
+    const SkyValues sky = model->radiance(haze, std::span(&node, 1), points, {});
+    std::cout << name;
+    for (int i = 0; i < sky.points; ++i) std::cout << ' ' << sky.at(i, 0);
+    std::cout << '\n';
+    for (int i = 1; i < sky.points; ++i) EXPECT_GT(sky.at(i, 0), 0.7 * sky.at(0, 0)) << name;
+  }
+}
+
 TEST(Bruneton, NightIsDark) {
   const WavelengthNode node{550, 0};
   const std::vector<SkyPoint> points = {{400e3, 180 * kDegree, 108 * kDegree, 0},

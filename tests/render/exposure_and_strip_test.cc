@@ -40,13 +40,55 @@ TEST(SideBySide, PixelsStandWhereTheyBelong) {
   EXPECT_EQ(whole.depth_m[4], 10);
 }
 
+TEST(SideBySide, DiscsAndGlareMoveWithTheirPixels) {
+  std::vector<Frame> frames = {grey(3, 2, 100), grey(2, 2, 200)};
+  frames[0].discs = {{4, 0.5f, {1, 1, 1}, 1}};
+  frames[1].discs = {{1, 0.5f, {2, 2, 2}, 2}, {2, 1, {3, 3, 3}, 3}};
+  frames[1].glare.assign(12, 7);
+  const Frame whole = side_by_side(frames, 1);
+  ASSERT_EQ(whole.discs.size(), 3u);
+  EXPECT_EQ(whole.discs[0].pixel, 5u);
+  EXPECT_EQ(whole.discs[1].pixel, 7u);
+  EXPECT_EQ(whole.discs[2].pixel, 10u);
+  ASSERT_EQ(whole.glare.size(), whole.rgb.size());
+  EXPECT_EQ(whole.glare[0], 0);
+  EXPECT_EQ(whole.glare[3 * 4], 7);
+}
+
 TEST(SideBySide, HeightsMustAgree) {
   const std::vector<Frame> frames = {grey(3, 2, 100), grey(3, 3, 100)};
   EXPECT_THROW(side_by_side(frames, 1), std::invalid_argument);
 }
 
-TEST(MeteredExposure, MakesAnEvenPictureMiddleGrey) {
-  EXPECT_NEAR(metered_exposure(grey(4, 4, 1000)) * 1000, 0.18, 1e-6);
+TEST(MeteredExposure, MakesAnEvenPictureMiddleGreyAndABrighterOneBrighter) {
+  EXPECT_NEAR(metered_exposure(grey(4, 4, 500)) * 500, 0.18, 1e-6);
+  EXPECT_NEAR(metered_exposure(grey(4, 4, 8000)) * 8000, 0.18 * std::pow(16, 0.15), 1e-6);
+}
+
+// A planet in space is exposed for what is white in the sun, which is not in the picture.
+TEST(MeteredExposure, DoesNotMakeAPlanetGrey) {
+  Frame frame = grey(10, 10, 5000);
+  for (std::size_t i = 0; i < 50; ++i) frame.luminance[i] = 0;
+  EXPECT_NEAR(metered_exposure(frame), 1 / 2e4, 1e-9);
+  for (std::size_t i = 95; i < 100; ++i) frame.luminance[i] = 16e3;  // clouds
+  EXPECT_NEAR(metered_exposure(frame), 1 / 3e4, 1e-9);
+}
+
+// A small disc does not count, for a large one the picture is exposed.
+TEST(MeteredExposure, FollowsTheSunInATelephotoPictureOnly) {
+  Frame frame = grey(100, 100, 5000);
+  const double without = metered_exposure(frame);
+  const auto add = [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      frame.luminance[i] += 1e9f;
+      frame.discs.push_back({i, 1, {1e9f, 1e9f, 1e9f}, 1e9f});
+    }
+  };
+  add(20);
+  EXPECT_NEAR(metered_exposure(frame) / without, 1, 1e-4);
+  frame = grey(100, 100, 5000);
+  add(900);
+  EXPECT_NEAR(metered_exposure(frame) * 1e9, 0.8, 1e-3);
 }
 
 TEST(Adaptation, FollowsAJumpByItsTime) {

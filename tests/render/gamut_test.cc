@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "render/image/oklab.h"
 #include "render/image/tone.h"
 #include "tests/render/frame_fixture.h"
 
@@ -17,6 +18,77 @@ namespace {
 
 constexpr double kMatrix = 1e-6;  // seven digits of the matrices
 constexpr double kFloat = 2e-6;   // sums of floats
+
+double hue_deg(const ColorChannels& color, const ColorSpace& space) {
+  const Oklab lab = oklab_of(color, space);
+  return std::atan2(lab.b, lab.a) / kDegree;
+}
+
+// Ottosson 2020, the table of examples: XYZ to L, a, b.
+TEST(Oklab, IsThePublishedOne) {
+  constexpr double kDigits = 1e-3;
+  const auto expect = [&](const ColorChannels& xyz, const ColorChannels& lab) {
+    const Oklab made = oklab_of(xyz, color_space(Primaries::kXyz));
+    EXPECT_NEAR(made.l, lab[0], kDigits);
+    EXPECT_NEAR(made.a, lab[1], kDigits);
+    EXPECT_NEAR(made.b, lab[2], kDigits);
+    const ColorChannels back = from_oklab(made, color_space(Primaries::kXyz));
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], xyz[k], 1e-9);
+  };
+  expect({0.950, 1, 1.089}, {1, 0, 0});
+  expect({1, 0, 0}, {0.450, 1.236, -0.019});
+  expect({0, 1, 0}, {0.922, -0.671, 0.263});
+  expect({0, 0, 1}, {0.153, -1.415, -0.449});
+}
+
+// Over four decades of exposure, of colours of the sky and of the primaries, outside sRGB as well;
+// a display's colour without chroma has no hue.
+TEST(ViewTransform, KeepsTheHueAndTheDisplaysRange) {
+  constexpr double kHue = 3, kChroma = 0.003;  // degrees; below it 8 bits hold no hue
+  const ColorSpace& srgb = color_space(Primaries::kRec709);
+  double worst = 0;
+  int coloured = 0;
+  for (const ColorChannels& color : {ColorChannels{1, 0.4, 0.05},
+                                     {1, 0.15, -0.04},
+                                     {0.15, 0.35, 1},
+                                     {0.02, 0.05, 1},
+                                     {1, 1, 0.2},
+                                     {0.2, 1, 0.1},
+                                     {1, 0, 0},
+                                     {0, 0, 1},
+                                     {1, 0, 1},
+                                     {0.9, 1, 1.1}}) {
+    for (double exposure = 1e-2; exposure < 200; exposure *= 1.3) {
+      for (const ToneCurve curve : {ToneCurve::kFilmic, ToneCurve::kExponential}) {
+        ColorChannels scene = into_gamut(color, luminance_of(color, srgb), srgb);
+        for (double& channel : scene) channel *= exposure;
+        ToneOptions tone;
+        tone.curve = curve;
+        const ColorChannels shown = display_light(scene, tone);
+        EXPECT_GE(std::ranges::min(shown), 0);
+        EXPECT_LE(std::ranges::max(shown), 1);
+        const Oklab lab = oklab_of(shown, srgb);
+        if (std::hypot(lab.a, lab.b) < kChroma) continue;
+        ++coloured;
+        const double turned = std::remainder(hue_deg(shown, srgb) - hue_deg(color, srgb), 360.0);
+        worst = std::max(worst, std::abs(turned));
+      }
+    }
+  }
+  std::printf("[ hue    ] worst of %d: %.3g deg\n", coloured, worst);
+  EXPECT_GT(coloured, 300);
+  EXPECT_LT(worst, kHue);
+}
+
+// The other transform does not: the test above can fail.
+TEST(ViewTransform, OfChannelsTurnsOrangeIntoYellow) {
+  const ColorSpace& srgb = color_space(Primaries::kRec709);
+  const ColorChannels orange = {20, 6, 0.5};
+  ToneOptions tone;
+  tone.transform = ViewTransform::kChannels;
+  const ColorChannels shown = display_light(orange, tone);
+  EXPECT_GT(hue_deg(shown, srgb) - hue_deg(orange, srgb), 20);
+}
 
 class GamutOf : public ::testing::TestWithParam<Primaries> {
  protected:
@@ -33,20 +105,16 @@ TEST_P(GamutOf, WhiteIsTheWhite) {
 TEST_P(GamutOf, LightOutsideKeepsLuminanceAndHue) {
   const ColorChannels outside = {5, 2, -0.7};
   const double luminance = luminance_of(outside, space());
-  const ColorChannels mapped = into_gamut(outside, luminance, space().white);
+  const ColorChannels mapped = into_gamut(outside, luminance, space());
   EXPECT_EQ(std::ranges::min(mapped), 0);
   EXPECT_NEAR(luminance_of(mapped, space()) / luminance, 1, kMatrix);
-  const auto off = [&](const ColorChannels& color, std::size_t k) {
-    return color[k] - luminance * space().white[k];
-  };
-  for (std::size_t k = 1; k < 3; ++k)
-    EXPECT_NEAR(off(mapped, k) / off(mapped, 0), off(outside, k) / off(outside, 0), 1e-12);
+  EXPECT_NEAR(hue_deg(mapped, space()), hue_deg(outside, space()), 1e-3);
 }
 
 TEST_P(GamutOf, LightInsideStaysAndDarknessIsDark) {
   const ColorChannels inside = {1, 0, 2};
-  EXPECT_EQ(into_gamut(inside, 1, space().white), inside);
-  EXPECT_EQ(into_gamut({-1e-9, 0, 0}, 0, space().white), (ColorChannels{0, 0, 0}));
+  EXPECT_EQ(into_gamut(inside, 1, space()), inside);
+  EXPECT_EQ(into_gamut({-1e-9, 0, 0}, 0, space()), (ColorChannels{0, 0, 0}));
 }
 
 // A setting sun, whose disc is redder than sRGB, with all layers.

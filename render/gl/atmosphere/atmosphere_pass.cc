@@ -9,13 +9,8 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <iterator>
-#include <numbers>
 
-#include "model/atmosphere/optics.h"
-#include "model/atmosphere/parameter_field.h"
-#include "model/literature/bruneton_tables.h"
-#include "model/literature/oneil.h"
-#include "model/shared/shared.h"
+#include "model/shared/sea.h"
 #include "render/gl/context/shader.h"
 #include "render/gl/context/uniform_block.h"
 #include "render/gl/context/uniforms.h"
@@ -24,19 +19,6 @@ namespace skyfit {
 namespace {
 
 Table without_values(const Table& table) { return {table.width, table.height, table.depth, {}}; }
-
-void add(const std::string& name, const Table& table, FrameGraph& graph) {
-  graph.add_table(name, table.width, table.height, table.depth, table.rgba);
-}
-
-// Rows and columns of the sky's view for each texel of the scattering table.
-constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
-// Columns of a sun, rows to the ground, rows to the sky.
-glm::ivec3 sky_view_size(const TableSizes& sizes) {
-  return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
-          (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
-          (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
-}
 
 // Above it each pixel looks up its own ray: the sun's height at the far end changes too fast with
 // the azimuth for pictures of all directions.
@@ -62,41 +44,6 @@ constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 constexpr GLuint kShadowUnit = 12, kScatteringUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
                  kMaterialUnit = 18;
 
-// What the classes of phase functions scatter, 1/km, over the heights of the tables; a row each.
-GlTexture scattering_texture(const AtmosphereTables& tables) {
-  constexpr std::size_t kHeights = 256;
-  const Atmosphere<double>& a = tables.atmosphere;
-  const Shells shells = shells_of(a, Keep::kScatterers);
-  const Atmosphere<Dual<0>> plain = seeded<0>(a, {});
-  std::vector<glm::vec4> values(kHeights * tables.phases.count(), glm::vec4(0));
-  Shared<double> shared;
-  for (int node = 0; node < 4; ++node) {
-    const Optics<0> optics =
-        true_optics_at(shells, plain, tables.color.nodes[static_cast<std::size_t>(node)]);
-    for (std::size_t i = 0; i < kHeights; ++i) {
-      const double h =
-          shared.height_from_unit(static_cast<double>(i) / (kHeights - 1.0), shells.top);
-      const Densities<0> density = optics.densities(h);
-      for (const Scatterer<0>& s : optics.scatterers) {
-        const auto row = static_cast<std::size_t>(tables.phases.of_constituent[s.constituent]);
-        values[row * kHeights + i][node] +=
-            static_cast<float>(1e3 * s.scattering.v * density[s.profile].v);
-      }
-    }
-  }
-  const auto width = static_cast<GLsizei>(kHeights),
-             height = static_cast<GLsizei>(tables.phases.count());
-  GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &id);
-  GlTexture texture(id);
-  glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
-  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values.data());
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
-}
-
 std::vector<std::string> class_defines() {
   return {fmt::format("SKY_CLASS {:.1f}", kSkyClass),
           fmt::format("GRAINLESS_CLASS {:.1f}", kGrainlessClass),
@@ -115,19 +62,15 @@ double grainless_depth(const AtmosphereView& view) {
   return view.projection.near_km / (1e-3 * grainless_m(view));
 }
 
+// Behind light, distance and the layers.
+GLuint disc_location(const FrameOptions& options) {
+  return 2 + (options.layers ? static_cast<GLuint>(kLayerWrites.size()) : 0);
+}
+
 glm::vec4 second_sun(const SecondSun& sun) {
   const double s = std::sin(sun.zenith);
   return {s * std::cos(sun.azimuth), -s * std::sin(sun.azimuth), std::cos(sun.zenith),
           sun.irradiance};
-}
-
-glm::vec4 ground_albedo(const AtmosphereTables& tables) {
-  glm::vec4 albedo;
-  for (int node = 0; node < 4; ++node) {
-    albedo[node] = static_cast<float>(ground_albedo_at(
-        tables.atmosphere, tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm));
-  }
-  return albedo;
 }
 
 double thickness_m(const AtmosphereTables& tables) {
@@ -160,29 +103,6 @@ std::vector<ShaderStage> stages_of(const std::string& path,
 
 }  // namespace
 
-void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
-  add("optical_depth", tables.optical_depth, graph);
-  add("irradiance", tables.irradiance, graph);
-  add("rayleigh_like", tables.rayleigh_like, graph);
-  add("single", tables.single, graph);
-  add("phase", tables.phase, graph);
-  add("sky_ray_air", tables.sky_rays.air, graph);
-  add("sky_ray_aerosol", tables.sky_rays.aerosol, graph);
-}
-
-void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
-  std::vector<glm::vec4> parameters;
-  for (const PhaseFunction<double>& phase : tables.phases.others) {
-    parameters.emplace_back(phase.type == PhaseType::kRayleigh ? phase.depolarisation : phase.g,
-                            phase.g1, phase.g2, phase.weight);
-  }
-  UniformBlock block(program, "Atmosphere");
-  block.set("depolarisation", tables.phases.depolarisation);
-  block.set("phase_parameters", std::span<const glm::vec4>(parameters));
-  block.set("ground_albedo", ground_albedo(tables));
-  block.bind(buffers);
-}
-
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = thickness_m(tables);
   return options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
@@ -213,40 +133,6 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   scattering_coefficients_ = scattering_texture(tables);
 }
 
-std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
-  const Atmosphere<double>& a = tables.atmosphere;
-  const TableSizes& s = tables.sizes;
-  std::vector<int> phase_types, lobe_types;
-  for (const PhaseFunction<double>& phase : tables.phases.others) {
-    phase_types.push_back(static_cast<int>(phase.type));
-    lobe_types.push_back(static_cast<int>(phase.lobe));
-  }
-  const glm::ivec3 sky_view = sky_view_size(s);
-  const Table& sky_rays = tables.sky_rays.air;
-  const int classes = static_cast<int>(tables.phases.others.size());
-  const double sun_radius = a.star.angular_radius_rad();
-  return {fmt::format("CLASSES {}", classes),
-          fmt::format("PHASE_TYPES {}", fmt::join(phase_types, ", ")),
-          fmt::format("LOBE_TYPES {}", fmt::join(lobe_types, ", ")),
-          fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
-          fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
-          fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
-          fmt::format("SUN_RADIUS {:.9g}", sun_radius),
-          fmt::format("SUN_SOLID_ANGLE {:.9g}",
-                      4 * std::numbers::pi * std::pow(std::sin(0.5 * sun_radius), 2)),
-          fmt::format("LIMB_DARKENING {:.9g}, {:.9g}", a.star.limb_darkening[0],
-                      a.star.limb_darkening[1]),
-          fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
-          fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
-          fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
-                      s.scattering_ground, s.scattering_sky),
-          fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
-          fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
-          fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
-          fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
-          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)};
-}
-
 GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
   const auto key = std::pair(path, defined);
   const auto found = programs_.find(key);
@@ -272,6 +158,7 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   block.set("near_km", view.projection.near_km);
   block.set("pixel_angle", pixel_rad(options));
   block.set("volume_km", view.farthest_km);
+  block.set("slope_variance", SharedSea<double>{}.sea_slope_variance(options.wind_m_s));
   std::vector<glm::vec4> suns = {
       {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
@@ -323,7 +210,10 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
   if (!surface && view.sky_rays(tables_))
     defined.push_back(fmt::format("SKY_RAYS {}", static_cast<int>(tables_.sky_rays.mapping)));
   if (view.volume(tables_)) defined.push_back("VOLUME");
+  if (surface && tables_.atmosphere.sea) defined.push_back("SEA");
   if (view.options.layers) defined.push_back("LAYERS");
+  if (std::ranges::find(what, kDisc) != what.end())
+    defined.push_back(fmt::format("DISC_LOCATION {}", disc_location(view.options)));
   if (view.options.clouds) defined.push_back("CLOUDS");
   if (!view.shadows.empty()) defined.push_back("SHADOWS");
   return program(path, defined);
@@ -356,11 +246,21 @@ void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_m
   view.materials.bind(camera, grainy, kMaterialUnit, blocks_);
 }
 
+void AtmospherePass::clear_disc(const AtmosphereView& view) const {
+  if (!view.read) return;
+  const GLuint location = disc_location(view.options);
+  const std::array<float, 4> nothing{};
+  glClearBufferfv(GL_COLOR, static_cast<GLint>(location), nothing.data());
+  // Only the suns write to it.
+  glColorMaski(location, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+}
+
 void AtmospherePass::draw(const AtmosphereView& view, const ShadowPass& shadow_maps) {
   const GLuint sky = variant(kFragments, {}, view);
   const GLuint grainless = variant(kFragments, {kSurface}, view);
   const GLuint grainy = variant(kFragments, {kSurface, kGrains}, view);
   bind(view, shadow_maps, sky, grainy);
+  clear_disc(view);
   // The triangle lies at the near end of the range of depths.
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
@@ -400,13 +300,20 @@ void AtmospherePass::dispatch(const AtmosphereView& view, const ShadowPass& shad
   }
 }
 
+void AtmospherePass::draw_only_suns(const AtmosphereView& view) {
+  clear_disc(view);
+  draw_suns(view);
+}
+
 void AtmospherePass::draw_suns(const AtmosphereView& view) {
   glUseProgram(variant(kFragments, {kDisc}, view));
+  if (view.read) glColorMaski(disc_location(view.options), GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glBindVertexArray(empty_.id());
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_EQUAL);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
+  if (view.read) glColorMaski(disc_location(view.options), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
 }  // namespace skyfit

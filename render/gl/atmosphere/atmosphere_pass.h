@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "render/gl/atmosphere/aerial_volume.h"
+#include "render/gl/atmosphere/atmosphere_tables.h"
 #include "render/gl/atmosphere/clouds.h"
 #include "render/gl/context/objects.h"
 #include "render/gl/context/uniform_block.h"
@@ -36,18 +37,14 @@ inline const std::vector<std::string> kAtmosphereReads = {
     "optical_depth", "irradiance", "rayleigh_like", "single",     "phase",       "gbuffer",
     "depth",         "view_air",   "view_aerosol",  "view_depth", "sky_ray_air", "sky_ray_aerosol"};
 
+// Of the suns' discs alone: light in the frame's primaries, cd/m^2, and the share of the sample
+// that they cover.
+inline const std::string kDiscWrite = "disc";
+
 inline const std::vector<std::string> kLayerWrites = {"in_scatter", "reflected", "transmittance",
                                                       "albedo", "normal"};
 
-// Makes the textures of the tables, named as in kAtmosphereReads.
-void add_tables(const AtmosphereTables& tables, FrameGraph& graph);
-
 inline const std::vector<std::string> kSkyViewWrites = {"view_air", "view_aerosol", "view_depth"};
-
-// What render/shaders/atmosphere.glsl needs to know of the tables: what no blend of two atmospheres
-// changes, as text to #define, and the rest.
-std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables);
-void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers);
 
 // A frame as the atmosphere's passes see it.
 struct AtmosphereView {
@@ -60,6 +57,7 @@ struct AtmosphereView {
   double nearest_m;    // of the ground that is seen, or less
   double highest_m;    // of all ground
   const Materials& materials;
+  bool read;  // the frame will be: the last colour target is kDiscWrite
 
   // The volume holds one sun's light before the ground, for an eye in the lower air; VOLUME
   // promises the shaders that both are in the air.
@@ -91,7 +89,7 @@ class AtmospherePass {
   void draw(const AtmosphereView& view, const ShadowPass& shadow_maps);
   // As compute shaders into images, but for the suns, whose depth target is the G-buffer's.
   void dispatch(const AtmosphereView& view, const ShadowPass& shadow_maps);
-  void draw_suns(const AtmosphereView& view);
+  void draw_only_suns(const AtmosphereView& view);
 
  private:
   using Defined = std::vector<std::string>;
@@ -103,6 +101,8 @@ class AtmospherePass {
   // blocks.
   void bind(const AtmosphereView& view, const ShadowPass& shadow_maps, GLuint sky, GLuint grainy);
   void draw_triangle(GLuint program) const;
+  void draw_suns(const AtmosphereView& view);
+  void clear_disc(const AtmosphereView& view) const;
 
   GraphicsDevice device_;
   AtmosphereTables tables_;  // without the tables' values

@@ -13,7 +13,8 @@
 namespace skyfit {
 namespace {
 
-constexpr int kSide = 64;
+constexpr int kSide = 64, kLevels = 7;
+static_assert(1 << (kLevels - 1) == kSide);
 constexpr double kDeviation = 1.0 / 6;
 // Of the sum of four octaves with the weights of clouds.glsl.
 const double kSumDeviation =
@@ -64,10 +65,11 @@ Clouds::Clouds() {
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_3D, 1, &id);
   noise_ = GlTexture(id);
-  glTextureStorage3D(id, 1, GL_R16, kSide, kSide, kSide);
+  glTextureStorage3D(id, kLevels, GL_R16, kSide, kSide, kSide);
   glTextureSubImage3D(id, 0, 0, 0, 0, kSide, kSide, kSide, GL_RED, GL_UNSIGNED_SHORT,
                       noise_texels().data());
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glGenerateTextureMipmap(id);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 

@@ -20,6 +20,7 @@
 #include "render/gl/terrain/relief.h"
 #include "render/gl/terrain/terrain_pass.h"
 #include "render/gl/terrain/terrain_view.h"
+#include "render/image/glare.h"
 
 namespace skyfit {
 namespace {
@@ -47,6 +48,7 @@ void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   add_gbuffer(width, height, graph);
   graph.add_target("light", GL_RGBA32F, width, height);
   graph.add_target("distance", GL_R32F, width, height);
+  graph.add_target(kDiscWrite, GL_RGBA32F, width, height);
   if (!layers) return;
   for (const std::string& layer : kLayerWrites) graph.add_target(layer, GL_RGBA32F, width, height);
 }
@@ -112,9 +114,11 @@ class GlRenderer final : public FrameDrawer {
     frame.primaries = options.primaries;
     frame.width = options.width;
     frame.height = options.height;
+    frame.samples_per_side = samples;
     resolve_light(graph_, samples, frame);
     if (options.layers) frame.layers = resolve_layers(graph_, samples, frame);
     add_directions(options.camera, frame);
+    if (options.glare == Glare::kEye) frame.glare = glare_of(frame);
     report(1);
     return frame;
   }
@@ -261,7 +265,8 @@ class GlRenderer final : public FrameDrawer {
                               current_.meshes.empty() && !current_.moon,
                               current_.blocks.nearest_m,
                               ground_->highest_m(),
-                              materials_};
+                              materials_,
+                              read};
     std::vector<Pass> list;
     if (!current_.shadows.empty())
       list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
@@ -284,6 +289,7 @@ class GlRenderer final : public FrameDrawer {
     if (read || options.layers || device_ == GraphicsDevice::kGpu) lights.emplace_back("distance");
     if (options.layers) lights.insert(lights.end(), kLayerWrites.begin(), kLayerWrites.end());
     std::vector<std::string> lights_and_depth = lights;
+    if (read) lights_and_depth.push_back(kDiscWrite);
     lights_and_depth.emplace_back("depth");
     if (device_ == GraphicsDevice::kGpu) {
       list.push_back({"atmosphere",
@@ -292,8 +298,8 @@ class GlRenderer final : public FrameDrawer {
                       [this, view] { atmosphere_.dispatch(view, shadow_maps()); },
                       lights});
       // Not the G-buffer again, whose depth it tests against; the sky's view is still bound.
-      list.push_back(
-          {"suns", kTableReads, lights_and_depth, [this, view] { atmosphere_.draw_suns(view); }});
+      list.push_back({"suns", kTableReads, lights_and_depth,
+                      [this, view] { atmosphere_.draw_only_suns(view); }});
       return list;
     }
     if (view.sees_grains()) {

@@ -4,14 +4,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "model/numerics/angles.h"
+#include "render/gl/atmosphere/atmosphere_pass.h"
 #include "render/gl/passes/view_basis.h"
 #include "render/image/gamut.h"
 
@@ -30,14 +33,15 @@ void for_samples(const Frame& frame, int samples_per_side, F&& f) {
   }
 }
 
-// No light is negative. `values`: [pixel][3].
-void bring_into_gamut(const ColorSpace& space, const ColorChannels& white,
+// No light is negative. `values`: [pixel][3], in units of `unit` in each channel.
+void bring_into_gamut(const ColorSpace& space, const ColorChannels& unit,
                       std::vector<float>& values) {
   for (std::size_t i = 0; i < values.size(); i += 3) {
-    const ColorChannels color = {values[i], values[i + 1], values[i + 2]};
-    if (std::ranges::min(color) >= 0) continue;
-    const ColorChannels mapped = into_gamut(color, luminance_of(color, space), white);
-    for (std::size_t k = 0; k < 3; ++k) values[i + k] = static_cast<float>(mapped[k]);
+    if (std::min({values[i], values[i + 1], values[i + 2]}) >= 0) continue;
+    ColorChannels color;
+    for (std::size_t k = 0; k < 3; ++k) color[k] = unit[k] * values[i + k];
+    const ColorChannels mapped = into_gamut(color, luminance_of(color, space), space);
+    for (std::size_t k = 0; k < 3; ++k) values[i + k] = static_cast<float>(mapped[k] / unit[k]);
   }
 }
 
@@ -53,6 +57,27 @@ std::vector<float> resolve_color(const FrameGraph& graph, const std::string& nam
   return values;
 }
 
+void resolve_discs(const FrameGraph& graph, int samples_per_side, Frame& frame) {
+  const std::vector<float> discs = graph.read_back(kDiscWrite, GL_RGBA, 4);
+  const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
+  std::map<std::size_t, std::array<float, 4>> covered;
+  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
+    if (discs[4 * sample + 3] <= 0) return;
+    for (std::size_t k = 0; k < 4; ++k) covered[pixel][k] += part * discs[4 * sample + k];
+  });
+  const ColorSpace& space = color_space(frame.primaries);
+  for (const auto& [pixel, sum] : covered) {
+    const ColorChannels light = {sum[0], sum[1], sum[2]};
+    const double luminance = luminance_of(light, space);
+    const ColorChannels mapped = into_gamut(light, luminance, space);
+    DiscPixel& disc = frame.discs.emplace_back();
+    disc.pixel = pixel;
+    disc.cover = sum[3];
+    for (std::size_t k = 0; k < 3; ++k) disc.rgb[k] = static_cast<float>(mapped[k]);
+    disc.luminance = static_cast<float>(luminance);
+  }
+}
+
 }  // namespace
 
 void resolve_light(const FrameGraph& graph, int samples_per_side, Frame& frame) {
@@ -66,7 +91,8 @@ void resolve_light(const FrameGraph& graph, int samples_per_side, Frame& frame) 
     frame.luminance[pixel] += part * light[4 * sample + 3];
   });
   const ColorSpace& space = color_space(frame.primaries);
-  bring_into_gamut(space, space.white, frame.rgb);
+  bring_into_gamut(space, {1, 1, 1}, frame.rgb);
+  resolve_discs(graph, samples_per_side, frame);
   const std::vector<float> distance = graph.read_back("distance", GL_RED, 1);
   frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
   for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
@@ -83,9 +109,9 @@ FrameLayers resolve_layers(const FrameGraph& graph, int samples_per_side, const 
   layers.albedo = resolve_color(graph, "albedo", samples_per_side, frame);
   const ColorSpace& space = color_space(frame.primaries);
   for (std::vector<float>* light : {&layers.in_scatter, &layers.reflected})
-    bring_into_gamut(space, space.white, *light);
+    bring_into_gamut(space, {1, 1, 1}, *light);
   for (std::vector<float>* share : {&layers.transmittance, &layers.albedo})
-    bring_into_gamut(space, {1, 1, 1}, *share);
+    bring_into_gamut(space, space.white, *share);
   for (std::size_t i = 0; i < layers.normal.size(); i += 3) {
     float* const n = &layers.normal[i];
     const float length = std::hypot(n[0], n[1], n[2]);

@@ -192,7 +192,6 @@ void Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit,
   block.set("crag_phase", glm::vec3(glm::fract(camera / kCragPeriod)));
   block.set("crags_per_km", 1e3 / kCragPeriod);
   block.set("grain_mean", grain_mean_);
-  block.set("finer_grain_levels", std::log2(kCragPeriod / kGrainPeriod));
   block.bind(buffers);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
+#include <vector>
 
 #include "render/gl/terrain/blend.h"
 #include "render/gl/terrain/noise.h"
@@ -24,12 +25,14 @@ constexpr double kBoulder = 3.2, kBoulderHeight = 0.35;
 constexpr double kSpots = 1500;
 constexpr double kFinest = 0.1;  // no detail below, m
 
-// Relative reflectances at about 460, 530, 590 and 660 nm; only their ratios matter.
-constexpr NodeValues kSea = {0.60, 0.42, 0.26, 0.20};
-constexpr NodeValues kGrass = {0.36, 0.80, 0.66, 0.46};
-constexpr NodeValues kSteppe = {0.70, 1.08, 1.28, 1.38};
-constexpr NodeValues kRock = {0.95, 1.08, 1.18, 1.25};
-constexpr NodeValues kSnow = {3.6, 3.6, 3.55, 3.5};
+// Reflectances at about 440, 510, 560 and 630 nm of light that comes out of clear sea water; what
+// its surface reflects is added in surface_light.glsl.
+constexpr NodeValues kSea = {0.038, 0.020, 0.009, 0.004};
+// Relative reflectances of land; only their ratios matter.
+constexpr NodeValues kGrass = {0.32, 0.52, 0.86, 0.64};
+constexpr NodeValues kSteppe = {0.58, 0.84, 1.10, 1.28};
+constexpr NodeValues kRock = {0.66, 0.74, 0.80, 0.84};
+constexpr NodeValues kSnow = {2.6, 2.6, 2.57, 2.55};
 
 // The ranges do not follow the lattice of the noise.
 glm::dvec3 bend(const glm::dvec3& p) {
@@ -141,9 +144,9 @@ double Relief::height_m(const glm::dvec3& direction, double resolution_m) const 
          roughness * (sea_ ? std::max(smoothstep(0, 0.1 * kShore, continent), beach) : 1.0);
 }
 
-NodeValues Relief::material(const glm::dvec3& direction, double height_m, double steepness,
-                            double resolution_m) const {
-  if (!sea_) return dry_material(direction, steepness, resolution_m);
+Relief::Material Relief::material(const glm::dvec3& direction, double height_m, double steepness,
+                                  double resolution_m) const {
+  if (!sea_) return {dry_material(direction, steepness, resolution_m), 1};
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const glm::dvec3 p = direction * kEarthRadius;
   const double patches =
@@ -160,7 +163,7 @@ NodeValues Relief::material(const glm::dvec3& direction, double height_m, double
   const double snow = smoothstep(2100 - blur, 2700 + blur, height_m + 500 * spots);
   soil = mix(soil, kSnow, snow * (1 - smoothstep(0.12, 0.35, steepness)));
   for (double& value : soil) value *= std::max(1 + 0.4 * grain + 0.15 * spots, 0.2);
-  return mix(kSea, soil, smoothstep(0.0, 0.05, height_m));
+  return {soil, smoothstep(0.0, 0.05, height_m)};
 }
 
 // Dust, thinner on slopes, over rock: one colour, lighter and darker.
@@ -180,11 +183,13 @@ NodeValues Relief::dry_material(const glm::dvec3& direction, double steepness,
 
 NodeValues Relief::reflectance(const glm::dvec3& direction, double height_m, double steepness,
                                double resolution_m) const {
-  NodeValues value = material(direction, height_m, steepness, resolution_m);
-  for (std::size_t k = 0; k < 4; ++k) {
-    value[k] = std::clamp(albedo_[k] * (1 + contrast_ * (value[k] / mean_[k] - 1)), 0.0, 1.0);
-  }
-  return value;
+  return reflectance_of(material(direction, height_m, steepness, resolution_m));
+}
+
+NodeValues Relief::reflectance_of(const Material& material) const {
+  NodeValues land;
+  for (std::size_t k = 0; k < 4; ++k) land[k] = std::min(brightness_[k] * material.land[k], 1.0);
+  return mix(water_, land, material.land_share);
 }
 
 double Relief::rock(const glm::dvec3& direction, double height_m, double steepness,
@@ -202,24 +207,45 @@ double Relief::highest_m() const {
 }
 
 void Relief::balance_materials() {
-  constexpr int kDirections = 4000;
-  constexpr double kResolution = 2e3;
-  NodeValues sum{}, highest{};
+  constexpr int kDirections = 4000, kHalvings = 40;
+  constexpr double kResolution = 2e3, kBrightest = 1e3;
+  std::vector<Material> places;
+  double land_share = 0;
   for (int i = 0; i < kDirections; ++i) {
     const glm::dvec3 direction = fibonacci_direction(i, kDirections);
     const double height = height_m(direction, kResolution * scale_);
-    const NodeValues value = material(direction, height, 0, kResolution * scale_);
-    for (std::size_t k = 0; k < 4; ++k) {
-      sum[k] += value[k];
-      highest[k] = std::max(highest[k], value[k]);
-    }
+    places.push_back(material(direction, height, 0, kResolution * scale_));
+    land_share += places.back().land_share / kDirections;
   }
+  double albedo = 0;
   for (std::size_t k = 0; k < 4; ++k) {
-    mean_[k] = sum[k] / kDirections;
-    // No material above 1: a bright planet has less contrast.
-    const double excess = 1.2 * highest[k] / mean_[k] - 1;
-    contrast_ = std::min(contrast_, (1 - albedo_[k]) / std::max(albedo_[k] * excess, 1e-9));
+    albedo += albedo_[k] / 4;
+    water_[k] = std::min(kSea[k], albedo_[k]);
   }
+  // Land has its colour times that of the albedo, and makes up for the dark sea.
+  const auto set_brightness = [&](double brightness) {
+    for (std::size_t k = 0; k < 4; ++k)
+      brightness_[k] = albedo > 0 ? brightness * albedo_[k] / albedo : 0;
+  };
+  const auto mean = [&] {
+    double sum = 0;
+    for (const Material& at : places) {
+      const NodeValues value = reflectance_of(at);
+      for (const double part : value) sum += 0.25 * part / kDirections;
+    }
+    return sum;
+  };
+  double low = 0, high = kBrightest;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    set_brightness(middle);
+    (mean() < albedo ? low : high) = middle;
+  }
+  set_brightness(high);
+  // Where land cannot, the sea follows.
+  const double missing = albedo - mean();
+  if (land_share < 1)
+    for (double& value : water_) value = std::min(value + missing / (1 - land_share), 1.0);
 }
 
 }  // namespace skyfit

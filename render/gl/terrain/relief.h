@@ -23,7 +23,8 @@ class Relief final : public Ground {
 
   double height_m(const glm::dvec3& direction, double resolution_m) const override;
 
-  // Its mean over the planet is the ground albedo.
+  // Its mean over the planet and the nodes is that of the ground albedo; the colours are those of
+  // sea, plants, rock and snow where the albedo has none.
   NodeValues reflectance(const glm::dvec3& direction, double height_m, double steepness,
                          double resolution_m) const override;
   double rock(const glm::dvec3& direction, double height_m, double steepness,
@@ -32,8 +33,13 @@ class Relief final : public Ground {
 
  private:
   void settle_on_a_coast();
-  NodeValues material(const glm::dvec3& direction, double height_m, double steepness,
-                      double resolution_m) const;
+  struct Material {
+    NodeValues land;  // relative reflectance
+    double land_share;
+  };
+  Material material(const glm::dvec3& direction, double height_m, double steepness,
+                    double resolution_m) const;
+  NodeValues reflectance_of(const Material& material) const;
   NodeValues dry_material(const glm::dvec3& direction, double steepness, double resolution_m) const;
   void balance_materials();
 
@@ -42,8 +48,8 @@ class Relief final : public Ground {
   bool sea_;
   double scale_;  // this planet's radius / 6360 km
   SiteAxes coast_;
-  NodeValues mean_{1, 1, 1, 1};  // of material() over the planet
-  double contrast_ = 1;          // 0: one colour, 1: the materials as they are
+  NodeValues brightness_{1, 1, 1, 1};  // reflectance of land over the relative one
+  NodeValues water_{};                 // reflectance of the sea
 };
 
 }  // namespace skyfit

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gl/atmosphere/atmosphere_tables.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
+#include "model/literature/bruneton_tables.h"
+#include "model/literature/oneil.h"
+#include "model/shared/shared.h"
+
+namespace skyfit {
+namespace {
+
+void add(const std::string& name, const Table& table, FrameGraph& graph) {
+  graph.add_table(name, table.width, table.height, table.depth, table.rgba);
+}
+
+glm::vec4 ground_albedo(const AtmosphereTables& tables) {
+  glm::vec4 albedo;
+  for (int node = 0; node < 4; ++node) {
+    albedo[node] = static_cast<float>(ground_albedo_at(
+        tables.atmosphere, tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm));
+  }
+  return albedo;
+}
+
+}  // namespace
+
+// Rows and columns of the sky's view for each texel of the scattering table.
+constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
+
+glm::ivec3 sky_view_size(const TableSizes& sizes) {
+  return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
+          (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
+          (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
+}
+
+GlTexture scattering_texture(const AtmosphereTables& tables) {
+  constexpr std::size_t kHeights = 256;
+  const Atmosphere<double>& a = tables.atmosphere;
+  const Shells shells = shells_of(a, Keep::kScatterers);
+  const Atmosphere<Dual<0>> plain = seeded<0>(a, {});
+  std::vector<glm::vec4> values(kHeights * tables.phases.count(), glm::vec4(0));
+  Shared<double> shared;
+  for (int node = 0; node < 4; ++node) {
+    const Optics<0> optics =
+        true_optics_at(shells, plain, tables.color.nodes[static_cast<std::size_t>(node)]);
+    for (std::size_t i = 0; i < kHeights; ++i) {
+      const double h =
+          shared.height_from_unit(static_cast<double>(i) / (kHeights - 1.0), shells.top);
+      const Densities<0> density = optics.densities(h);
+      for (const Scatterer<0>& s : optics.scatterers) {
+        const auto row = static_cast<std::size_t>(tables.phases.of_constituent[s.constituent]);
+        values[row * kHeights + i][node] +=
+            static_cast<float>(1e3 * s.scattering.v * density[s.profile].v);
+      }
+    }
+  }
+  const auto width = static_cast<GLsizei>(kHeights),
+             height = static_cast<GLsizei>(tables.phases.count());
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  GlTexture texture(id);
+  glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
+  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values.data());
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
+  add("optical_depth", tables.optical_depth, graph);
+  add("irradiance", tables.irradiance, graph);
+  add("rayleigh_like", tables.rayleigh_like, graph);
+  add("single", tables.single, graph);
+  add("phase", tables.phase, graph);
+  add("sky_ray_air", tables.sky_rays.air, graph);
+  add("sky_ray_aerosol", tables.sky_rays.aerosol, graph);
+}
+
+void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
+  std::vector<glm::vec4> parameters;
+  for (const PhaseFunction<double>& phase : tables.phases.others) {
+    parameters.emplace_back(phase.type == PhaseType::kRayleigh ? phase.depolarisation : phase.g,
+                            phase.g1, phase.g2, phase.weight);
+  }
+  UniformBlock block(program, "Atmosphere");
+  block.set("depolarisation", tables.phases.depolarisation);
+  block.set("phase_parameters", std::span<const glm::vec4>(parameters));
+  block.set("ground_albedo", ground_albedo(tables));
+  block.bind(buffers);
+}
+
+std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
+  const Atmosphere<double>& a = tables.atmosphere;
+  const TableSizes& s = tables.sizes;
+  std::vector<int> phase_types, lobe_types;
+  for (const PhaseFunction<double>& phase : tables.phases.others) {
+    phase_types.push_back(static_cast<int>(phase.type));
+    lobe_types.push_back(static_cast<int>(phase.lobe));
+  }
+  const glm::ivec3 sky_view = sky_view_size(s);
+  const Table& sky_rays = tables.sky_rays.air;
+  const int classes = static_cast<int>(tables.phases.others.size());
+  const double sun_radius = a.star.angular_radius_rad();
+  return {fmt::format("CLASSES {}", classes),
+          fmt::format("PHASE_TYPES {}", fmt::join(phase_types, ", ")),
+          fmt::format("LOBE_TYPES {}", fmt::join(lobe_types, ", ")),
+          fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
+          fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
+          fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
+          fmt::format("SUN_RADIUS {:.9g}", sun_radius),
+          fmt::format("SUN_SOLID_ANGLE {:.9g}",
+                      4 * std::numbers::pi * std::pow(std::sin(0.5 * sun_radius), 2)),
+          fmt::format("LIMB_DARKENING {:.9g}, {:.9g}", a.star.limb_darkening[0],
+                      a.star.limb_darkening[1]),
+          fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
+          fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
+          fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
+                      s.scattering_ground, s.scattering_sky),
+          fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
+          fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
+          fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
+          fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
+          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)};
+}
+
+}  // namespace skyfit
