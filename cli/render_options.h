@@ -30,7 +30,7 @@ struct RenderOptions {
   std::string size = "1280x720", aerial = "volume", exposure, exposure_stops = "0", tone = "filmic";
   std::string primaries = "rec709";
   int samples_per_side = FrameOptions{}.samples_per_side;
-  bool shadows = false, layers = false, gpu = false, stats = false;
+  bool scalar = false, shadows = false, layers = false, gpu = false, stats = false;
   std::vector<std::string> out;
   int threads = default_threads();
 };

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+#include "model/transfer.h"
+
 namespace skyfit::refs {
 
 enum class Quantity {
@@ -47,7 +49,9 @@ struct Reference {
   std::string description;  // one line, with the source
   Quantity quantity = Quantity::kRelativeLuminance;
   std::vector<Sample> samples;
-  std::vector<Scan> scans;         // indexed by Sample::scan; empty when nothing is known of them
+  std::vector<Scan> scans;  // indexed by Sample::scan; empty when nothing is known of them
+  // What the values were computed with: a model is compared under the same. Nature's is the vector.
+  Transfer transfer = Transfer::kVector;
   std::vector<std::string> notes;  // what the reader of a measured sky concluded or left out
 };
 
