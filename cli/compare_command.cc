@@ -39,7 +39,7 @@ struct CompareOptions {
   std::string exclude_sun = "3";
   ImportArguments import;
   int starts = 4, threads = default_threads();
-  bool fitted = false, force = false, json = false;
+  bool fitted = false, scalar = false, force = false, json = false;
 };
 
 std::vector<std::string> model_names(const std::string& text) {
@@ -79,7 +79,8 @@ refs::Reference solved_reference(const CompareOptions& options, const Preset& pr
   reference.description = fmt::format("the model \"reference\" with the preset {}", preset.name);
   reference.quantity = refs::Quantity::kLuminance;
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-  const auto model = make_sky_model("reference", spectra, options.threads);
+  reference.transfer = transfer_of(options.scalar);
+  const auto model = make_sky_model("reference", spectra, options.threads, reference.transfer);
   const fit::Dataset data = fit::dataset(reference, spectra, {true, 0, {}, 0});
   const fit::SkyState state =
       fit::start_state(preset.atmosphere, static_cast<int>(data.scans.size()));
@@ -111,9 +112,11 @@ std::vector<fit::ModelComparison> compare_all(const CompareOptions& options,
     };
     progress.show(share * static_cast<double>(i), names[i]);
     const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-    rows.push_back(
-        fit::compare_model(reference, spectra, *make_sky_model(names[i], spectra, options.threads),
-                           preset.atmosphere, how.exclude_sun, options.fitted ? &how : nullptr));
+    rows.push_back(fit::compare_model(reference, spectra,
+                                      *make_sky_model(names[i], spectra, options.threads,
+                                                      transfer_for(reference, options.scalar)),
+                                      preset.atmosphere, how.exclude_sun,
+                                      options.fitted ? &how : nullptr));
   }
   return rows;
 }
@@ -162,7 +165,7 @@ plot::Comparison figure_of(const refs::Reference& reference,
 
 plot::FisheyeFigure fisheye_of(const refs::Reference& reference,
                                const std::vector<fit::ModelComparison>& rows, const Preset& preset,
-                               int threads) {
+                               Transfer transfer, int threads) {
   constexpr std::size_t kMostSuns = 5;
   std::set<double> all;
   for (const refs::Sample& sample : reference.samples) all.insert(sample.sun_zenith);
@@ -177,7 +180,7 @@ plot::FisheyeFigure fisheye_of(const refs::Reference& reference,
   for (const fit::ModelComparison& row : rows) {
     const Atmosphere<double>& atmosphere =
         row.fitted ? row.fit->preset.atmosphere : preset.atmosphere;
-    const auto model = make_sky_model(row.model, spectra, threads);
+    const auto model = make_sky_model(row.model, spectra, threads, transfer);
     plot::FisheyeRow strip{row.model, {}};
     for (const double sun : figure.sun_zenith_deg) {
       try {
@@ -221,7 +224,8 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
         figure_of(reference, rows, parse_number("--exclude-sun-deg", options.exclude_sun));
     if (figure.curves.empty()) return;
     plot::write_comparison(figure, {staging / kFigureFiles[0], staging / kFigureFiles[1]});
-    plot::write_fisheye(fisheye_of(reference, rows, preset, options.threads),
+    plot::write_fisheye(fisheye_of(reference, rows, preset, transfer_for(reference, options.scalar),
+                                   options.threads),
                         {staging / kFisheyeFile});
   });
   print(options.json ? json_text(json) : text);
@@ -256,6 +260,7 @@ void add_compare_command(CLI::App& app) {
       ->add_option("--exclude-sun-deg", options->exclude_sun, "Leave out samples closer to the sun")
       ->type_name("ANGLE")
       ->capture_default_str();
+  add_scalar_option(*command, options->scalar);
   add_result_options(*command, options->out, options->force, options->json, "comparison.json");
   add_threads_option(*command, options->threads);
   command->footer(

@@ -45,7 +45,9 @@ void run_export(const ExportArguments& arguments) {
   facts.sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
   const Preset preset = preset_named(arguments.preset);
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-  const auto model = make_sky_model("reference", spectra, arguments.threads);
+  const auto truth = make_sky_model("reference", spectra, arguments.threads),
+             scalar = make_sky_model("reference", spectra, arguments.threads, Transfer::kScalar);
+  const fit::Models models{*truth, *scalar};
   fit::EngineAtmosphere restricted =
       fit::engine_atmosphere(fit::engine_form(preset.atmosphere, spectra, engine->lobe));
   engine->restrict_to(restricted);
@@ -53,12 +55,12 @@ void run_export(const ExportArguments& arguments) {
   start.star = preset.atmosphere.star;
   Progress progress("refitting for " + std::string(engine->name));
   fit::EngineAtmosphere exported = fit::engine_atmosphere(
-      fit::refitted(*model, spectra, preset.atmosphere, start, engine->free(),
+      fit::refitted(models, spectra, preset.atmosphere, start, engine->free(),
                     [&](double done) { progress.show(done, "parameters"); }));
   engine->restrict_to(exported);  // to the ranges of its properties
   Atmosphere<double> shown = fit::atmosphere_of(exported);
   shown.star = preset.atmosphere.star;
-  facts.loss = fit::loss_text(fit::sky_loss(*model, spectra, preset.atmosphere, shown));
+  facts.loss = fit::loss_text(fit::sky_loss(models, spectra, preset.atmosphere, shown));
   facts.preset = plain(preset.name);
   facts.star = preset.atmosphere.star;
   write_whole_file(arguments.out, engine->write(exported, facts));
@@ -122,9 +124,10 @@ void add_export_command(CLI::App& app) {
   command.footer("Programs:\n" + named_lines(fit::engines()) +
                  "\nWhat the program cannot hold (a second lobe, layers, heights that it fixes, a "
                  "spectrum) is\n"
-                 "refitted to the preset's sky by the model reference, and the rest is stated as "
-                 "the loss. The\n"
-                 "program's own approximations come on top of it.\n"
+                 "refitted to the preset's sky by the model reference, without polarisation, which "
+                 "such programs\n"
+                 "leave out, and the rest is stated as the loss. The program's own approximations "
+                 "come on top.\n"
                  "\n"
                  "Example: skyfit export fitted/preset.json --to unreal --out sky.json");
   command.callback([arguments] { run_export(*arguments); });

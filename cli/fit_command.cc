@@ -37,12 +37,12 @@ FinishedFit fit_with_progress(const refs::Reference& reference, const SkyModel& 
 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
-  const auto model =
-      make_sky_model(arguments.model, refs::standard_spectral_data(), arguments.threads);
-  const fit::FitOptions options = fit_options(arguments, *model, command);
-  const fit::CheckOptions checks = check_options(arguments);
   refs::Reference reference = load_references(arguments.reference, arguments.sun_zenith,
                                               arguments.sampling, arguments.import, command);
+  const auto model = make_sky_model(arguments.model, refs::standard_spectral_data(),
+                                    arguments.threads, transfer_for(reference, arguments.scalar));
+  const fit::FitOptions options = fit_options(arguments, *model, command);
+  const fit::CheckOptions checks = check_options(arguments);
   if (!arguments.keep_absorption_bands) refs::mask_absorption_bands(reference);
   const FinishedFit finished = fit_with_progress(reference, *model, options, checks);
   Figures figures;
@@ -80,6 +80,7 @@ void add_fit_command(CLI::App& app) {
   command->add_option("--model", options->model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();
+  add_scalar_option(*command, options->scalar);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_threads_option(*command, options->threads);
   command->footer(

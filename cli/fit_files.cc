@@ -75,7 +75,7 @@ bool shows_planes(const std::vector<plot::Sample>& samples, std::size_t scans) {
 
 void draw_comparison(const std::filesystem::path& directory, const plot::FitOutcome& outcome,
                      const SkyModel& model, Figures& figures) {
-  const auto model_named = [&](std::string_view) -> const SkyModel& { return model; };
+  const auto model_named = [&](std::string_view, Transfer) -> const SkyModel& { return model; };
   figures.draw(directory, kComparison, [&] {
     plot::write_comparison(
         plot::comparison_of({&outcome, 1}, refs::spectral_data_of(outcome.preset.atmosphere),

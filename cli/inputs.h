@@ -72,4 +72,10 @@ void add_result_options(CLI::App& command, std::string& out, bool& force, bool& 
 int default_threads();
 void add_threads_option(CLI::App& command, int& threads);
 
+// --scalar: the models `reference` and `tables` without polarisation.
+void add_scalar_option(CLI::App& command, bool& scalar);
+Transfer transfer_of(bool scalar);
+// A reference that was computed without polarisation is compared with a model without.
+Transfer transfer_for(const refs::Reference& reference, bool scalar);
+
 }  // namespace skyfit::cli

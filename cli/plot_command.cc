@@ -60,11 +60,11 @@ void run_plot(const PlotOptions& options) {
   for (const std::string& directory : options.directories)
     fits.push_back(plot::read_fit_outcome(directory));
   const SpectralData spectra = refs::spectral_data_of(fits.front().preset.atmosphere);
-  std::map<std::string, std::unique_ptr<SkyModel>, std::less<>> models;
-  const auto model_named = [&](std::string_view of_fit) -> const SkyModel& {
+  std::map<std::pair<std::string, Transfer>, std::unique_ptr<SkyModel>> models;
+  const auto model_named = [&](std::string_view of_fit, Transfer transfer) -> const SkyModel& {
     const std::string name(options.model.empty() ? of_fit : options.model);
-    auto& model = models[name];
-    if (!model) model = make_sky_model(name, spectra, options.threads);
+    auto& model = models[{name, transfer}];
+    if (!model) model = make_sky_model(name, spectra, options.threads, transfer);
     return *model;
   };
   plot::write_comparison(plot::comparison_of(fits, spectra, model_named), files);

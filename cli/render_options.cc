@@ -218,6 +218,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                   "Sky model: reference, bruneton, bodare, schafhitzel or oneil")
       ->type_name("NAME")
       ->capture_default_str();
+  add_scalar_option(command, options.scalar);
   command.add_option("--out", options.out, "frame.png or frame.exr; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);

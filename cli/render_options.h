@@ -31,7 +31,7 @@ struct RenderOptions {
   std::string view_transform = "hue", glare = "eye";
   std::string primaries = "rec709";
   int samples_per_side = FrameOptions{}.samples_per_side;
-  bool shadows = false, layers = false, gpu = false, stats = false;
+  bool scalar = false, shadows = false, layers = false, gpu = false, stats = false;
   std::vector<std::string> out;
   int threads = default_threads();
 };

@@ -152,6 +152,7 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
   request.scene = parse_scene(options, command);
   request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
   request.model = options.model;
+  request.transfer = transfer_of(options.scalar);
   request.stats = options.stats;
   request.threads = options.threads;
   return request;

@@ -21,6 +21,7 @@ struct RenderRequest {
   Scene scene;
   GraphicsDevice device = GraphicsDevice::kSoftware;
   std::string model;
+  Transfer transfer = Transfer::kVector;
   FrameOptions frame;  // camera, site and sun are those of the sequence
   Sequence sequence;   // of one frame for a single picture and a strip
   bool is_sequence = false;

@@ -14,7 +14,8 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
                              Report report)
     : request_(request),
       report_(std::move(report)),
-      model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads)),
+      model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
+                            request.transfer)),
       renderer_(request.scene, request.device),
       timeline_(std::move(timeline), [this](const Preset& preset) { return tables_of(preset); }) {}
 

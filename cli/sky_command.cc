@@ -11,6 +11,7 @@
 #include "cli/light_check.h"
 #include "cli/output.h"
 #include "cli/sky_table.h"
+#include "cli/stokes_table.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/derived.h"
 #include "model/registry.h"
@@ -30,6 +31,7 @@ struct SkyOptions {
   std::string preset, site_pressure, model = "reference";
   std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength;
   bool luminance = false, color = false, irradiance = false, sigma = false;
+  bool stokes = false, iau = false, scalar = false;
   int orders = 0;
   int threads = default_threads();
 };
@@ -111,13 +113,37 @@ void for_each_point(const SkyGrid& grid, const Row& row) {
 
 // The light of each order of scattering at the points.
 std::vector<SkyValues> orders_of(const Atmosphere<double>& atmosphere, const SkyTable& table,
-                                 const std::vector<SkyPoint>& points, int threads) {
+                                 const std::vector<SkyPoint>& points, int threads,
+                                 Transfer transfer) {
   std::vector<SkyValues> orders;
   ReferenceOptions options;
   options.threads = threads;
+  options.transfer = transfer;
   for (options.order = 1; options.order <= table.orders; ++options.order)
     orders.push_back(ReferenceModel(options).radiance(atmosphere, table.nodes, points, {}));
   return orders;
+}
+
+constexpr const char* kPlaceColumns =
+    "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,";
+std::string place(double altitude, double sun, double view, double azimuth) {
+  return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth);
+}
+
+void print_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
+                  const SkyTable& table, PolarisationAngle angle) {
+  constexpr std::size_t kParameters = 3;  // I, Q, U
+  const std::vector<SkyPoint> points = points_of(grid, kParameters);
+  const StokesValues stokes = model.stokes(atmosphere, table.nodes, points, {});
+  check_light(stokes.i, table.nodes, points);
+  print(stokes_header(kPlaceColumns));
+  int point = 0;
+  std::string text;
+  for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
+    text.clear();
+    append_stokes(place(altitude, sun, view, azimuth), stokes, table.nodes, point++, angle, text);
+    print(text);
+  });
 }
 
 void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
@@ -125,14 +151,14 @@ void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
   const std::vector<SkyPoint> points = points_of(grid, 1 + table.orders);
   const SkyValues sky = model.radiance(atmosphere, table.nodes, points, table.derivatives());
   check_light(sky, table.nodes, points);
-  const std::vector<SkyValues> orders = orders_of(atmosphere, table, points, threads);
-  print(header(table, "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,"));
+  const std::vector<SkyValues> orders =
+      orders_of(atmosphere, table, points, threads, model.transfer());
+  print(header(table, kPlaceColumns));
   int point = 0;
   fmt::memory_buffer text;
   for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
     text.clear();
-    append_place(table, fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth),
-                 sky, orders, point++, 1, text);
+    append_place(table, place(altitude, sun, view, azimuth), sky, orders, point++, 1, text);
     print({text.data(), text.size()});
   });
 }
@@ -161,11 +187,17 @@ void run_sky(const SkyOptions& options) {
   table.orders = options.orders;
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--model", options.model, "expected reference with --orders");
+  if (options.stokes && options.wavelength.empty())
+    throw UsageError("--wavelength-nm", "", "expected wavelengths with --stokes");
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
     set_site_pressure(preset.atmosphere, *pressure);
-  const auto model = make_sky_model(options.model, spectra, options.threads);
-  if (options.irradiance) {
+  const auto model =
+      make_sky_model(options.model, spectra, options.threads, transfer_of(options.scalar));
+  if (options.stokes) {
+    print_stokes(*model, preset.atmosphere, grid, table,
+                 options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise);
+  } else if (options.irradiance) {
     print_irradiance(*model, preset.atmosphere, grid, table);
   } else {
     print_sky(*model, preset.atmosphere, grid, table, options.threads);
@@ -219,6 +251,21 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
       command.add_flag("--sigma", options.sigma,
                        "Print one standard deviation after each value, from the covariance of a\n"
                        "fitted preset");
+  auto* const stokes =
+      command
+          .add_flag("--stokes", options.stokes,
+                    "Print radiance, Q, U, degree and angle of linear polarisation at\n"
+                    "--wavelength-nm")
+          ->excludes(luminance)
+          ->excludes(color)
+          ->excludes(irradiance)
+          ->excludes(sigma);
+  command
+      .add_flag("--iau", options.iau,
+                "Count U and the angle counter-clockwise, as the International Astronomical\n"
+                "Union does")
+      ->needs(stokes);
+  add_scalar_option(command, options.scalar);
   command
       .add_option(
           "--orders", options.orders,
@@ -229,7 +276,8 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
       ->check(CLI::Range(1, kMaxOrders).description(""))
       ->excludes(color)
       ->excludes(irradiance)
-      ->excludes(sigma);
+      ->excludes(sigma)
+      ->excludes(stokes);
   add_threads_option(command, options.threads);
 }
 
@@ -260,11 +308,25 @@ void add_sky_command(CLI::App& app) {
       "orders leave out the horizontal coupling (docs/theory), so that order_higher holds the\n"
       "difference and may be negative.\n"
       "\n"
+      "--stokes prints Q and U in the unit of the radiance I, in the meridian plane of the view, "
+      "which\n"
+      "holds the line of sight and the zenith: Q > 0 is light polarised along that plane, U > 0 "
+      "along\n"
+      "the direction half-way between up and right as the observer sees them. The angle of linear\n"
+      "polarisation counts clockwise from up; --iau changes the sign of U and of the angle. "
+      "Azimuths\n"
+      "count counter-clockwise from above, view less sun. Coulson's and Natraj's tables hold -Q "
+      "and\n"
+      "-U. Air alone polarises: what an aerosol scattered last counts as unpolarised, and V is "
+      "0.\n"
+      "\n"
       "Examples:\n"
       "  skyfit sky --preset earth-clear --sun-zenith-deg 30 --view-zenith-deg 0:85:5 "
       "--azimuth-deg 0,180\n"
       "  skyfit sky --preset fitted/preset.json --sun-zenith-deg 0:80:10 --irradiance --sigma\n"
       "  skyfit sky --preset earth-clear --sun-zenith-deg 88 --view-zenith-deg 85 --color\n"
+      "  skyfit sky --preset earth-clear --sun-zenith-deg 80 --view-zenith-deg 0 --wavelength-nm "
+      "450 --stokes\n"
       "  skyfit sky --preset earth-clear --sun-zenith-deg 60 --view-zenith-deg 0:85:5 --orders 4");
   command->callback([options] { run_sky(*options); });
 }

@@ -22,6 +22,7 @@ struct SkyMapArguments {
   std::string preset, projection = "equirectangular", size = "512", out, sun_file;
   std::string sun_zenith, sun_azimuth = "0", altitude = "0", wavelengths, primaries = "rec709";
   std::string sun = "in", ground = "filled", model = "reference";
+  bool scalar = false;
   int threads = default_threads();
 };
 
@@ -74,6 +75,7 @@ void add_metadata(const Preset& preset, const SkyMapArguments& arguments,
   map.metadata = {{"skyfit:preset", preset_to_json(preset)},
                   {"skyfit:projection", arguments.projection},
                   {"skyfit:model", arguments.model},
+                  {"skyfit:transfer", std::string(transfer_name(transfer_of(arguments.scalar)))},
                   {"skyfit:unit", map.is_xyz ? "cd/m^2" : "W m-2 sr-1 nm-1"},
                   {"skyfit:sun", sun_json(map, options, preset.atmosphere.star).dump()},
                   {"skyfit:sun_disc", arguments.sun},
@@ -115,7 +117,8 @@ void run_sky_map(const SkyMapArguments& arguments) {
   }
   const Preset preset = preset_named(arguments.preset);
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-  const auto model = make_sky_model(arguments.model, spectra, arguments.threads);
+  const auto model =
+      make_sky_model(arguments.model, spectra, arguments.threads, transfer_of(arguments.scalar));
   Progress progress("mapping the sky");
   options.progress = [&](double done) { progress.show(done, arguments.projection); };
   SkyMap map =
@@ -159,6 +162,7 @@ void add_sky_map_command(CLI::App& app) {
   option("--primaries", arguments->primaries, "Of the colour, cd/m^2: rec709, rec2020 or xyz",
          "NAME");
   option("--model", arguments->model, "Sky model", "NAME");
+  add_scalar_option(command, arguments->scalar);
   add_threads_option(command, arguments->threads);
   command.footer(
       "Projections:\n" + named_lines(map_projections()) +

@@ -36,10 +36,17 @@ Reference joint_reference(const std::vector<Reference>& references) {
   joint.name = fmt::format("{} and {} more", references.front().name, references.size() - 1);
   joint.description = fmt::format("{} references together", references.size());
   joint.quantity = references.front().quantity;
+  joint.transfer = references.front().transfer;
   for (const Reference& reference : references) {
     if (reference.quantity != joint.quantity) {
       throw std::invalid_argument(fmt::format("{}: {}: expected {} as in {}", reference.name,
                                               unit_of(reference.quantity), unit_of(joint.quantity),
+                                              references.front().name));
+    }
+    if (reference.transfer != joint.transfer) {
+      throw std::invalid_argument(fmt::format("{}: {} transfer: expected {} as in {}",
+                                              reference.name, transfer_name(reference.transfer),
+                                              transfer_name(joint.transfer),
                                               references.front().name));
     }
     joint.notes.insert(joint.notes.end(), reference.notes.begin(), reference.notes.end());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data_refs/solar_position.h"
+#include "model/transfer.h"
 
 namespace skyfit::refs {
 
@@ -50,7 +51,9 @@ struct Reference {
   std::string description;  // one line, with the source
   Quantity quantity = Quantity::kRelativeLuminance;
   std::vector<Sample> samples;
-  std::vector<Scan> scans;         // indexed by Sample::scan; empty when nothing is known of them
+  std::vector<Scan> scans;  // indexed by Sample::scan; empty when nothing is known of them
+  // What the values were computed with: a model is compared under the same. Nature's is the vector.
+  Transfer transfer = Transfer::kVector;
   std::vector<std::string> notes;  // what the reader of a measured sky concluded or left out
 };
 

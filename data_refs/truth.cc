@@ -23,6 +23,7 @@ struct TruthTable {
   TruthEntry entry;
   std::string_view file;                 // in truth/
   std::string_view plane_parallel_case;  // of those of that file; empty: Monte Carlo
+  Transfer transfer = Transfer::kScalar;
 };
 constexpr TruthTable kTables[] = {
     {{"truth:earth-550nm-ground", "Monte Carlo, clear air over a spherical Earth, 550 nm"},
@@ -73,6 +74,7 @@ Reference truth_reference(std::string_view name) {
   reference.name = name;
   reference.description = table.entry.description;
   reference.quantity = Quantity::kSpectralRadiance;
+  reference.transfer = table.transfer;
   std::map<double, int> scan_of_sun;
   for (const CsvRecord& record : csv.records()) {
     if (!monte_carlo && (csv.text(record, "case") != table.plane_parallel_case ||

@@ -173,6 +173,7 @@ class Fit {
     result_.pointing = pointing_of(options_, reference_);
     result_.exclude_sun = options_.exclude_sun;
     result_.model_name = model_.name();
+    result_.transfer = model_.transfer();
     result_.start_name = options_.start ? options_.start->name : "defaults";
     result_.version = SKYFIT_VERSION;
     result_.samples_left_out = refs::samples_left_out(result_.reference);

@@ -140,6 +140,7 @@ std::optional<ModelErrors> evaluated(const refs::Reference& reference, const Sky
 
 // One row of the table as text fields, in the order of kColumns.
 constexpr std::string_view kColumns[] = {"model",
+                                         "transfer",
                                          "state",
                                          "samples",
                                          "rms_log_percent",
@@ -156,7 +157,9 @@ constexpr std::string_view kColumns[] = {"model",
 
 nlohmann::json fields(const refs::Reference& reference, const ModelComparison& row, bool fitted) {
   const std::optional<ModelErrors>& errors = fitted ? row.fitted : row.unfitted;
-  nlohmann::json line = {{"model", row.model}, {"state", fitted ? "fitted" : "unfitted"}};
+  nlohmann::json line = {{"model", row.model},
+                         {"transfer", transfer_name(row.transfer)},
+                         {"state", fitted ? "fitted" : "unfitted"}};
   if (errors) {
     const refs::Sample& worst = reference.samples[errors->worst];
     line["samples"] = errors->samples;
@@ -234,6 +237,7 @@ ModelComparison compare_model(const refs::Reference& reference, const SpectralDa
                               double exclude_sun, const FitOptions* options) {
   ModelComparison row;
   row.model = std::string(model.name());
+  row.transfer = model.transfer();
   if (dataset(reference, spectra, {false, exclude_sun, {}, 0}).samples.empty()) {
     throw std::invalid_argument(
         fmt::format("{}: no sample with weight is farther than {:.6g} deg from the sun, expected "
@@ -271,8 +275,11 @@ std::string comparison_text(const refs::Reference& reference,
   std::string text = fmt::format(
       "Reference {}: {}\n"
       "RMS of log(model/reference) with a free scale per sun position; worst direction as sun "
-      "zenith/view zenith/azimuth.\n\n",
-      reference.name, reference.description);
+      "zenith/view zenith/azimuth.\n{}\n",
+      reference.name, reference.description,
+      reference.transfer == Transfer::kScalar
+          ? "The reference was computed without polarisation; so are the models.\n"
+          : "");
   text += fmt::format(kRow, "model", "", "samples", "RMS", "scale", "worst", "at", "precompute",
                       "per direction", "tables");
   text += fmt::format(kRow, "", "", "", "%", "ref/model", "%", "deg", "s", "us", "MB");

@@ -24,6 +24,7 @@ struct ModelErrors {
 
 struct ModelComparison {
   std::string model;
+  Transfer transfer = Transfer::kScalar;
   std::string problem;  // what it cannot do of the reference; empty: all
   std::optional<ModelErrors> unfitted;
   std::optional<ModelErrors> fitted;

@@ -21,22 +21,27 @@ namespace skyfit {
 namespace {
 
 template <class Model>
-std::unique_ptr<SkyModel> make(const SpectralData&, int) {
+std::unique_ptr<SkyModel> make(const SpectralData&, int, Transfer) {
   return std::make_unique<Model>();
 }
 
 template <class Model>
-std::unique_ptr<SkyModel> make_threaded(const SpectralData&, int threads) {
+std::unique_ptr<SkyModel> make_threaded(const SpectralData&, int threads, Transfer) {
   return std::make_unique<Model>(threads);
 }
 
-std::unique_ptr<SkyModel> make_reference(const SpectralData&, int threads) {
+std::unique_ptr<SkyModel> make_reference(const SpectralData&, int threads, Transfer transfer) {
   ReferenceOptions options;
   options.threads = threads;
+  options.transfer = transfer;
   return std::make_unique<ReferenceModel>(options);
 }
 
-std::unique_ptr<SkyModel> make_preetham(const SpectralData& spectra, int) {
+std::unique_ptr<SkyModel> make_tables(const SpectralData&, int threads, Transfer transfer) {
+  return std::make_unique<TableModel>(threads, transfer);
+}
+
+std::unique_ptr<SkyModel> make_preetham(const SpectralData& spectra, int, Transfer) {
   return std::make_unique<PreethamModel>(spectra);
 }
 
@@ -46,7 +51,7 @@ std::span<const SkyModelEntry> sky_models() {
   static constexpr SkyModelEntry kModels[] = {
       {"reference", "the yardstick: quadrature and converged multiple scattering in shells",
        make_reference},
-      {"tables", "what the renderer looks up: tables of the reference", make_threaded<TableModel>},
+      {"tables", "what the renderer looks up: tables of the reference", make_tables},
       {"bruneton", "Bruneton & Neyret 2008: 4D tables, multiple scattering",
        make_threaded<BrunetonModel>},
       {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering",
@@ -65,10 +70,10 @@ std::span<const SkyModelEntry> sky_models() {
 }
 
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
-                                         int threads) {
+                                         int threads, Transfer transfer) {
   std::vector<std::string_view> names;
   for (const SkyModelEntry& entry : sky_models()) {
-    if (entry.name == name) return entry.make(spectra, threads);
+    if (entry.name == name) return entry.make(spectra, threads, transfer);
     names.push_back(entry.name);
   }
   throw std::invalid_argument(

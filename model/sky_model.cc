@@ -28,6 +28,12 @@ void check_point(std::string_view model, const SkyPoint& p) {
   check(std::isfinite(p.relative_azimuth), "relative azimuth (rad)", p.relative_azimuth, "finite");
 }
 
+StokesValues SkyModel::stokes(const Atmosphere<double>&, std::span<const WavelengthNode>,
+                              std::span<const SkyPoint>, std::span<const Parameter>) const {
+  throw std::invalid_argument(fmt::format(
+      "{} model: gives no Stokes parameters: it is a model of scalar transfer", name()));
+}
+
 ScatteredLight SkyModel::scattered_light(const Atmosphere<double>&, std::span<const WavelengthNode>,
                                          std::span<const SkyPoint>) const {
   throw std::invalid_argument(

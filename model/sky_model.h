@@ -15,6 +15,7 @@
 #include "model/geometry/sky_point.h"
 #include "model/photometry/photometry.h"
 #include "model/tables/sky_rays.h"
+#include "model/transfer.h"
 
 namespace skyfit {
 
@@ -40,6 +41,16 @@ enum Irradiance : int {
 };
 inline constexpr int kIrradianceCount = 4;
 
+// Stokes parameters, each as the radiance of SkyModel::radiance(), per unit unpolarised solar
+// irradiance (1/sr). The reference plane is the meridian plane of the view, which holds the line of
+// sight and the local vertical. Q > 0: polarised along it; U > 0: along the direction half-way
+// between up and right as the observer sees them, clockwise from up (the IAU counts U the other
+// way). Relative azimuths count counter-clockwise from above, view less sun. Air and lobes make no
+// circular polarisation, V = 0.
+struct StokesValues {
+  SkyValues i, q, u;
+};
+
 // Radiances [point][wavelength] of light that air, or the aerosol, scattered last, 1/sr.
 struct ScatteredLight {
   std::vector<double> air, aerosol;
@@ -49,6 +60,8 @@ class SkyModel {
  public:
   virtual ~SkyModel() = default;
   virtual std::string_view name() const = 0;
+  // The models of the literature know no polarisation.
+  virtual Transfer transfer() const { return Transfer::kScalar; }
 
   // Diffuse radiance per unit solar irradiance (1/sr): scattered light and light reflected by the
   // ground, the sun's disc not. `derivatives` lists the parameters to differentiate by; their order
@@ -58,6 +71,13 @@ class SkyModel {
                              std::span<const WavelengthNode> wavelengths,
                              std::span<const SkyPoint> points,
                              std::span<const Parameter> derivatives) const = 0;
+
+  // radiance() with its polarisation, docs/theory (13.14). Throws std::invalid_argument by a model
+  // of scalar transfer, else as radiance() does.
+  virtual StokesValues stokes(const Atmosphere<double>& atmosphere,
+                              std::span<const WavelengthNode> wavelengths,
+                              std::span<const SkyPoint> points,
+                              std::span<const Parameter> derivatives) const;
 
   // The values of Irradiance, in its order, as the points of SkyValues: the integral of radiance()
   // over the sky, and the sun's beam behind the whole of the atmosphere's optical depth, which no
@@ -110,16 +130,23 @@ void check_point(std::string_view model, const SkyPoint& point);
 void check_derivative(std::string_view model, const Atmosphere<double>& atmosphere,
                       const Parameter& parameter);
 
-// Calls of_batch(parameters) -> SkyValues for at most `kBatch` of the derivatives at a time and
-// puts the results together; at least one call.
+// Appends the derivatives of the same values by further parameters.
+inline void append_derivatives(SkyValues& to, const SkyValues& more) {
+  to.derivative.insert(to.derivative.end(), more.derivative.begin(), more.derivative.end());
+  to.parameters += more.parameters;
+}
+inline void append_derivatives(std::vector<SkyValues>& to, const std::vector<SkyValues>& more) {
+  for (std::size_t i = 0; i < to.size(); ++i) append_derivatives(to[i], more[i]);
+}
+
+// Calls of_batch(parameters) -> SkyValues, or a list of them, for at most `kBatch` of the
+// derivatives at a time and puts the results together; at least one call.
 template <std::size_t kBatch, class OfBatch>
-SkyValues in_batches(std::span<const Parameter> derivatives, const OfBatch& of_batch) {
-  SkyValues all = of_batch(derivatives.first(std::min(kBatch, derivatives.size())));
+auto in_batches(std::span<const Parameter> derivatives, const OfBatch& of_batch) {
+  auto all = of_batch(derivatives.first(std::min(kBatch, derivatives.size())));
   for (std::size_t first = kBatch; first < derivatives.size(); first += kBatch) {
-    const SkyValues more =
-        of_batch(derivatives.subspan(first, std::min(kBatch, derivatives.size() - first)));
-    all.derivative.insert(all.derivative.end(), more.derivative.begin(), more.derivative.end());
-    all.parameters += more.parameters;
+    append_derivatives(
+        all, of_batch(derivatives.subspan(first, std::min(kBatch, derivatives.size() - first))));
   }
   return all;
 }

@@ -188,8 +188,9 @@ void run_notebook(notebook::Page& page) {
   const auto samples = plot::compared_samples(reference, two_lobes.model, two_lobes.start_model,
                                               options.exclude_sun);
   const plot::FitOutcome outcome{"two lobes", two_lobes.preset, samples};
-  const plot::Comparison comparison = plot::comparison_of(
-      {&outcome, 1}, spectra, [&](std::string_view) -> const SkyModel& { return *model; });
+  const plot::Comparison comparison =
+      plot::comparison_of({&outcome, 1}, spectra,
+                          [&](std::string_view, Transfer) -> const SkyModel& { return *model; });
   plot::write_comparison(comparison, {page.scratch("comparison.png")});
   page.figure(page.scratch("comparison.png"));
 

@@ -151,8 +151,10 @@ void run_notebook(notebook::Page& page) {
   const refs::Reference truth = refs::truth_reference(truth_name);
   std::vector<fit::ModelComparison> rows;
   for (const std::string name : {"reference", "bruneton", "bodare", "schafhitzel"}) {
-    rows.push_back(fit::compare_model(truth, refs::standard_spectral_data(), *model_named(name),
-                                      refs::truth_preset(truth_name).atmosphere, kCone, nullptr));
+    rows.push_back(fit::compare_model(
+        truth, refs::standard_spectral_data(),
+        *make_sky_model(name, refs::standard_spectral_data(), kThreads, truth.transfer),
+        refs::truth_preset(truth_name).atmosphere, kCone, nullptr));
   }
   std::cout << "against Monte Carlo in haze, nothing fitted\n"
                "model        RMS (%)   scale truth/model\n";

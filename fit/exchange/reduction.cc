@@ -98,13 +98,13 @@ double uv_distance(const Xyz& a, const Xyz& b) {
 
 }  // namespace
 
-SkyLoss sky_loss(const SkyModel& model, const SpectralData& spectra,
-                 const Atmosphere<double>& truth, const Atmosphere<double>& approximate) {
+SkyLoss sky_loss(const Models& models, const SpectralData& spectra, const Atmosphere<double>& truth,
+                 const Atmosphere<double>& approximate) {
   const XyzRule rule = xyz_rule(spectra);
   const refs::Reference reference = sampled();
   const std::vector<SkyPoint> points = points_of(reference);
-  const auto a = colors_of(model, rule, truth, points),
-             b = colors_of(model, rule, approximate, points);
+  const auto a = colors_of(models.truth, rule, truth, points),
+             b = colors_of(models.engine, rule, approximate, points);
   SkyLoss loss;
   double squares = 0;
   int count = 0;
@@ -139,12 +139,12 @@ std::string loss_text(const SkyLoss& loss) {
       loss.worst_uv);
 }
 
-Atmosphere<double> refitted(const SkyModel& model, const SpectralData& spectra,
+Atmosphere<double> refitted(const Models& models, const SpectralData& spectra,
                             const Atmosphere<double>& truth, const Atmosphere<double>& start,
                             const std::vector<Parameter>& free,
                             const std::function<void(double)>& progress) {
   constexpr double kSame = 0.01;  // %
-  if (std::abs(sky_loss(model, spectra, truth, start).worst_percent) < kSame) return start;
+  if (std::abs(sky_loss(models, spectra, truth, start).worst_percent) < kSame) return start;
   FitOptions options;
   options.lobes = 1;
   options.starts = 1;
@@ -156,7 +156,8 @@ Atmosphere<double> refitted(const SkyModel& model, const SpectralData& spectra,
   options.scale = Scale::kFixed;
   options.pointing = Pointing::kStated;
   options.progress = [&](double done, const std::string&) { progress(done); };
-  return fit_atmosphere(spectral_reference(model, spectra, truth), spectra, model, options)
+  return fit_atmosphere(spectral_reference(models.truth, spectra, truth), spectra, models.engine,
+                        options)
       .preset.atmosphere;
 }
 

@@ -153,6 +153,7 @@ json shared_covariance(const Result& result) {
 json record_of(const Result& result) {
   json record = {{"skyfit_version", result.version},
                  {"model", result.model_name},
+                 {"transfer", transfer_name(result.transfer)},
                  {"start", result.start_name},
                  {"reference", reference_json(result)},
                  {"notes", result.reference.notes},

@@ -224,9 +224,20 @@ void read_numbers(const PresetReader& record, Result& result) {
   result.wall_seconds = record.number("wall_seconds");
 }
 
+// Records without one are older than polarisation.
+Transfer transfer_of(const PresetReader& record) {
+  if (!record.has("transfer")) return Transfer::kScalar;
+  const std::string name = record.text("transfer");
+  for (const Transfer transfer : {Transfer::kVector, Transfer::kScalar}) {
+    if (name == transfer_name(transfer)) return transfer;
+  }
+  record.fail_value("transfer", "vector or scalar");
+}
+
 void read_record(const PresetReader& record, Result& result) {
   result.version = record.text("skyfit_version");
   result.model_name = record.text("model");
+  result.transfer = transfer_of(record);
   result.start_name = record.text("start");
   const PresetReader reference = record.object("reference");
   result.reference.name = reference.text("name");

@@ -42,16 +42,16 @@ std::string header(const Result& result) {
   return fmt::format(
       "Fit of {}\n"
       "reference   {}\n"
-      "model       {} (skyfit {}), started from {}\n"
+      "model       {} ({} transfer, skyfit {}), started from {}\n"
       "likelihood  {}\n"
       "samples     {} in {} directions of {} scans, {:.4g} deg around the sun left out\n"
       "solver      {} after {} iterations of all {} starts; {} model solutions, {} with "
       "derivatives\n\n",
-      result.preset.name, result.reference.description, result.model_name, result.version,
-      result.start_name, likelihood_text(result), result.samples, result.directions,
-      result.scans.size(), result.exclude_sun * kDegreesPerRadian, result.termination,
-      result.iterations, result.starts.size(), result.model_evaluations,
-      result.derivative_evaluations);
+      result.preset.name, result.reference.description, result.model_name,
+      transfer_name(result.transfer), result.version, result.start_name, likelihood_text(result),
+      result.samples, result.directions, result.scans.size(),
+      result.exclude_sun * kDegreesPerRadian, result.termination, result.iterations,
+      result.starts.size(), result.model_evaluations, result.derivative_evaluations);
 }
 
 // What is known of the reference, and its samples without weight by reason.

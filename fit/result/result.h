@@ -53,6 +53,7 @@ struct Result {
   Pointing pointing = Pointing::kStated;
   double exclude_sun = 0;  // radians
   std::string model_name, start_name, version;
+  Transfer transfer = Transfer::kVector;  // of the model
   // As fitted: samples closer to the sun than exclude_sun, where the instrument truly points, have
   // weight 0. Read back from a directory it has no samples.
   refs::Reference reference;

@@ -29,6 +29,12 @@ struct Scatterer {
   std::vector<Dual<N>> moments;  // of the delta-M-scaled phase function; further ones are 0
 };
 
+// Whether it has Rayleigh's phase matrix; the light of the others counts as unpolarised.
+template <int N>
+bool polarises(const Scatterer<N>& s) {
+  return s.phase.type == PhaseType::kRayleigh;
+}
+
 // Relative densities of all profiles at one height.
 template <int N>
 using Densities = std::array<Dual<N>, kMostConstituents>;
@@ -39,6 +45,8 @@ struct Optics {
   std::vector<std::array<Dual<N>, kMostShapes>> shape;  // of each profile: its parameters, m
   // Where the density of a profile is 1, 1/m, of all its constituents; the second delta-M-scaled.
   std::vector<Dual<N>> extinction, scaled_extinction;
+  // What Q and U lose along a ray, without what aerosol scatters forward, docs/theory (13.8).
+  std::vector<Dual<N>> polarised_extinction;
   std::vector<Scatterer<N>> scatterers;
   Dual<N> ground_albedo;
 
@@ -51,9 +59,22 @@ struct Optics {
         [=](const Profile& profile) { return profile.density_at_level(low, height, high); });
   }
 
-  Dual<N> optical_depth(const PathColumns& c) const { return depth_by(extinction, c); }
+  Dual<N> optical_depth(const PathColumns& c) const { return optical_depth_by(extinction, c); }
   Dual<N> scaled_optical_depth(const PathColumns& c) const {
-    return depth_by(scaled_extinction, c);
+    return optical_depth_by(scaled_extinction, c);
+  }
+  // docs/theory (2.3) and (2.4). Of an extinction per profile, as those above.
+  Dual<N> optical_depth_by(const std::vector<Dual<N>>& coefficient, const PathColumns& c) const {
+    Dual<N> tau;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      tau.v += coefficient[i].v * c[i].value;
+      for (std::size_t p = 0; p < N; ++p) tau.d[p] += coefficient[i].d[p] * c[i].value;
+      for (std::size_t s = 0; s < profiles[i].shapes(); ++s) {
+        const double by_shape = coefficient[i].v * c[i].by_shape[s];
+        for (std::size_t p = 0; p < N; ++p) tau.d[p] += by_shape * shape[i][s].d[p];
+      }
+    }
+    return tau;
   }
 
  private:
@@ -68,20 +89,6 @@ struct Optics {
       }
     }
     return result;
-  }
-
-  // docs/theory (2.3) and (2.4).
-  Dual<N> depth_by(const std::vector<Dual<N>>& coefficient, const PathColumns& c) const {
-    Dual<N> tau;
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      tau.v += coefficient[i].v * c[i].value;
-      for (std::size_t p = 0; p < N; ++p) tau.d[p] += coefficient[i].d[p] * c[i].value;
-      for (std::size_t s = 0; s < profiles[i].shapes(); ++s) {
-        const double by_shape = coefficient[i].v * c[i].by_shape[s];
-        for (std::size_t p = 0; p < N; ++p) tau.d[p] += by_shape * shape[i][s].d[p];
-      }
-    }
-    return tau;
   }
 };
 
@@ -141,9 +148,17 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
       o.scatterers.push_back(
           {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}});
   }
-  o.scaled_extinction = o.extinction;
+  o.scaled_extinction = o.polarised_extinction = o.extinction;
   o.ground_albedo = ground_albedo_at(a, node.wavelength_nm);
   return o;
+}
+
+// docs/theory (13.8).
+// The share of the scattering that goes forward with its polarisation, from the moments chi_1 and
+// chi_2: the mean of (1 + nu)^2 / 4.
+template <int N>
+Dual<N> kept_polarisation(const std::vector<Dual<N>>& chi) {
+  return Dual<N>(1.0 / 3) + chi[1] * 0.5 + chi[2] * (1.0 / 6);
 }
 
 // docs/theory (2.14).
@@ -153,6 +168,8 @@ Optics<N> optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a, const Wa
   Optics<N> o = true_optics_at(shells, a, node);
   for (Scatterer<N>& s : o.scatterers) {
     s.moments = phase_moments(s.phase, moment_count + 1);
+    if (!polarises(s))
+      o.polarised_extinction[s.profile] -= s.scattering * kept_polarisation(s.moments);
     if (static_cast<int>(s.moments.size()) <= moment_count) continue;  // the rest is 0
     const Dual<N> cut = s.moments.back();
     s.moments.pop_back();

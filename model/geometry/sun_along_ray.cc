@@ -15,6 +15,9 @@ SunAlongRay::SunAlongRay(double bottom_radius, const ViewRay& ray, const SkyPoin
   nu_ = mu * mu_s +
         std::sin(point.view_zenith) * std::sin(point.sun_zenith) * std::cos(point.relative_azimuth);
   nu_ = std::clamp(nu_, -1.0, 1.0);
+  up_ = std::sin(point.view_zenith) * mu_s -
+        mu * std::sin(point.sun_zenith) * std::cos(point.relative_azimuth);
+  right_ = std::sin(point.sun_zenith) * std::sin(point.relative_azimuth);
   radius_mu_s_ = (bottom_radius + point.altitude_m) * mu_s + ray.entry_distance * nu_;
 }
 
@@ -27,6 +30,22 @@ double SunAlongRay::cos_azimuth(const RayPoint& p, double mu_s) const {
   constexpr double kVertical = 1e-9;  // there the series has no azimuth left: Lambda_lm ~ sin^m
   if (sines < kVertical) return 1;
   return std::clamp((nu_ - p.mu * mu_s) / sines, -1.0, 1.0);
+}
+
+// docs/theory (13.4).
+SunAlongRay::Azimuth SunAlongRay::azimuth(const RayPoint& p, double mu_s) const {
+  const double sun_sine = std::sqrt(1 - mu_s * mu_s), sine = std::sqrt(1 - p.mu * p.mu);
+  constexpr double kVertical = 1e-9;  // there the field has no azimuth left
+  if (sun_sine < kVertical) return {};
+  return {std::clamp((sine * nu_ - p.mu * up_) / sun_sine, -1.0, 1.0),
+          std::clamp(right_ / sun_sine, -1.0, 1.0)};
+}
+
+// docs/theory (13.3).
+SunAlongRay::Azimuth SunAlongRay::twice_the_turn() const {
+  const double square = up_ * up_ + right_ * right_;
+  if (square == 0) return {};
+  return {(up_ * up_ - right_ * right_) / square, 2 * up_ * right_ / square};
 }
 
 bool SunAlongRay::lit(const RayPoint& p, double mu_s) const {

@@ -9,6 +9,12 @@ Number rayleigh_phase(Number depolarisation, Number nu) {
          (1.0 + depolarisation + (1.0 - depolarisation) * nu * nu);  // 3 / (8 pi)
 }
 
+// The element of its matrix that polarises unpolarised light: Q in the frame of the scattering plane, negative, for the
+// light is polarised at a right angle to that plane. docs/theory (13.2).
+Number rayleigh_polarising_phase(Number depolarisation, Number nu) {
+  return -0.119366207318921502 * (1.0 - depolarisation) / (2.0 + depolarisation) * (1.0 - nu * nu);  // 3 / (8 pi)
+}
+
 // Its second Legendre moment; the zeroth is 1, the others are 0.
 Number rayleigh_second_moment(Number depolarisation) {
   return (1.0 - depolarisation) / (5.0 * (2.0 + depolarisation));

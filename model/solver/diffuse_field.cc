@@ -73,6 +73,11 @@ int mode_count(const Optics<N>& optics, int moments, double tolerance) {
   return moments;
 }
 
+template <int N>
+bool any_polarises(std::span<const Optics<N>> optics) {
+  return std::ranges::any_of(optics.front().scatterers, polarises<N>);
+}
+
 void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
   LargeArray& out = field.moments[m];
   out.reserve(field.shape.levels * field.shape.level(m));
@@ -128,8 +133,9 @@ std::vector<DiffuseField> solve_diffuse_fields(
     const std::vector<double>& heights, const std::vector<double>& sun_mu, const Streams& streams,
     const HorizontalCoupling& coupling, const DiffuseOptions& options) {
   const int waves = static_cast<int>(optics.size()), moments = options.moments;
+  const bool polarised = options.polarised && any_polarises(optics);
   const FieldShape shape{static_cast<int>(heights.size()), moments, static_cast<int>(sun_mu.size()),
-                         slices};
+                         slices, polarised};
   std::vector<DiffuseField> fields(waves);
   int modes = 0;
   for (const Optics<N>& o : optics)
@@ -147,13 +153,19 @@ std::vector<DiffuseField> solve_diffuse_fields(
     const int width = std::min(kBatchWidth, waves - first), at_once = kBatchWidth / width;
     std::array<const Optics<N>*, batch::kBatchWidth> lane_optics;
     for (int k = 0; k < kBatchWidth; ++k) lane_optics[k] = &optics[first + k % width];
-    const LayerMedium medium = layer_medium<N>(lane_optics, static_cast<std::size_t>(slices - 1),
-                                               heights, sun_mu, columns, streams, moments);
+    const auto medium_of = [&](MediumOf light) {
+      return layer_medium<N>(lane_optics, static_cast<std::size_t>(slices - 1), heights, sun_mu,
+                             columns, streams, moments, light);
+    };
+    const LayerMedium medium = medium_of(MediumOf::kIntensity);
+    std::optional<LayerMedium> medium_of_polarised;
+    if (polarised) medium_of_polarised.emplace(medium_of(MediumOf::kPolarised));
     const auto pack_of = [&](int p) {
-      FourierModes::Modes lane_modes;
+      LaneModes lane_modes;
       for (int k = 0; k < kBatchWidth; ++k)
         lane_modes[k] = std::min(p * at_once + std::min(k / width, at_once - 1), modes - 1);
-      return FourierModes(streams, medium, bases, lane_modes);
+      return FourierModes(streams, medium, polarised ? &*medium_of_polarised : nullptr, bases,
+                          lane_modes);
     };
     const auto unpack_all = [&](const FourierModes& pack, int p) {
       for (int k = 0; k < at_once * width && p * at_once + k / width < modes; ++k)

@@ -12,17 +12,24 @@
 #include <span>
 #include <vector>
 
-#include "model/solver/fourier_modes.h"
+#include "model/solver/rayleigh_stokes.h"
+#include "model/solver/stream_light.h"
 #include "model/solver/sun_grid.h"
 
 namespace skyfit {
 
 // Layout of a field: for each mode m, [level][l - m][sun][slice], slice fastest; slice 0 is the
-// value, slice 1 + p the derivative by parameter p.
+// value, slice 1 + p the derivative by parameter p. The modes 0 to 2 of a polarised field have one
+// more row after the moments of I: the second moment P of Q and U, docs/theory (13.6).
 struct FieldShape {
   int levels = 0, moments = 0, suns = 0, slices = 0;
+  bool polarised = false;
+  bool polarised_mode(int m) const { return polarised && m < kPolarisedModes; }
+  std::size_t rows(int m) const {
+    return static_cast<std::size_t>(moments - m + (polarised_mode(m) ? 1 : 0));
+  }
   std::size_t row() const { return static_cast<std::size_t>(slices) * suns; }
-  std::size_t level(int m) const { return row() * static_cast<std::size_t>(moments - m); }
+  std::size_t level(int m) const { return row() * rows(m); }
 };
 
 struct DiffuseField {
@@ -39,6 +46,7 @@ struct DiffuseOptions {
   double tolerance = 3e-3;
   // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
   int order = 0;
+  bool polarised = true;  // with P of the light that air polarises
 };
 
 // The first sun of the grid that has light from neighbouring places under their own sun. On a

@@ -4,12 +4,29 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace skyfit {
 
+namespace {
+
+std::vector<std::size_t> all_scatterers(const LayerMedium& medium) {
+  std::vector<std::size_t> list(medium.scatterers.size());
+  std::iota(list.begin(), list.end(), 0);
+  return list;
+}
+
+}  // namespace
+
 FourierModes::FourierModes(const Streams& streams, const LayerMedium& medium,
-                           const std::vector<ModeBasis>& bases, const Modes& modes)
-    : streams_(&streams), medium_(&medium), modes_(modes) {
+                           const LayerMedium* polarised, const std::vector<ModeBasis>& bases,
+                           const LaneModes& modes)
+    : streams_(&streams),
+      medium_(&medium),
+      modes_(modes),
+      light_(streams, medium, all_scatterers(medium), modes) {
+  if (polarised && PolarisedModes::any(modes))
+    polarised_.emplace(streams, medium, *polarised, modes);
   const int most = medium.moments - *std::min_element(modes.begin(), modes.end());
   rows_ = {static_cast<std::size_t>((most + 1) / 2), static_cast<std::size_t>(most / 2)};
   set_basis(bases);
@@ -67,115 +84,11 @@ void FourierModes::set_basis(const std::vector<ModeBasis>& bases) {
   }
 }
 
-// docs/theory (4.10).
-// Matrices of the source that radiance makes: of rays that look the same way, and the other way.
-void FourierModes::scattering(int level, Batch& same, Batch& other) const {
-  const std::size_t n = rays(level);
-  same.resize(n * n * kBatchWidth);
-  other.resize(n * n * kBatchWidth);
-  Batch weighted;
-  Batch* const result[2] = {&same, &other};
-  for (std::size_t parity = 0; parity < 2; ++parity) {
-    weighted.resize(analysis_[level][parity].size());
-    batch::scale_rows(omega_[level][parity].data(), analysis_[level][parity].data(),
-                      weighted.data(), rows_[parity], n);
-    batch::multiply(synthesis_[level][parity].data(), weighted.data(), nullptr,
-                    result[parity]->data(), n, rows_[parity], n);
-  }
-  batch::butterfly(same.data(), other.data(), n * n);
-}
-
-// docs/theory (5.3): the ground.
-void FourierModes::eliminate() {
-  reflection_.resize(levels());
-  forward_.resize(levels() - 1);
-  backward_.resize(levels() - 1);
-  const std::size_t n = rays(0);
-  reflection_[0].assign(n * n * kBatchWidth, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      const int ray = static_cast<int>(j);
-      for (std::size_t k = 0; k < kBatchWidth; ++k)
-        at(reflection_[0], n, i, j)[k] =
-            2 * std::numbers::pi * albedo_[k] * streams_->weight(0, ray) * streams_->mu(0, ray);
-    }
-  }
-  Batch same, other, same_above, other_above;
-  scattering(0, same, other);
-  for (int i = 0; i + 1 < levels(); ++i) {
-    scattering(i + 1, same_above, other_above);
-    eliminate_layer(i, same, other, same_above, other_above);
-    same.swap(same_above);
-    other.swap(other_above);
-  }
-}
-
-// docs/theory (5.5) to (5.9).
-// From R_i to R_{i+1}, and the matrices of both sweeps. A limb ray that begins at level i + 1 has
-// U = D there.
-void FourierModes::eliminate_layer(int layer, const Batch& same, const Batch& other,
-                                   const Batch& same_above, const Batch& other_above) {
-  const std::size_t n = rays(layer), above = rays(layer + 1);
-  const LayerMedium::Layer& weights = medium_->layers[layer];
-  const double *t = weights.t.data(), *near = weights.near.data(), *far = weights.far.data();
-  const Batch& reflection = reflection_[layer];
-  Batch down(n * n * kBatchWidth), up(n * n * kBatchWidth);  // sources per D once U = R D
-  batch::multiply(other.data(), reflection.data(), same.data(), down.data(), n, n, n);
-  batch::multiply(same.data(), reflection.data(), other.data(), up.data(), n, n, n);
-
-  // D_i = G [(t + far A1) D' + far A2 U' + near S s + e], one elimination for all four.
-  const std::size_t width = above + 3 * n;
-  Batch matrix(n * n * kBatchWidth, 0.0), right(n * width * kBatchWidth, 0.0);
-  add_diagonal(nullptr, matrix, n, 0, n);
-  add_block(near, down, n, 0, matrix, n, 0, n, n, -1);
-  add_diagonal(t, right, width, 0, n);
-  add_block(far, same_above, above, 0, right, width, 0, n, above);
-  add_block(far, other_above, above, n, right, width, n, n, above - n);
-  add_block(far, other_above, above, 0, right, width, above, n, n);
-  add_block(near, other, n, 0, right, width, above + n, n, n);
-  add_diagonal(nullptr, right, width, above + 2 * n, n);
-  batch::solve(matrix.data(), right.data(), n, width);
-  const Batch from_down = columns_of(right, width, 0, n, above);
-  const Batch from_up = columns_of(right, width, above, n, n);
-
-  // U' = V [(near A3 + H G (t + far A1)) D' + P s + H G e + e'], with U_{i+1} per D_i in H.
-  Batch h(n * n * kBatchWidth, 0.0), product(n * std::max(width, n) * kBatchWidth);
-  add_block(t, reflection, n, 0, h, n, 0, n, n);
-  add_block(far, up, n, 0, h, n, 0, n, n);
-  batch::multiply(h.data(), right.data(), nullptr, product.data(), n, n, width);
-  matrix.assign(n * n * kBatchWidth, 0.0);
-  add_diagonal(nullptr, matrix, n, 0, n);
-  add_block(near, same_above, above, 0, matrix, n, 0, n, n, -1);
-  add_block(nullptr, product, width, above, matrix, n, 0, n, n, -1);
-  Batch upward(n * width * kBatchWidth, 0.0);
-  add_block(near, other_above, above, 0, upward, width, 0, n, above);
-  add_block(near, same_above, above, n, upward, width, n, n, above - n);
-  add_block(nullptr, product, width, 0, upward, width, 0, n, above);
-  add_diagonal(t, upward, width, above, n);
-  add_block(far, same, n, 0, upward, width, above, n, n);
-  add_block(nullptr, product, width, above + n, upward, width, above, n, 2 * n);
-  add_diagonal(nullptr, upward, width, above + 2 * n, n);
-  batch::solve(matrix.data(), upward.data(), n, width);
-
-  Batch& next = reflection_[layer + 1];
-  next = columns_of(upward, width, 0, n, above);
-  Batch& backward = backward_[layer];
-  backward = right;
-  batch::multiply(from_up.data(), next.data(), from_down.data(), product.data(), n, n, above);
-  for (std::size_t i = 0; i < n; ++i)
-    std::copy_n(at(product, above, i, 0), above * kBatchWidth, at(backward, width, i, 0));
-  next.resize(above * above * kBatchWidth, 0.0);
-  for (std::size_t i = n; i < above; ++i) {
-    for (std::size_t k = 0; k < kBatchWidth; ++k) at(next, above, i, i)[k] = 1;
-  }
-  forward_[layer] = columns_of(upward, width, above, n, 3 * n);
-}
-
 // docs/theory (4.9).
 // Values at the rays from moments: first those of the rays that look up.
-FourierModes::Columns FourierModes::at_rays(const std::vector<Parities>& moments,
-                                            std::size_t columns) const {
-  Columns r{columns, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
+StreamColumns FourierModes::at_rays(const std::vector<Parities>& moments,
+                                    std::size_t columns) const {
+  StreamColumns r{columns, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
   for (int i = 0; i < levels(); ++i) {
     const std::size_t n = rays(i);
     Batch* const result[2] = {&r.down[i], &r.up[i]};
@@ -190,22 +103,22 @@ FourierModes::Columns FourierModes::at_rays(const std::vector<Parities>& moments
 }
 
 // Source moments of light's moments.
-std::vector<FourierModes::Parities> FourierModes::scattered(
-    const std::vector<Parities>& moments) const {
+std::vector<FourierModes::Parities> FourierModes::scattered(const std::vector<Parities>& moments,
+                                                            std::size_t columns) const {
   std::vector<Parities> r(moments.size());
   for (std::size_t i = 0; i < r.size(); ++i) {
     for (std::size_t parity = 0; parity < 2; ++parity) {
       r[i][parity].resize(moments[i][parity].size());
       batch::scale_rows(omega_[i][parity].data(), moments[i][parity].data(), r[i][parity].data(),
-                        rows_[parity], suns());
+                        rows_[parity], columns);
     }
   }
   return r;
 }
 
 // Values at the rays of moments times chi.
-FourierModes::Columns FourierModes::sources_by(const Parities& chi,
-                                               const std::vector<Parities>& moments) const {
+StreamColumns FourierModes::sources_by(const Parities& chi,
+                                       const std::vector<Parities>& moments) const {
   std::vector<Parities> q(levels());
   for (int i = 0; i < levels(); ++i) {
     for (std::size_t parity = 0; parity < 2; ++parity) {
@@ -217,64 +130,26 @@ FourierModes::Columns FourierModes::sources_by(const Parities& chi,
   return at_rays(q, suns());
 }
 
-FourierModes::Sources FourierModes::sources_of(const std::vector<Parities>& moments) const {
-  Sources sources;
+StreamSources FourierModes::sources_of(const std::vector<Parities>& moments) const {
+  StreamSources sources;
   for (const Parities& chi : chi_) sources.scatterer.push_back(sources_by(chi, moments));
   for (const Parities& chi : chi_tangent_) sources.phase.push_back(sources_by(chi, moments));
   return sources;
 }
 
-FourierModes::Columns FourierModes::source_function(const Sources& sources) const {
-  Columns r{suns(), std::vector<Batch>(levels()), std::vector<Batch>(levels())};
-  for (int i = 0; i < levels(); ++i) {
-    const std::size_t count = rays(i) * suns();
-    for (auto side : {&Columns::down, &Columns::up}) {
-      Batch& sum = (r.*side)[i];
-      sum.assign(count * kBatchWidth, 0.0);
-      for (std::size_t s = 0; s < sources.scatterer.size(); ++s) {
-        batch::add_scaled(medium_->scatterers[s].share[i].data(),
-                          (sources.scatterer[s].*side)[i].data(), sum.data(), count);
-      }
-    }
-  }
-  return r;
+// Those of the field, with what polarisation makes of it.
+StreamSources FourierModes::diffuse_sources() const {
+  StreamSources sources = sources_of(moments_);
+  if (polarised_) polarised_->add_sources(sources);
+  return sources;
 }
 
-// docs/theory (5.2).
-// What the beam's light, scattered once in a layer, adds to the rays that leave it.
-void FourierModes::beam_sources() {
-  if (beam_source_.count == 0) {
-    beam_ = sources_of(std::vector<Parities>(levels(), sun_basis_));
-    beam_source_ = source_function(beam_);
-  }
-  down_source_.resize(medium_->layers.size());
-  up_source_.resize(medium_->layers.size());
-  for (std::size_t i = 0; i < medium_->layers.size(); ++i) {
-    const LayerMedium::Layer& w = medium_->layers[i];
-    const std::size_t count = w.down.near.size() / kBatchWidth;
-    down_source_[i].resize(count * kBatchWidth);
-    up_source_[i].resize(count * kBatchWidth);
-    batch::blend(w.down.near.data(), beam_source_.down[i].data(), w.down.far.data(),
-                 beam_source_.down[i + 1].data(), down_source_[i].data(), count);
-    batch::blend(w.up.near.data(), beam_source_.up[i + 1].data(), w.up.far.data(),
-                 beam_source_.up[i].data(), up_source_[i].data(), count);
-  }
-}
-
-// Adds near J_i + far J_{i+1} to the rays that look up, near J_{i+1} + far J_i to the others.
-void FourierModes::add_diffuse_sources(const Columns& source, std::size_t columns) {
-  for (std::size_t i = 0; i < medium_->layers.size(); ++i) {
-    const LayerMedium::Layer& w = medium_->layers[i];
-    const std::size_t n = rays(static_cast<int>(i));
-    batch::add_blend(w.near.data(), source.down[i].data(), w.far.data(), source.down[i + 1].data(),
-                     down_source_[i].data(), n, columns);
-    batch::add_blend(w.near.data(), source.up[i + 1].data(), w.far.data(), source.up[i].data(),
-                     up_source_[i].data(), n, columns);
-  }
+void FourierModes::set_beam() {
+  if (!light_.has_beam()) light_.set_beam(sources_of(std::vector<Parities>(levels(), sun_basis_)));
 }
 
 // docs/theory (5.8) and (5.9).
-FourierModes::Columns FourierModes::substitute(const Batch& ground, std::size_t columns) const {
+StreamColumns FourierModes::substitute(const Batch& ground, std::size_t columns) const {
   const std::size_t width = columns * kBatchWidth;
   std::vector<Batch> s(levels());
   s[0] = ground;
@@ -283,12 +158,12 @@ FourierModes::Columns FourierModes::substitute(const Batch& ground, std::size_t 
     const std::size_t n = rays(i);
     stack.clear();
     append(stack, s[i], n * width);
-    append(stack, down_source_[i], n * width);
-    append(stack, up_source_[i], n * width);
+    append(stack, light_.down_source[i], n * width);
+    append(stack, light_.up_source[i], n * width);
     s[i + 1].assign(rays(i + 1) * width, 0.0);
     batch::multiply(forward_[i].data(), stack.data(), nullptr, s[i + 1].data(), n, 3 * n, columns);
   }
-  Columns result;
+  StreamColumns result;
   result.count = columns;
   result.down.resize(levels());
   result.up.resize(levels());
@@ -300,7 +175,7 @@ FourierModes::Columns FourierModes::substitute(const Batch& ground, std::size_t 
     stack = result.down[i + 1];
     append(stack, s[i + 1], n * width);
     append(stack, s[i], n * width);
-    append(stack, down_source_[i], n * width);
+    append(stack, light_.down_source[i], n * width);
     result.down[i].resize(n * width);
     batch::multiply(backward_[i].data(), stack.data(), nullptr, result.down[i].data(), n,
                     above + 3 * n, columns);
@@ -312,7 +187,7 @@ FourierModes::Columns FourierModes::substitute(const Batch& ground, std::size_t 
 }
 
 // docs/theory (4.8).
-std::vector<FourierModes::Parities> FourierModes::analyse(const Columns& columns) const {
+std::vector<FourierModes::Parities> FourierModes::analyse(const StreamColumns& columns) const {
   std::vector<Parities> moments(levels());
   for (int i = 0; i < levels(); ++i) {
     const std::size_t n = rays(i);
@@ -357,71 +232,28 @@ Batch FourierModes::beam_on_ground() const {
   return r;
 }
 
+// docs/theory (13.11).
+// The second moments of I that a unit of the source of polarised light leaves, level by level.
+void FourierModes::set_polarised_response() {
+  const auto n = static_cast<std::size_t>(levels());
+  Batch unit(n * n * kBatchWidth, 0.0);
+  add_diagonal(nullptr, unit, n, 0, n);
+  light_.clear_sources(n);
+  light_.add_diffuse_sources(polarised_->intensity_source(unit, n));
+  const Batch dark(rays(0) * n * kBatchWidth, 0.0);
+  polarised_->set_response(polarised_->second_moments(substitute(dark, n)));
+}
+
 void FourierModes::solve_values() {
-  values_ = substitute(reflected(beam_on_ground()), suns());
-  moments_ = analyse(values_);
-  ground_ = irradiance(values_.down[0], suns());
-}
-
-// What depends on the parameters, applied to the solution, is the source of the derivatives.
-void FourierModes::set_tangent_sources() {
-  const Sources diffuse = sources_of(moments_);
-  for (int i = 0; i + 1 < levels(); ++i) {
-    down_source_[i] = layer_tangent(i, true, diffuse, true);
-    up_source_[i] = layer_tangent(i, false, diffuse, true);
+  const Batch ground = reflected(beam_on_ground());
+  light_.values = substitute(ground, suns());
+  if (polarised_) {
+    polarised_->solve_values(polarised_->second_moments(light_.values));
+    light_.add_diffuse_sources(polarised_->intensity_source(polarised_->moments(), suns()));
+    light_.values = substitute(ground, suns());
   }
-}
-
-// docs/theory (6.2) and (6.3).
-Batch FourierModes::layer_tangent(int layer, bool looks_up, const Sources& diffuse,
-                                  bool near) const {
-  const LayerMedium::Layer& w = medium_->layers[layer];
-  const std::array<int, 2> level =
-      looks_up ? std::array{layer, layer + 1} : std::array{layer + 1, layer};  // near, far
-  const BeamWeights& b = looks_up ? w.down : w.up;
-  const auto of = [&](const Columns& c, int i) {
-    return (looks_up ? c.down : c.up)[static_cast<std::size_t>(level[i])].data();
-  };
-  const std::size_t p_count = medium_->parameters;
-  const Batch zero(near ? 0 : rays(layer) * suns() * kBatchWidth, 0.0);
-  const auto end = [&](int i) {
-    const bool is_near = i == 0, none = is_near && !near;
-    const auto& slopes = is_near ? b.near_slope : b.far_slope;
-    const auto pick = [&](const double* x) { return none ? zero.data() : x; };
-    const auto at_level = static_cast<std::size_t>(level[i]);
-    batch::LayerEndTangent tangent{
-        pick((is_near ? w.near_slope : w.far_slope).data()),
-        pick((is_near ? w.near : w.far).data()),
-        pick((is_near ? b.near : b.far).data()),
-        {pick(slopes[0].data()), pick(slopes[1].data()), pick(slopes[2].data())},
-        {}};
-    for (std::size_t s = 0; s < medium_->scatterers.size(); ++s) {
-      const LayerMedium::Scatterer& scatterer = medium_->scatterers[s];
-      tangent.scatterer[s] = {scatterer.share[at_level].data(),
-                              scatterer.share_tangent[at_level].data(), of(diffuse.scatterer[s], i),
-                              of(beam_.scatterer[s], i)};
-    }
-    return tangent;
-  };
-  Batch out(rays(layer) * suns() * p_count * kBatchWidth);
-  const batch::LayerTangent in{{end(0), end(1)},
-                               medium_->scatterers.size(),
-                               w.t.data(),
-                               of(values_, 1),
-                               w.depth_tangent.data(),
-                               medium_->sun_depth_tangent[level[0]].data(),
-                               medium_->sun_depth_tangent[level[1]].data()};
-  batch::layer_tangent(in, out.data(), rays(layer), suns(), p_count);
-  for (std::size_t q = 0; q < diffuse.phase.size(); ++q) {
-    const LayerMedium::PhaseTangent& phase = medium_->phase_tangents[q];
-    const auto phase_end = [&](int i) {
-      return batch::PhaseTangent{in.end[i].scatterer[phase.scatterer].share, in.end[i].weight,
-                                 of(diffuse.phase[q], i), in.end[i].beam, of(beam_.phase[q], i)};
-    };
-    const batch::PhaseTangent ends[2] = {phase_end(0), phase_end(1)};
-    batch::add_phase_tangent(ends, out.data(), rays(layer), suns(), p_count, phase.parameter);
-  }
-  return out;
+  moments_ = analyse(light_.values);
+  ground_ = irradiance(light_.values.down[0], suns());
 }
 
 // docs/theory (6.4), then (5.8) and (5.9).
@@ -439,49 +271,72 @@ void FourierModes::solve_tangents() {
       }
     }
   }
-  tangents_ = substitute(at_every_ground_ray(on_ground), columns);
-  moment_tangents_ = analyse(tangents_);
-  ground_tangent_ = irradiance(tangents_.down[0], columns);
+  const Batch ground = at_every_ground_ray(on_ground);
+  light_.tangents = substitute(ground, columns);
+  if (polarised_) {
+    polarised_->solve_tangents(polarised_->second_moments(light_.tangents));
+    light_.add_diffuse_sources(
+        polarised_->intensity_source(polarised_->moment_tangents(), columns));
+    light_.tangents = substitute(ground, columns);
+  }
+  moment_tangents_ = analyse(light_.tangents);
+  ground_tangent_ = irradiance(light_.tangents.down[0], columns);
 }
 
 void FourierModes::advance() {
+  const std::size_t width = suns();
   Batch ground;
   if (moments_.empty()) {
-    beam_sources();
+    set_beam();
+    light_.set_beam_sources();
     ground = reflected(beam_on_ground());
   } else {
-    for (auto* sources : {&down_source_, &up_source_}) {
-      for (Batch& source : *sources) std::ranges::fill(source, 0.0);
-    }
-    add_diffuse_sources(at_rays(scattered(moments_), suns()), suns());
+    light_.clear_sources(width);
+    light_.add_diffuse_sources(at_rays(scattered(moments_, width), width));
+    if (polarised_)
+      light_.add_diffuse_sources(polarised_->intensity_source(polarised_->moments(), width));
     ground = reflected(ground_);
   }
-  const std::size_t width = suns();
-  values_ = {width, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
-  values_.down.back().assign(rays(levels() - 1) * width * kBatchWidth, 0.0);
+  if (polarised_)
+    polarised_->advance(moments_.empty() ? Batch() : polarised_->second_moments(light_.values));
+  StreamColumns& values = light_.values;
+  values = {width, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
+  values.down.back().assign(rays(levels() - 1) * width * kBatchWidth, 0.0);
   for (int i = levels() - 2; i >= 0; --i) {
-    Batch& d = values_.down[i] = down_source_[i];
-    add_block(medium_->layers[i].t.data(), values_.down[i + 1], width, 0, d, width, 0, rays(i),
+    Batch& d = values.down[i] = light_.down_source[i];
+    add_block(medium_->layers[i].t.data(), values.down[i + 1], width, 0, d, width, 0, rays(i),
               width);
   }
-  values_.up[0] = ground;
+  values.up[0] = ground;
   for (int i = 0; i + 1 < levels(); ++i) {
     // A ray that begins at level i + 1 comes from its other half.
-    Batch& u = values_.up[i + 1] = values_.down[i + 1];
-    std::ranges::copy(up_source_[i], u.begin());
-    add_block(medium_->layers[i].t.data(), values_.up[i], width, 0, u, width, 0, rays(i), width);
+    Batch& u = values.up[i + 1] = values.down[i + 1];
+    std::ranges::copy(light_.up_source[i], u.begin());
+    add_block(medium_->layers[i].t.data(), values.up[i], width, 0, u, width, 0, rays(i), width);
   }
-  moments_ = analyse(values_);
-  ground_ = irradiance(values_.down[0], width);
+  moments_ = analyse(values);
+  ground_ = irradiance(values.down[0], width);
 }
 
 void FourierModes::solve() {
   eliminate();
-  beam_sources();
+  set_beam();
+  if (polarised_) set_polarised_response();
+  set_beam_sources();
   solve_values();
   if (medium_->parameters == 0) return;
   set_tangent_sources();
   solve_tangents();
+}
+
+void FourierModes::set_beam_sources() {
+  light_.set_beam_sources();
+  if (polarised_) polarised_->set_beam_sources();
+}
+
+void FourierModes::set_tangent_sources() {
+  light_.set_tangent_sources(diffuse_sources());
+  if (polarised_) polarised_->set_tangent_sources();
 }
 
 void FourierModes::append_moments(int lane, int level, LargeArray& out) const {
@@ -496,6 +351,13 @@ void FourierModes::append_moments(int lane, int level, LargeArray& out) const {
       out.push_back(*value);
       for (std::size_t p = 0; p < p_count; ++p, tangent += kBatchWidth) out.push_back(*tangent);
     }
+  }
+  if (!polarised_ || modes_[lane] >= kPolarisedModes) return;
+  const auto row = static_cast<std::size_t>(level) * suns();
+  for (std::size_t j = 0; j < suns(); ++j) {
+    out.push_back(at(polarised_->moments(), 1, row + j, 0)[lane]);
+    for (std::size_t p = 0; p < p_count; ++p)
+      out.push_back(at(polarised_->moment_tangents(), p_count, row + j, p)[lane]);
   }
 }
 

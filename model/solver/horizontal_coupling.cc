@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coupling of suns and azimuth modes, see HorizontalCoupling in model/solver/fourier_modes.h.
+// The coupling of suns and azimuth modes, see HorizontalCoupling in model/solver/stream_light.h.
 #include "model/solver/fourier_modes.h"
 
 namespace skyfit {
 
 // docs/theory (7.3).
 // P_m = df_m/dtheta - m cot f_m for the mode m + 1, Q_m = df_m/dtheta + m cot f_m for m - 1.
-void FourierModes::set_neighbour(const HorizontalCoupling& coupling, int layer,
-                                 const Batch& from_afar, std::size_t parameters, Batch& to_next,
-                                 Batch& to_previous) const {
+void StreamLight::set_neighbour(const HorizontalCoupling& coupling, int layer,
+                                const Batch& from_afar, std::size_t parameters, Batch& to_next,
+                                Batch& to_previous) const {
   const std::size_t width = parameters * kBatchWidth;
   to_next.assign(from_afar.size(), 0.0);
   to_previous.assign(from_afar.size(), 0.0);
@@ -40,20 +40,10 @@ void FourierModes::set_neighbour(const HorizontalCoupling& coupling, int layer,
 
 // docs/theory (7.5).
 // The light that enters a layer at its far end, as it is at the near end.
-void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
+void StreamLight::prepare_coupling(const HorizontalCoupling& coupling, const StreamSources& diffuse,
+                                   const StreamColumns& source_tangent) {
   const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
-  const Sources diffuse = sources_of(moments_);
-  const Columns source = source_function(diffuse);
-  Columns source_tangent;
-  if (p_count > 0) {
-    std::vector<Parities> scattered_tangents = moment_tangents_;
-    for (int i = 0; i < levels(); ++i) {
-      for (std::size_t parity = 0; parity < 2; ++parity)
-        batch::scale_rows(omega_[i][parity].data(), moment_tangents_[i][parity].data(),
-                          scattered_tangents[i][parity].data(), rows_[parity], columns);
-    }
-    source_tangent = at_rays(scattered_tangents, columns);
-  }
+  const StreamColumns source = source_function(diffuse);
   for (std::size_t side = 0; side < 2; ++side) {
     const bool looks_up = side == 0;
     for (auto* v : {&to_next_, &to_previous_}) {
@@ -62,39 +52,37 @@ void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
     for (int i = 0; i + 1 < levels(); ++i) {
       const LayerMedium::Layer& w = medium_->layers[i];
       const int far = looks_up ? i + 1 : i;
-      const auto of = [&](const Columns& c) {
+      const auto of = [&](const StreamColumns& c) {
         return (looks_up ? c.down : c.up)[static_cast<std::size_t>(far)].data();
       };
       Batch x((looks_up ? w.down : w.up).far);
       for (std::size_t k = 0; k < x.size(); ++k) x[k] *= of(beam_source_)[k];
-      batch::add_blend(w.t.data(), of(values_), w.far.data(), of(source), x.data(), rays(i),
-                       suns());
-      set_neighbour(coupling, i, x, 1, to_next_[0][side][i], to_previous_[0][side][i]);
+      batch::add_blend(w.t.data(), of(values), w.far.data(), of(source), x.data(), rays(i), suns());
+      set_neighbour(coupling, i, x, 1, to_next_[kValues][side][i], to_previous_[kValues][side][i]);
       if (p_count == 0) continue;
       Batch dx = layer_tangent(i, looks_up, diffuse, false);
-      batch::add_blend(w.t.data(), of(tangents_), w.far.data(), of(source_tangent), dx.data(),
+      batch::add_blend(w.t.data(), of(tangents), w.far.data(), of(source_tangent), dx.data(),
                        rays(i), columns);
-      set_neighbour(coupling, i, dx, p_count, to_next_[1][side][i], to_previous_[1][side][i]);
+      set_neighbour(coupling, i, dx, p_count, to_next_[kTangents][side][i],
+                    to_previous_[kTangents][side][i]);
     }
   }
 }
 
 // docs/theory (7.4).
 // Adds -psi / 2 (P_{m-1} + Q_{m+1}), in mode 0 -psi Q_1.
-void FourierModes::add_coupling(const HorizontalCoupling& coupling,
-                                const std::vector<std::optional<FourierModes>>& packs, int at_once,
-                                int width, std::size_t columns, std::size_t kind) {
-  const int modes = static_cast<int>(packs.size()) * at_once;
+void StreamLight::add_coupling(const HorizontalCoupling& coupling, const LightOfMode& light_of,
+                               int width, Kind kind) {
+  const std::size_t columns = suns() * (kind == kValues ? 1 : medium_->parameters);
   for (int lane = 0; lane < static_cast<int>(kBatchWidth); ++lane) {
     const int m = modes_[lane];
     const auto add = [&](int neighbour, double factor, bool next) {
-      if (neighbour >= modes) return;
-      const FourierModes& pack = *packs[neighbour / at_once];
-      const int from = neighbour % at_once * width + lane % width;
-      if (pack.modes_[from] != neighbour) return;  // a lane that repeats the last mode
-      const auto& light = (next ? pack.to_next_ : pack.to_previous_)[kind];
+      const OfMode of = light_of(neighbour);
+      if (!of.light) return;
+      const int from = of.first_lane + lane % width;
+      const auto& light = (next ? of.light->to_next_ : of.light->to_previous_)[kind];
       for (std::size_t side = 0; side < 2; ++side) {
-        std::vector<Batch>& source = side == 0 ? down_source_ : up_source_;
+        std::vector<Batch>& source = side == 0 ? down_source : up_source;
         for (std::size_t i = 0; i < source.size(); ++i) {
           const std::size_t n = rays(static_cast<int>(i));
           for (std::size_t r = 0; r < n; ++r) {
@@ -117,15 +105,48 @@ void FourierModes::add_coupling(const HorizontalCoupling& coupling,
   }
 }
 
+void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
+  const std::size_t columns = suns() * medium_->parameters;
+  StreamColumns tangent;
+  if (columns > 0) {
+    tangent = at_rays(scattered(moment_tangents_, columns), columns);
+    if (polarised_)
+      add(polarised_->intensity_source(polarised_->moment_tangents(), columns), tangent);
+  }
+  light_.prepare_coupling(coupling, diffuse_sources(), tangent);
+  if (polarised_) polarised_->prepare_coupling(coupling);
+}
+
 void FourierModes::couple(const HorizontalCoupling& coupling,
                           const std::vector<std::optional<FourierModes>>& packs, int at_once,
                           int width) {
-  beam_sources();
-  add_coupling(coupling, packs, at_once, width, suns(), 0);
+  const auto add_coupling = [&](StreamLight::Kind kind) {
+    // The pack of a mode and its first lane there; null where there is none: a pack's last lanes
+    // may repeat the last mode.
+    const auto pack_of = [&](int mode) -> std::pair<const FourierModes*, int> {
+      if (mode >= static_cast<int>(packs.size()) * at_once) return {};
+      const FourierModes& pack = *packs[mode / at_once];
+      const int lane = mode % at_once * width;
+      if (pack.modes_[lane] != mode) return {};
+      return {&pack, lane};
+    };
+    const auto light_of = [&](int mode) -> StreamLight::OfMode {
+      const auto [pack, lane] = pack_of(mode);
+      return {pack ? &pack->light_ : nullptr, lane};
+    };
+    const auto polarised_of = [&](int mode) -> PolarisedModes::OfMode {
+      const auto [pack, lane] = pack_of(mode);
+      return {pack && pack->polarised_ ? &*pack->polarised_ : nullptr, lane};
+    };
+    light_.add_coupling(coupling, light_of, width, kind);
+    if (polarised_) polarised_->add_coupling(coupling, polarised_of, width, kind);
+  };
+  set_beam_sources();
+  add_coupling(StreamLight::kValues);
   solve_values();
   if (medium_->parameters == 0) return;
   set_tangent_sources();
-  add_coupling(coupling, packs, at_once, width, suns() * medium_->parameters, 1);
+  add_coupling(StreamLight::kTangents);
   solve_tangents();
 }
 

@@ -137,8 +137,14 @@ template <int N>
 class LaneFiller {
  public:
   LaneFiller(const Optics<N>& optics, const FieldColumns& columns, const Streams& streams,
-             std::size_t lane, LayerMedium& medium)
-      : optics_(optics), columns_(columns), streams_(streams), lane_(lane), medium_(medium) {}
+             std::size_t lane, MediumOf light, LayerMedium& medium)
+      : optics_(optics),
+        extinction_(light == MediumOf::kIntensity ? optics.scaled_extinction
+                                                  : optics.polarised_extinction),
+        columns_(columns),
+        streams_(streams),
+        lane_(lane),
+        medium_(medium) {}
 
   void fill_levels(const std::vector<double>& heights) {
     for (std::size_t k = 0; k < optics_.scatterers.size(); ++k) {
@@ -169,7 +175,7 @@ class LaneFiller {
     for (int k = 0; k < streams_.count(i); ++k) {
       PathColumns c = columns_.rays[i * streams_.most() + k];
       c -= columns_.rays[(i + 1) * streams_.most() + k];
-      const Dual<N> depth = optics_.scaled_optical_depth(c);
+      const Dual<N> depth = optics_.optical_depth_by(extinction_, c);
       const DiffuseWeights w = diffuse_weights(depth.v);
       const std::size_t ray = static_cast<std::size_t>(k), at = ray * kBatchWidth + lane_;
       layer.t[at] = w.t;
@@ -197,8 +203,7 @@ class LaneFiller {
   // docs/theory (4.6): the share of each scatterer.
   void set_level(std::size_t level, const Densities<N>& rho) {
     Dual<N> extinction;
-    for (std::size_t k = 0; k < optics_.profiles.size(); ++k)
-      extinction += optics_.scaled_extinction[k] * rho[k];
+    for (std::size_t k = 0; k < optics_.profiles.size(); ++k) extinction += extinction_[k] * rho[k];
     const bool empty = !(extinction.v > 0);
     for (std::size_t k = 0; k < optics_.scatterers.size(); ++k) {
       const Scatterer<N>& scatterer = optics_.scatterers[k];
@@ -214,6 +219,7 @@ class LaneFiller {
   }
 
   const Optics<N>& optics_;
+  const std::vector<Dual<N>>& extinction_;
   const FieldColumns& columns_;
   const Streams& streams_;
   const std::size_t lane_;
@@ -247,7 +253,7 @@ template <int N>
 LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>& optics,
                          std::size_t parameters, const std::vector<double>& heights,
                          const std::vector<double>& sun_mu, const FieldColumns& columns,
-                         const Streams& streams, int moments) {
+                         const Streams& streams, int moments, MediumOf light) {
   LayerMedium m;
   m.moments = moments;
   m.suns = sun_mu.size();
@@ -257,9 +263,10 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>&
   const std::size_t l_count = static_cast<std::size_t>(moments);
   m.sun_depth_tangent.assign(heights.size(), sized(m.suns * parameters));
   m.scatterers.assign(optics[0]->scatterers.size(),
-                      {sized(l_count), std::vector<Batch>(heights.size(), sized(1)),
+                      {false, sized(l_count), std::vector<Batch>(heights.size(), sized(1)),
                        std::vector<Batch>(heights.size(), sized(parameters))});
   for (std::size_t k = 0; k < m.scatterers.size(); ++k) {
+    m.scatterers[k].polarises = polarises(optics[0]->scatterers[k]);
     for (std::size_t p = 0; p < parameters; ++p) {
       const bool changes = std::ranges::any_of(optics, [&](const Optics<N>* o) {
         return std::ranges::any_of(o->scatterers[k].moments,
@@ -287,7 +294,7 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>&
     first[lane] = static_cast<std::size_t>(
         std::find(optics.begin(), optics.begin() + lane, optics[lane]) - optics.begin());
     if (first[lane] < lane) continue;
-    fillers.emplace_back(*optics[lane], columns, streams, lane, m);
+    fillers.emplace_back(*optics[lane], columns, streams, lane, light, m);
     fillers.back().fill_levels(heights);
   }
   tbb::parallel_for(0, streams.levels() - 1, [&](int i) {
@@ -302,10 +309,10 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>&
 template LayerMedium layer_medium<0>(const std::array<const Optics<0>*, batch::kBatchWidth>&,
                                      std::size_t, const std::vector<double>&,
                                      const std::vector<double>&, const FieldColumns&,
-                                     const Streams&, int);
+                                     const Streams&, int, MediumOf);
 template LayerMedium layer_medium<kDerivativesAtOnce>(
     const std::array<const Optics<kDerivativesAtOnce>*, batch::kBatchWidth>&, std::size_t,
     const std::vector<double>&, const std::vector<double>&, const FieldColumns&, const Streams&,
-    int);
+    int, MediumOf);
 
 }  // namespace skyfit

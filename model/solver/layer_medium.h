@@ -35,6 +35,7 @@ struct LayerMedium {
   std::vector<double> sun_mu;
   // Source per extinction of the moment l at a level: sum over scatterers of share chi_l.
   struct Scatterer {
+    bool polarises = false;            // as Rayleigh scattering does
     Batch chi;                         // [l]
     std::vector<Batch> share;          // per level, one element: of the extinction
     std::vector<Batch> share_tangent;  // per level: [parameter]
@@ -69,11 +70,15 @@ struct FieldColumns {
 FieldColumns field_columns(const Shells& shells, const std::vector<double>& heights,
                            const std::vector<double>& sun_mu, const Streams& streams);
 
+// Which light the medium takes along the rays: I under the delta-M-scaled extinction, Q and U under
+// Optics::polarised_extinction. The sun's beam is delta-M-scaled for both.
+enum class MediumOf { kIntensity, kPolarised };
+
 // `parameters` derivatives, the first ones of Dual<N>. The optics keep `moments` moments.
 template <int N>
 LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>& optics,
                          std::size_t parameters, const std::vector<double>& heights,
                          const std::vector<double>& sun_mu, const FieldColumns& columns,
-                         const Streams& streams, int moments);
+                         const Streams& streams, int moments, MediumOf light);
 
 }  // namespace skyfit

@@ -14,10 +14,11 @@ namespace skyfit {
 template <int N>
 struct MultipleScattering<N>::Node {
   int path, node;
-  std::vector<double> lambda;       // [mode][l], from l = m on
-  std::vector<int> index;           // [point][4]
-  std::vector<double> even, odd;    // [point][4]
-  std::vector<double> wave_factor;  // [mode][point]: (2 - delta_m0) cos m phi
+  std::vector<double> lambda;     // [mode][l], from l = m on
+  std::vector<int> index;         // [point][4]
+  std::vector<double> even, odd;  // [point][4]
+  double mu = 0;
+  std::vector<double> wave_factor;  // [mode][point]: (2 - delta_m0) cos m phi; of U 2 sin m phi
 };
 
 // Nodes at one height.
@@ -30,11 +31,28 @@ struct MultipleScattering<N>::Group {
 template <int N>
 struct MultipleScattering<N>::Bundle {
   std::span<const PathWithSuns> paths;
+  Stokes which;
   std::vector<Group> groups;
   std::vector<std::vector<double>> sums;  // per path [point][slice], of one wavelength
 };
 
 namespace {
+
+// cos m phi, of U sin m phi, by Chebyshev's recursion, to out[m * stride].
+void set_waves(const SunAlongRay& sun, const RayPoint& p, double mu_s, Stokes which, double* out,
+               std::size_t stride, int modes) {
+  const SunAlongRay::Azimuth azimuth = which == Stokes::kI
+                                           ? SunAlongRay::Azimuth{sun.cos_azimuth(p, mu_s), 0}
+                                           : sun.azimuth(p, mu_s);
+  const bool sines = which == Stokes::kU;
+  double wave = sines ? 0 : 1, before = sines ? -azimuth.sine : azimuth.cosine;
+  for (int m = 0; m < modes; ++m) {
+    out[m * stride] = m == 0 ? wave : 2 * wave;
+    const double next = 2 * azimuth.cosine * wave - before;
+    before = wave;
+    wave = next;
+  }
+}
 
 double derivative_of(const Dual<0>&, std::size_t) { return 0; }
 template <int N>
@@ -46,12 +64,13 @@ double derivative_of(const Dual<N>& x, std::size_t p) {
 
 template <int N>
 typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
-    std::span<const PathWithSuns> paths) const {
+    std::span<const PathWithSuns> paths, Stokes which) const {
   int modes = 0;
   for (const DiffuseField& field : fields_)
     modes = std::max(modes, static_cast<int>(field.moments.size()));
+  if (which != Stokes::kI) modes = std::min(modes, kPolarisedModes);
   const int moments = fields_.front().shape.moments;
-  Bundle bundle{paths, {}, {}};
+  Bundle bundle{paths, which, {}, {}};
   std::map<double, std::size_t> groups;
   for (std::size_t path = 0; path < paths.size(); ++path) {
     const std::vector<RayPoint>& nodes = paths[path].path->nodes;
@@ -60,7 +79,7 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
       const double x = levels_.coordinate(point.height);
       const auto [at, added] = groups.try_emplace(x, bundle.groups.size());
       if (added) bundle.groups.push_back({levels_.stencil(x), {}});
-      Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, {}};
+      Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, point.mu, {}};
       node.lambda.resize(static_cast<std::size_t>(modes) * moments);
       for (int m = 0; m < modes; ++m)
         normalised_legendre(m, moments, point.mu, &node.lambda[m * moments + m]);
@@ -77,14 +96,8 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
         for (const int k : stencil.index) node.index.push_back(solved_[k]);
         node.even.insert(node.even.end(), stencil.even.begin(), stencil.even.end());
         node.odd.insert(node.odd.end(), stencil.odd.begin(), stencil.odd.end());
-        const double azimuth = point_sun.sun->cos_azimuth(sun_point, mu_s);
-        double cosine = 1, before = azimuth;  // cos m phi by Chebyshev's recursion
-        for (int m = 0; m < modes; ++m) {
-          node.wave_factor[m * points + at_point] = m == 0 ? 1 : 2 * cosine;
-          const double next = 2 * azimuth * cosine - before;
-          before = cosine;
-          cosine = next;
-        }
+        set_waves(*point_sun.sun, sun_point, mu_s, which, &node.wave_factor[at_point], points,
+                  modes);
       }
       bundle.groups[at->second].nodes.push_back(std::move(node));
     }
@@ -112,7 +125,7 @@ void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights
                                      int wave, int m) const {
   const DiffuseField& field = fields_[wave];
   const Optics<N>& optics = optics_[wave];
-  const auto own = static_cast<std::size_t>(field.shape.moments - m),
+  const auto own = field.shape.rows(m), moments = static_cast<std::size_t>(field.shape.moments - m),
              suns = static_cast<std::size_t>(field.shape.suns),
              slices = static_cast<std::size_t>(field.shape.slices), parameters = slices - 1;
   LargeArray scratch, coefficient, tangent, series, by_sun, change;
@@ -125,15 +138,22 @@ void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights
       const Node& node = group.nodes[r];
       const double* const lambda = &node.lambda[m * field.shape.moments + m];
       for (std::size_t k = 0; k < own; ++k) {
-        const std::size_t l = k + static_cast<std::size_t>(m);
+        // After the moments, what air makes of the second moment of Q and U.
+        const bool polarised = k == moments;
+        const std::size_t l = polarised ? 2 : k + static_cast<std::size_t>(m);
+        const bool of_air = polarised || bundle.which != Stokes::kI;
+        double function = lambda[l - static_cast<std::size_t>(m)];
+        if (bundle.which != Stokes::kI)
+          function = l == 2 ? component(rayleigh_stokes(m, node.mu), bundle.which) : 0;
         Dual<N> c;
         for (std::size_t s = 0; s < optics.scatterers.size(); ++s) {
           const std::vector<Dual<N>>& chi = optics.scatterers[s].moments;
-          if (l < chi.size()) c += weights[node.path][s][node.node] * chi[l];
+          if (l < chi.size() && (!of_air || polarises(optics.scatterers[s])))
+            c += weights[node.path][s][node.node] * chi[l];
         }
-        coefficient[r * own + k] = c.v * lambda[k];
+        coefficient[r * own + k] = c.v * function;
         for (std::size_t p = 0; p < parameters; ++p)
-          tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * lambda[k];
+          tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * function;
       }
     }
     series.resize(rows * field.shape.row());
@@ -164,8 +184,8 @@ void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights
 }
 
 template <int N>
-void MultipleScattering<N>::add(std::span<const PathWithSuns> paths) const {
-  Bundle bundle = bundle_of(paths);
+void MultipleScattering<N>::add(std::span<const PathWithSuns> paths, Stokes which) const {
+  Bundle bundle = bundle_of(paths, which);
   std::vector<NodeWeights<N>> weights(paths.size());
   for (std::size_t wave = 0; wave < fields_.size(); ++wave) {
     const auto slices = static_cast<std::size_t>(fields_[wave].shape.slices);
@@ -174,8 +194,9 @@ void MultipleScattering<N>::add(std::span<const PathWithSuns> paths) const {
       weights[i] = node_weights(optics_[wave], *paths[i].path);
       bundle.sums.emplace_back(paths[i].suns.size() * slices, 0.0);
     }
-    for (std::size_t m = 0; m < fields_[wave].moments.size(); ++m)
-      add_mode(bundle, weights, static_cast<int>(wave), static_cast<int>(m));
+    const auto modes = static_cast<int>(fields_[wave].moments.size());
+    for (int m = 0; m < (which == Stokes::kI ? modes : std::min(modes, kPolarisedModes)); ++m)
+      add_mode(bundle, weights, static_cast<int>(wave), m);
     for (std::size_t i = 0; i < paths.size(); ++i) {
       for (std::size_t k = 0; k < paths[i].suns.size(); ++k) {
         for (std::size_t p = 0; p < slices; ++p)

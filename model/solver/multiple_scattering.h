@@ -35,13 +35,14 @@ class MultipleScattering {
       : levels_(levels), grid_(grid), solved_(solved), optics_(optics), fields_(fields) {}
 
   static constexpr int kPathsAtOnce = 6;  // rows of a block of kernels::multiply
-  void add(std::span<const PathWithSuns> paths) const;
+  // Adds one Stokes parameter of the light, docs/theory (13.14).
+  void add(std::span<const PathWithSuns> paths, Stokes which) const;
 
  private:
   struct Node;
   struct Group;
   struct Bundle;
-  Bundle bundle_of(std::span<const PathWithSuns> paths) const;
+  Bundle bundle_of(std::span<const PathWithSuns> paths, Stokes which) const;
   void add_mode(Bundle& bundle, std::span<const NodeWeights<N>> weights, int wave, int m) const;
   const double* block_at(const Group& group, const DiffuseField& field, int m,
                          LargeArray& scratch) const;

@@ -16,13 +16,14 @@
 #include "model/atmosphere/derived.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/phase_moments.h"
+#include "model/shared/shared.h"
 #include "model/solver/single_scattering.h"
 #include "model/solver/sky_solution.h"
 
 namespace skyfit {
 namespace {
 
-void check(bool good, std::string_view name, double value, std::string_view expected) {
+void check_option(bool good, std::string_view name, double value, std::string_view expected) {
   check_model_value("reference", good, name, value, expected);
 }
 
@@ -82,12 +83,27 @@ std::vector<char> profiles_of_scatterers(const Optics<N>& optics) {
   return scattering;
 }
 
+// Of I, Q and U, or of I alone.
+template <class T>
+using ByStokes = std::map<Stokes, std::vector<T>>;
+
+// docs/theory (13.2) and (13.3).
+// Per unit of single_scattering(): what a phase function or matrix makes of unpolarised light.
+template <int N>
+Dual<N> phase_of(const Scatterer<N>& scatterer, const SunAlongRay& sun, Stokes which) {
+  if (which == Stokes::kI) return phase_value(scatterer.phase, sun.nu());
+  if (!polarises(scatterer)) return {};
+  const SunAlongRay::Azimuth turn = sun.twice_the_turn();
+  return Dual<N>(
+      Shared<double>{}.rayleigh_polarising_phase(scatterer.phase.depolarisation, sun.nu()) *
+      (which == Stokes::kQ ? turn.cosine : turn.sine));
+}
+
 // Light scattered once, [point][wavelength].
 template <int N>
-std::vector<Dual<N>> single_scattering_of(const Shells& shells,
-                                          const std::vector<Optics<N>>& optics,
-                                          const ViewRays& rays,
-                                          const std::vector<SunAlongRay>& suns) {
+ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<Optics<N>>& optics,
+                                       const ViewRays& rays, const std::vector<SunAlongRay>& suns,
+                                       std::span<const Stokes> wanted) {
   const std::vector<char> scattering = profiles_of_scatterers(optics.front());
   const auto nodes_of = [&](const ViewPath& path, const std::vector<double>& edges) {
     return ray_nodes(shells, scattering, path.ray, edges, N > 0);
@@ -95,7 +111,8 @@ std::vector<Dual<N>> single_scattering_of(const Shells& shells,
   std::vector<RayNodes> nodes(rays.paths.size());
   tbb::parallel_for(std::size_t{0}, nodes.size(),
                     [&](std::size_t i) { nodes[i] = nodes_of(rays.paths[i], {}); });
-  std::vector<Dual<N>> light(suns.size() * optics.size());
+  ByStokes<Dual<N>> light;
+  for (const Stokes which : wanted) light[which].resize(suns.size() * optics.size());
   tbb::parallel_for(std::size_t{0}, suns.size(), [&](std::size_t i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
     if (path.nodes.empty()) return;
@@ -104,11 +121,13 @@ std::vector<Dual<N>> single_scattering_of(const Shells& shells,
     if (!edges.empty()) own = nodes_of(path, edges);
     const RayNodes& along = edges.empty() ? nodes[rays.path_of_point[i]] : own;
     const SunlitNodes sunlit = sunlit_nodes(shells, along, suns[i]);
-    const double nu = suns[i].nu();
     for (std::size_t w = 0; w < optics.size(); ++w) {
       const std::vector<Dual<N>> single = single_scattering(optics[w], along, sunlit);
-      for (std::size_t s = 0; s < single.size(); ++s)
-        light[i * optics.size() + w] += single[s] * phase_value(optics[w].scatterers[s].phase, nu);
+      for (auto& [which, values] : light) {
+        for (std::size_t s = 0; s < single.size(); ++s)
+          values[i * optics.size() + w] +=
+              single[s] * phase_of(optics[w].scatterers[s], suns[i], which);
+      }
     }
   });
   return light;
@@ -118,7 +137,7 @@ std::vector<Dual<N>> single_scattering_of(const Shells& shells,
 template <int N>
 std::vector<double> multiple_scattering_of(const SkySolution<N>& solution, const ViewRays& rays,
                                            const std::vector<SunAlongRay>& suns,
-                                           std::size_t slices_per_point) {
+                                           std::size_t slices_per_point, Stokes which) {
   std::vector<double> light(suns.size() * slices_per_point, 0.0);
   std::vector<PathWithSuns> bundles;
   for (const ViewPath& path : rays.paths) bundles.push_back({&path, {}});
@@ -128,7 +147,8 @@ std::vector<double> multiple_scattering_of(const SkySolution<N>& solution, const
   constexpr std::size_t kAtOnce = MultipleScattering<N>::kPathsAtOnce;
   tbb::parallel_for(std::size_t{0}, (bundles.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t i) {
     scattering.add(
-        std::span(bundles).subspan(i * kAtOnce, std::min(kAtOnce, bundles.size() - i * kAtOnce)));
+        std::span(bundles).subspan(i * kAtOnce, std::min(kAtOnce, bundles.size() - i * kAtOnce)),
+        which);
   });
   return light;
 }
@@ -147,10 +167,32 @@ double not_negative(double radiance) {
   return std::max(radiance, 0.0);
 }
 
+// Puts together what single scattering (and the ground) and multiple scattering give; either may be
+// left out by its order.
 template <int N>
-SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
-                std::span<const SkyPoint> points, std::span<const Parameter> derivatives,
-                const ReferenceOptions& options) {
+SkyValues sum_of(const std::vector<Dual<N>>& single, const std::vector<double>& multiple,
+                 int points, std::size_t wavelengths, std::size_t parameters, bool further) {
+  SkyValues values{points, static_cast<int>(wavelengths), static_cast<int>(parameters), {}, {}};
+  values.value.resize(single.size());
+  values.derivative.resize(single.size() * parameters);
+  for (std::size_t cell = 0; cell < single.size(); ++cell) {
+    const double* more = further ? &multiple[cell * (1 + parameters)] : nullptr;
+    values.value[cell] = single[cell].v + (more ? more[0] : 0);
+    if constexpr (N > 0) {
+      for (std::size_t p = 0; p < parameters; ++p)
+        values.derivative[p * single.size() + cell] = single[cell].d[p] + (more ? more[1 + p] : 0);
+    }
+  }
+  return values;
+}
+
+// The wanted Stokes parameters, in their order.
+template <int N>
+std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
+                             std::span<const WavelengthNode> wavelengths,
+                             std::span<const SkyPoint> points,
+                             std::span<const Parameter> derivatives,
+                             const ReferenceOptions& options, std::span<const Stokes> wanted) {
   const Shells shells = shells_of(atmosphere, Keep::kWhatMatters, derivatives);
   const LevelGrid levels(shells, options.levels);
   const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
@@ -174,68 +216,90 @@ SkyValues solve(const Atmosphere<double>& atmosphere, std::span<const Wavelength
     optics.push_back(optics_at(shells, seeded_atmosphere, node, options.moments));
 
   const bool first = options.order <= 1, further = options.order != 1;
-  std::vector<Dual<N>> single(points.size() * optics.size());
+  ByStokes<Dual<N>> single;
+  for (const Stokes which : wanted) single[which].resize(points.size() * optics.size());
   std::optional<SkySolution<N>> solution;
   tbb::parallel_invoke(
       [&] { solution.emplace(shells, levels, optics, derivatives.size(), needed, options); },
       [&] {
-        if (first) single = single_scattering_of(shells, optics, rays, suns);
+        if (first) single = single_scattering_of(shells, optics, rays, suns, wanted);
       });
-  const std::size_t slices = 1 + derivatives.size();
-  const std::vector<double> multiple =
-      multiple_scattering_of(*solution, rays, suns, optics.size() * slices);
-
-  SkyValues values{static_cast<int>(points.size()),
-                   static_cast<int>(optics.size()),
-                   static_cast<int>(derivatives.size()),
-                   {},
-                   {}};
-  values.value.resize(points.size() * optics.size());
-  values.derivative.resize(values.value.size() * derivatives.size());
-  for (std::size_t cell = 0; cell < values.value.size(); ++cell) {
+  std::vector<Dual<N>>& intensity = single[Stokes::kI];
+  for (std::size_t cell = 0; cell < intensity.size(); ++cell) {
     const std::size_t point = cell / optics.size(), wave = cell % optics.size();
-    const Dual<N> sum =
-        single[cell] + solution->ground(rays.paths[rays.path_of_point[point]], suns[point],
+    intensity[cell] += solution->ground(rays.paths[rays.path_of_point[point]], suns[point],
                                         static_cast<int>(wave), first, further);
-    const double* more = further ? &multiple[cell * slices] : nullptr;
-    values.value[cell] = not_negative(sum.v + (more ? more[0] : 0));
-    if constexpr (N > 0) {
-      for (std::size_t p = 0; p < derivatives.size(); ++p)
-        values.derivative[p * values.value.size() + cell] = sum.d[p] + (more ? more[1 + p] : 0);
-    }
   }
-  return values;
+  const std::size_t slices = 1 + derivatives.size();
+  std::vector<SkyValues> result;
+  for (const Stokes which : wanted) {
+    const std::vector<double> multiple =
+        multiple_scattering_of(*solution, rays, suns, optics.size() * slices, which);
+    result.push_back(sum_of(single[which], multiple, static_cast<int>(points.size()), optics.size(),
+                            derivatives.size(), further));
+  }
+  for (double& radiance : result.front().value) radiance = not_negative(radiance);
+  return result;
+}
+
+// The same, of any number of derivatives.
+std::vector<SkyValues> solve_all(const Atmosphere<double>& atmosphere,
+                                 std::span<const WavelengthNode> wavelengths,
+                                 std::span<const SkyPoint> points,
+                                 std::span<const Parameter> derivatives,
+                                 const ReferenceOptions& options, std::span<const Stokes> wanted) {
+  tbb::task_arena arena(options.threads);
+  return arena.execute([&] {
+    if (derivatives.empty()) return solve<0>(atmosphere, wavelengths, points, {}, options, wanted);
+    return in_batches<kDerivativesAtOnce>(derivatives, [&](std::span<const Parameter> batch) {
+      return solve<kDerivativesAtOnce>(atmosphere, wavelengths, points, batch, options, wanted);
+    });
+  });
 }
 
 }  // namespace
 
 ReferenceModel::ReferenceModel(const ReferenceOptions& options) : options_(options) {
-  check(options.streams >= 4, "streams", options.streams, ">= 4");
-  check(options.moments >= 3 && options.moments <= 2 * options.streams, "moments", options.moments,
-        "in 3 .. 2 streams");
-  check(options.levels >= 4, "levels", options.levels, ">= 4");
-  check(options.threads >= 1, "threads", options.threads, ">= 1");
-  check(options.tolerance > 0, "tolerance", options.tolerance, "> 0");
-  check(options.order >= 0, "order", options.order, ">= 0");
+  check_option(options.streams >= 4, "streams", options.streams, ">= 4");
+  check_option(options.moments >= 3 && options.moments <= 2 * options.streams, "moments",
+               options.moments, "in 3 .. 2 streams");
+  check_option(options.levels >= 4, "levels", options.levels, ">= 4");
+  check_option(options.threads >= 1, "threads", options.threads, ">= 1");
+  check_option(options.tolerance > 0, "tolerance", options.tolerance, "> 0");
+  check_option(options.order >= 0, "order", options.order, ">= 0");
+}
+
+void ReferenceModel::check(const Atmosphere<double>& atmosphere, std::span<const SkyPoint> points,
+                           std::span<const Parameter> derivatives) const {
+  validate(atmosphere);
+  for (const SkyPoint& p : points) check_point("reference", p);
+  for (const Parameter& p : derivatives) check_derivative("reference", atmosphere, p);
+  if (!derivatives.empty())
+    check_option(options_.order == 0, "order", options_.order, "0 where derivatives are asked for");
 }
 
 SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
                                    std::span<const WavelengthNode> wavelengths,
                                    std::span<const SkyPoint> points,
                                    std::span<const Parameter> derivatives) const {
-  validate(atmosphere);
-  for (const SkyPoint& p : points) check_point("reference", p);
-  for (const Parameter& p : derivatives) check_derivative("reference", atmosphere, p);
-  if (!derivatives.empty())
-    check(options_.order == 0, "order", options_.order, "0 where derivatives are asked for");
-  const ReferenceOptions options = resolved(options_, atmosphere);
-  tbb::task_arena arena(options.threads);
-  return arena.execute([&] {
-    if (derivatives.empty()) return solve<0>(atmosphere, wavelengths, points, {}, options);
-    return in_batches<kDerivativesAtOnce>(derivatives, [&](std::span<const Parameter> batch) {
-      return solve<kDerivativesAtOnce>(atmosphere, wavelengths, points, batch, options);
-    });
-  });
+  check(atmosphere, points, derivatives);
+  constexpr Stokes kWanted[] = {Stokes::kI};
+  return solve_all(atmosphere, wavelengths, points, derivatives, resolved(options_, atmosphere),
+                   kWanted)
+      .front();
+}
+
+StokesValues ReferenceModel::stokes(const Atmosphere<double>& atmosphere,
+                                    std::span<const WavelengthNode> wavelengths,
+                                    std::span<const SkyPoint> points,
+                                    std::span<const Parameter> derivatives) const {
+  if (options_.transfer == Transfer::kScalar)
+    return SkyModel::stokes(atmosphere, wavelengths, points, derivatives);
+  check(atmosphere, points, derivatives);
+  constexpr Stokes kWanted[] = {Stokes::kI, Stokes::kQ, Stokes::kU};
+  std::vector<SkyValues> all = solve_all(atmosphere, wavelengths, points, derivatives,
+                                         resolved(options_, atmosphere), kWanted);
+  return {std::move(all[0]), std::move(all[1]), std::move(all[2])};
 }
 
 }  // namespace skyfit

@@ -2,8 +2,8 @@
 // `reference`: the yardstick. Single scattering by quadrature in spherical geometry with the true
 // phase function; multiple scattering from the diffuse field (model/solver/diffuse_field.h), solved
 // in spherical shells, its source integrated along the spherical view ray at the local sun; Lambert
-// ground, ozone. Unpolarised, no refraction. docs/theory/ derives it, docs/accuracy.md states the
-// error against Monte Carlo.
+// ground, ozone. Light that air scattered is polarised, no refraction. docs/theory/ derives it,
+// docs/accuracy.md states the error against Monte Carlo.
 #pragma once
 
 #include "model/sky_model.h"
@@ -21,17 +21,25 @@ struct ReferenceOptions {
   // 0: all light. k > 0: only what met air or ground k times; approximate for suns below 86 deg,
   // where the coupling of neighbouring places is left out of single orders. Values only.
   int order = 0;
+  // Scalar transfer leaves polarisation out: off by up to 13 % in the blue, see docs/accuracy.md.
+  Transfer transfer = Transfer::kVector;
 };
 
 class ReferenceModel final : public SkyModel {
  public:
   explicit ReferenceModel(const ReferenceOptions& options);  // throws std::invalid_argument
   std::string_view name() const override { return "reference"; }
+  Transfer transfer() const override { return options_.transfer; }
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
+  StokesValues stokes(const Atmosphere<double>& atmosphere,
+                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
+                      std::span<const Parameter> derivatives) const override;
 
  private:
+  void check(const Atmosphere<double>& atmosphere, std::span<const SkyPoint> points,
+             std::span<const Parameter> derivatives) const;
   ReferenceOptions options_;
 };
 

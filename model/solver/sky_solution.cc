@@ -34,7 +34,8 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
   fields_ = solve_diffuse_fields<N>(
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
       sun_coupling(grid_, solved_, streams, first),
-      {options.moments, options.tolerance, std::max(options.order - 1, 0)});
+      {options.moments, options.tolerance, std::max(options.order - 1, 0),
+       options.transfer == Transfer::kVector});
 }
 
 // docs/theory (8.6).

@@ -34,17 +34,17 @@ ChebyshevRows chebyshev_rows() {
 }  // namespace
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
-                             const std::vector<double>& heights)
+                             const std::vector<double>& heights, Transfer transfer)
     : levels_(shells, kSourceOptions.levels) {
   std::vector<double> sun_mu;
   for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
   const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
-  const std::vector<DiffuseField> fields =
-      solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams,
-                              sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
-                              {kSourceOptions.moments});
+  const std::vector<DiffuseField> fields = solve_diffuse_fields<0>(
+      shells, optics, 1, levels_.heights(), sun_mu, streams,
+      sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
+      {.moments = kSourceOptions.moments, .polarised = transfer == Transfer::kVector});
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
     const int blocks = scatterer.moments.size() <= kPowers ? 1 : kBlocks;
@@ -98,6 +98,12 @@ void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
           for (std::size_t l = m; l < std::min(lambda.size(), chi.size()); ++l)
             kernels::add_scaled(lambda[l - m] * chi[l].v, &moments[k][(l - m) * suns],
                                 series.data(), suns);
+          if (fields[k].shape.polarised_mode(static_cast<int>(m)) &&
+              polarises(optics[k].scatterers[n])) {
+            // docs/theory (13.6): the row after the moments of I.
+            kernels::add_scaled(lambda[2 - m] * chi[2].v, &moments[k][(lambda.size() - m) * suns],
+                                series.data(), suns);
+          }
           if (m < chi.size())
             add(&kept_[n].values[index(height, i, kept_[n].blocks)], kept_[n].blocks, k, m);
         }

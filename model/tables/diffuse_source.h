@@ -33,7 +33,8 @@ class DiffuseSource {
   static constexpr std::size_t kBlock = 4 * kPowers;
 
   // Kept at `heights`, which ascend from 0 to the top.
-  DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& heights);
+  DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& heights,
+                Transfer transfer);
 
   const SunGrid& suns() const { return suns_; }
 

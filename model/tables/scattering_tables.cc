@@ -23,12 +23,13 @@ constexpr int kLevelsPerTexel = kSourceStep;
 
 class ScatteringBuilder {
  public:
-  ScatteringBuilder(const Shells& shells, const NodeOptics& optics, AtmosphereTables& tables)
+  ScatteringBuilder(const Shells& shells, const NodeOptics& optics, AtmosphereTables& tables,
+                    Transfer transfer)
       : shells_(shells),
         optics_(optics),
         tables_(tables),
         heights_(level_heights()),
-        source_(shells, optics, source_heights(heights_)),
+        source_(shells, optics, source_heights(heights_), transfer),
         kinds_(tables.phases.count()) {
     set_sun_steps();
     beam_.resize(heights_.size());
@@ -223,8 +224,9 @@ class ScatteringBuilder {
 }  // namespace
 
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            AtmosphereTables& tables, const std::function<void(double)>& progress) {
-  ScatteringBuilder(shells, optics, tables).build(progress);
+                            AtmosphereTables& tables, Transfer transfer,
+                            const std::function<void(double)>& progress) {
+  ScatteringBuilder(shells, optics, tables, transfer).build(progress);
 }
 
 }  // namespace skyfit

@@ -49,7 +49,7 @@ NodeValues radiance_of(const AtmosphereTables& tables, const View& view, double 
 
 }  // namespace
 
-TableModel::TableModel(int threads) : threads_(threads) {
+TableModel::TableModel(int threads, Transfer transfer) : threads_(threads), transfer_(transfer) {
   check(threads >= 1, "threads", threads, ">= 1");
 }
 
@@ -94,7 +94,7 @@ std::shared_ptr<const TableModel::Kept> TableModel::tables_for(
     ColorRule four{};  // no colours are asked for; the last wavelength fills the four
     for (std::size_t k = 0; k < 4; ++k)
       four.nodes[k] = wavelengths[std::min(first + k, wavelengths.size() - 1)];
-    made->tables.push_back(compute_tables(atmosphere, four, TableSizes{}, threads_, {}));
+    made->tables.push_back(compute_tables(atmosphere, four, TableSizes{}, threads_, {}, transfer_));
   }
   return made;
 }

@@ -15,8 +15,10 @@ namespace skyfit {
 
 class TableModel final : public SkyModel {
  public:
-  explicit TableModel(int threads);  // throws std::invalid_argument
+  // Throws std::invalid_argument.
+  explicit TableModel(int threads, Transfer transfer = Transfer::kVector);
   std::string_view name() const override { return "tables"; }
+  Transfer transfer() const override { return transfer_; }
   // Has no derivatives: throws std::invalid_argument when asked for any.
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
@@ -33,6 +35,7 @@ class TableModel final : public SkyModel {
   std::shared_ptr<const Kept> tables_for(const Atmosphere<double>& atmosphere,
                                          std::span<const WavelengthNode> wavelengths) const;
   int threads_;
+  Transfer transfer_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Kept> kept_;
 };

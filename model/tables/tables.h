@@ -70,9 +70,11 @@ struct AtmosphereTables {
 // Of the reference's light. Progress in 0..1; may be empty.
 AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
                                 const TableSizes& sizes, int threads,
-                                const std::function<void(double)>& progress);
+                                const std::function<void(double)>& progress,
+                                Transfer transfer = Transfer::kVector);
 
-// Of another model's light, by its scattered_light(); `reference` and `tables` are the above.
+// Of another model's light, by its scattered_light(); `reference` and `tables` are the above,
+// with their transfer.
 // Throws what the model throws.
 class SkyModel;
 AtmosphereTables compute_tables_of(const SkyModel& model, const Atmosphere<double>& atmosphere,

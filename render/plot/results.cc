@@ -23,6 +23,7 @@ using nlohmann::json;
 // What the preset's `fit` member says about the fit.
 struct FitRecord {
   std::string reference, description, model;
+  Transfer transfer;
   refs::Quantity quantity;
   double exclude_sun_deg;
   bool scale_is_profiled;
@@ -42,6 +43,13 @@ T field(const FitOutcome& fit, const char* pointer, const char* expected) {
       fmt::format("{}: fit{}: missing, expected {}", fit.folder, pointer, expected));
 }
 
+// Records without one are older than polarisation.
+Transfer transfer_of(const FitOutcome& fit) {
+  if (!fit.preset.fit.contains("transfer")) return Transfer::kScalar;
+  const auto name = field<std::string>(fit, "/transfer", "vector or scalar");
+  return name == transfer_name(Transfer::kVector) ? Transfer::kVector : Transfer::kScalar;
+}
+
 FitRecord record_of(const FitOutcome& fit) {
   const auto quantity =
       field<std::string>(fit, "/reference/quantity", "luminance_cd_m2 or relative_luminance");
@@ -52,6 +60,7 @@ FitRecord record_of(const FitOutcome& fit) {
   return {field<std::string>(fit, "/reference/name", "the reference's name"),
           field<std::string>(fit, "/reference/description", "one line of text"),
           field<std::string>(fit, "/model", "the name of a sky model"),
+          transfer_of(fit),
           quantity == "luminance_cd_m2" ? refs::Quantity::kLuminance
                                         : refs::Quantity::kRelativeLuminance,
           field<double>(fit, "/reference/exclude_sun_deg", "a number"),
@@ -131,7 +140,7 @@ Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& s
     comparison.exclude_sun_deg = std::max(comparison.exclude_sun_deg, record.exclude_sun_deg);
     comparison.curves.push_back(
         {label_of(fits, i), positive_samples(fits[i]),
-         hemisphere_samples(fits[i], record, spectra, model_named(record.model))});
+         hemisphere_samples(fits[i], record, spectra, model_named(record.model, record.transfer))});
   }
   comparison.title = one_reference ? first.description : "Fits compared";
   comparison.subtitle = subtitle_of(

@@ -27,8 +27,8 @@ struct FitOutcome {
 // std::invalid_argument with one line that names the file, and the line or the field.
 FitOutcome read_fit_outcome(const std::filesystem::path& directory);
 
-// The sky model of a name, of make_sky_model().
-using ModelNamed = std::function<const SkyModel&(std::string_view name)>;
+// The sky model of a name and transfer, of make_sky_model().
+using ModelNamed = std::function<const SkyModel&(std::string_view name, Transfer transfer)>;
 
 // One curve per fit. The panels show the fits' own samples. The maps show the 145 Tregenza patches,
 // on which an analytic reference and the preset are evaluated with the model of the fit; for a

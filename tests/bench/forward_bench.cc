@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The forward model: 4 nodes x 9 suns x 115 directions at the ground, value alone and with ten
-// derivatives, and how the cost grows with directions and wavelengths.
+// derivatives, with polarisation and without, and how the cost grows with directions and
+// wavelengths.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -41,8 +42,9 @@ const std::vector<Parameter> kTen = {
     Parameter::kOzoneColumn,        Parameter::kGroundAlbedo};
 
 void run(benchmark::State& state, int directions, int node_count,
-         const std::vector<Parameter>& derivatives, int threads) {
-  const auto model = make_sky_model("reference", refs::standard_spectral_data(), threads);
+         const std::vector<Parameter>& derivatives, int threads,
+         Transfer transfer = Transfer::kVector) {
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), threads, transfer);
   const auto points = sky_points(directions);
   std::vector<double> nm;
   for (int k = 0; k < node_count; ++k) nm.push_back(450 + 200.0 * (k + 0.5) / node_count);
@@ -57,6 +59,10 @@ void Value(benchmark::State& state) { run(state, 115, 4, {}, static_cast<int>(st
 void ValueAndTenDerivatives(benchmark::State& state) {
   run(state, 115, 4, kTen, static_cast<int>(state.range(0)));
 }
+void ScalarValue(benchmark::State& state) { run(state, 115, 4, {}, 1, Transfer::kScalar); }
+void ScalarValueAndTenDerivatives(benchmark::State& state) {
+  run(state, 115, 4, kTen, 1, Transfer::kScalar);
+}
 void ValueByDirections(benchmark::State& state) {
   run(state, static_cast<int>(state.range(0)), 4, {}, 1);
 }
@@ -66,6 +72,8 @@ void ValueByWavelengths(benchmark::State& state) {
 
 BENCHMARK(Value)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(ValueAndTenDerivatives)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(ScalarValue)->Unit(benchmark::kMillisecond);
+BENCHMARK(ScalarValueAndTenDerivatives)->Unit(benchmark::kMillisecond);
 BENCHMARK(ValueByDirections)->Arg(115)->Arg(230)->Arg(460)->Unit(benchmark::kMillisecond);
 BENCHMARK(ValueByWavelengths)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 

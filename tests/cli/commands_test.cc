@@ -91,6 +91,15 @@ TEST_F(CommandsTest, CompareLeavesTablesAndFigures) {
   EXPECT_EQ(lines(read("compared/comparison.csv")).size(), 7u);
 }
 
+// Monte Carlo of unpolarised light is compared with scalar transfer without being asked to.
+TEST_F(CommandsTest, TruthIsComparedWithItsOwnTransfer) {
+  const json models = json::parse(output({"compare", "--reference", "truth:earth-550nm-ground",
+                                          "--models", "reference", "--json", "--out", "compared"}))
+                          .at("models");
+  EXPECT_EQ(models[0].at("transfer"), "scalar");
+  EXPECT_LT(models[0].at("rms_log_percent").get<double>(), 0.5);
+}
+
 TEST_F(CommandsTest, ModelsFitWhatTheyHave) {
   output({"fit", "--reference", "cie:12", "--model", "nielsen", "--sun-zenith-deg", "20,50",
           "--out", "fitted"});

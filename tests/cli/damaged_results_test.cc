@@ -148,7 +148,7 @@ TEST_F(DamagedResults, OfAnAnalyticSkyAreDrawnOrRefused) {
   const auto draw = [&] {
     const FitOutcome fit = read_fit_outcome(folder_);
     comparison_of({&fit, 1}, refs::standard_spectral_data(),
-                  [&](std::string_view) -> const SkyModel& { return sky; });
+                  [&](std::string_view, Transfer) -> const SkyModel& { return sky; });
     fit::fitted_covariance(fit.preset, (folder_ / "preset.json").string());
   };
   EXPECT_NO_THROW(draw());

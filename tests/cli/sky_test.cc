@@ -2,7 +2,7 @@
 // `skyfit sky --color` is the sum over the spectrum that `skyfit sky --wavelength-nm` prints, and
 // `--sigma` is what a covariance of the parameters makes of numerical derivatives of the values,
 // and
-// `--orders` splits them.
+// `--orders` splits them. `--stokes` gives the same light with its polarisation.
 #include <array>
 #include <cmath>
 #include <map>
@@ -59,6 +59,59 @@ TEST_F(SkyTest, TristimulusValuesAreNotNegative) {
   for (const char* column : {"X_cd_m2", "Y_cd_m2", "Z_cd_m2"}) {
     for (const double value : found.at(column)) EXPECT_GE(value, 0) << column;
   }
+}
+
+// I is the radiance without --stokes; degree and angle follow from Q and U; the sign of the IAU.
+TEST_F(SkyTest, StokesParametersBelongTogether) {
+  const std::vector<std::string> where = {
+      "--preset",      "earth-clear", "--sun-zenith-deg", "60",     "--view-zenith-deg", "0,60",
+      "--azimuth-deg", "0,90",        "--wavelength-nm",  "440,650"};
+  auto stokes = where, iau = where;
+  stokes.emplace_back("--stokes");
+  iau.insert(iau.end(), {"--stokes", "--iau"});
+  const Columns radiance = sky(where), found = sky(stokes), turned = sky(iau);
+  const auto &i = found.at("radiance_per_irradiance_sr"), &q = found.at("q_per_irradiance_sr"),
+             &u = found.at("u_per_irradiance_sr");
+  EXPECT_EQ(i, radiance.at("radiance_per_irradiance_sr"));
+  ASSERT_EQ(i.size(), 8u);
+  constexpr double kRounding = 1e-12;
+  for (std::size_t k = 0; k < i.size(); ++k) {
+    EXPECT_NEAR(found.at("degree_of_linear_polarisation")[k], std::hypot(q[k], u[k]) / i[k],
+                kRounding);
+    const double twice = found.at("angle_of_linear_polarisation_deg")[k] * std::acos(-1.0) / 90;
+    EXPECT_NEAR(std::hypot(q[k], u[k]) * std::cos(twice), q[k], kRounding);
+    EXPECT_NEAR(std::hypot(q[k], u[k]) * std::sin(twice), u[k], kRounding);
+    EXPECT_EQ(turned.at("u_per_irradiance_sr")[k], -u[k]);
+    EXPECT_EQ(turned.at("q_per_irradiance_sr")[k], q[k]);
+  }
+  // The zenith at a right angle to a low sun is polarised strongly, across the sun's vertical.
+  EXPECT_LT(q[0], -0.2 * i[0]);
+}
+
+TEST_F(SkyTest, StokesNeedsWavelengthsAndAModelOfPolarisedLight) {
+  const std::vector<std::string> where = {
+      "sky", "--preset", "earth-clear", "--stokes", "--sun-zenith-deg", "60", "--view-zenith-deg",
+      "0"};
+  expect_refusal(where, {"--wavelength-nm"});
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--scalar"}, {"--model", "nielsen"}}) {
+    auto arguments = where;
+    arguments.insert(arguments.end(), {"--wavelength-nm", "550"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_refusal(arguments, {"Stokes", "scalar"});
+  }
+}
+
+// Opposite a low sun, scalar light of the horizon is too dark in the blue.
+TEST_F(SkyTest, ScalarLightIsAnother) {
+  std::vector<std::string> where = {"--preset",          "earth-clear", "--sun-zenith-deg", "80",
+                                    "--view-zenith-deg", "85",          "--azimuth-deg",    "180",
+                                    "--wavelength-nm",   "400"};
+  const double vector = sky(where).at("radiance_per_irradiance_sr")[0];
+  where.emplace_back("--scalar");
+  const double scalar = sky(where).at("radiance_per_irradiance_sr")[0];
+  EXPECT_LT(scalar, 0.97 * vector);
+  EXPECT_GT(scalar, 0.85 * vector);
 }
 
 TEST_F(SkyTest, ColorIsTheSumOverTheSpectrum) {

@@ -194,7 +194,9 @@ void expect_within(const Layer& layer, double rms_limit) {
   const std::vector<LayerRow> rows = rows_of(layer);
   ASSERT_GT(rows.size(), 50u);
   for (const LayerRow& row : rows) list.push_back(row.point);
-  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  // As the truth: cloud and air of one extinction, without polarisation.
+  const auto model =
+      make_sky_model("reference", refs::standard_spectral_data(), 2, Transfer::kScalar);
   const WavelengthNode green{550, 0};
   const SkyValues sky = model->radiance(a, {&green, 1}, list, {});
   double sum = 0;

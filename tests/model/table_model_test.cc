@@ -20,7 +20,8 @@ constexpr double kEdge = 1e-9;  // rad, so that a limit in degrees includes its 
 
 void expect_near_truth(bool haze) {
   const Errors e = errors(
-      compare_monte_carlo(*make_sky_model("tables", refs::standard_spectral_data(), 2), haze),
+      compare_monte_carlo(
+          *make_sky_model("tables", refs::standard_spectral_data(), 2, Transfer::kScalar), haze),
       [](const SkyPoint& p) {
         return p.sun_zenith < 80 * kDegree + kEdge && p.view_zenith < 85 * kDegree + kEdge;
       });

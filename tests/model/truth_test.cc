@@ -43,21 +43,26 @@ void expect_true(const std::string& name, const std::vector<Compared>& rows) {
 }
 
 TEST(Truth, ClearEarthFromTheGround) {
-  expect_true("clear", compare_monte_carlo(
-                           *make_sky_model("reference", refs::standard_spectral_data(), 2), false));
+  expect_true("clear",
+              compare_monte_carlo(*make_sky_model("reference", refs::standard_spectral_data(), 2,
+                                                  Transfer::kScalar),
+                                  false));
 }
 
 TEST(Truth, HazyEarthFromTheGround) {
-  expect_true("haze", compare_monte_carlo(
-                          *make_sky_model("reference", refs::standard_spectral_data(), 2), true));
+  expect_true("haze",
+              compare_monte_carlo(*make_sky_model("reference", refs::standard_spectral_data(), 2,
+                                                  Transfer::kScalar),
+                                  true));
 }
 
 TEST(Truth, PlaneParallelLimit) {
   for (const char* name : {"R1", "R3", "A3"}) {
-    const Errors all =
-        errors(compare_plane_parallel(
-                   *make_sky_model("reference", refs::standard_spectral_data(), 2), name),
-               [](const SkyPoint&) { return true; });
+    const Errors all = errors(
+        compare_plane_parallel(
+            *make_sky_model("reference", refs::standard_spectral_data(), 2, Transfer::kScalar),
+            name),
+        [](const SkyPoint&) { return true; });
     expect_within(name, all, {0.003, 0.01});
   }
 }
@@ -81,7 +86,8 @@ TEST(Truth, MonteCarlo) {
                                                 {"space", {0.01, 0.04}},
                                                 {"mars", {std::hypot(0.01, 0.0086), 0.04}}};
   ASSERT_EQ(cases.size(), limits.size());
-  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  const auto model =
+      make_sky_model("reference", refs::standard_spectral_data(), 2, Transfer::kScalar);
   for (const auto& [name, rows] : cases) {
     const MonteCarloCase c = monte_carlo_case(name);
     std::vector<SkyPoint> points;

@@ -60,7 +60,7 @@ FitOutcome outcome(const std::string& reference,
 Comparison figure(const std::vector<FitOutcome>& fits) {
   const CosineSky sky;
   return comparison_of(fits, refs::standard_spectral_data(),
-                       [&](std::string_view name) -> const SkyModel& {
+                       [&](std::string_view name, Transfer) -> const SkyModel& {
                          EXPECT_EQ(name, "cosine");
                          return sky;
                        });

@@ -50,6 +50,15 @@ TEST_F(SharedFormulas, PhaseFunctions) {
   }
 }
 
+TEST_F(SharedFormulas, PolarisingPhaseFunction) {
+  std::vector<float> inputs;
+  for (float nu = -1; nu <= 1; nu += 0.125f) inputs.insert(inputs.end(), {0, nu, 0, 0.25f});
+  const auto outputs = run_glsl("#include \"model/shared/phase.glsl\"\n",
+                                "y = vec4(rayleigh_polarising_phase(x.w, x.y));", inputs);
+  for (std::size_t i = 0; i < inputs.size(); i += 4)
+    EXPECT_NEAR(outputs[i], shared_.rayleigh_polarising_phase(0.25, inputs[i + 1]), kFloat);
+}
+
 std::vector<float> rays() {
   std::vector<float> inputs;
   for (const float h : {0.0f, 0.002f, 0.1f, 1.2f, 8.0f, 40.0f, 99.0f}) {

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference model's polarised light agrees with Monte Carlo; its neutral points are where the
+// literature has them; single scattering has the closed form of Rayleigh's matrix.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <numbers>
+
+#include "data_refs/spectra.h"
+#include "model/solver/reference_model.h"
+#include "tests/model/truth.h"
+
+namespace skyfit::truth {
+namespace {
+
+std::shared_ptr<const TabulatedPhase> mie_fine() {
+  TwoColumns table;
+  for (const Row& row : read_rows("mie_fine_550nm.csv")) {
+    table.x.push_back(row.number(0));
+    table.y.push_back(row.number(1) / (4 * std::numbers::pi));
+  }
+  return std::make_shared<TabulatedPhase>(table);
+}
+
+struct StokesCase {
+  Atmosphere<double> atmosphere;
+  double altitude_m = 0;
+};
+
+// The cases of stokes.csv; the coefficients are those of the case's wavelength.
+StokesCase stokes_case(const std::string& name) {
+  StokesCase c;
+  Atmosphere<double>& a = c.atmosphere;
+  a.at("ozone").amount = 0;
+  a.at("rayleigh").phase.depolarisation = 0;
+  set_scattering(a.at("rayleigh"), 550, 0.01216e-3, 0);
+  set_scattering(a.at("mie"), 550, 0, 0);
+  a.ground_albedo = 0.1;
+  if (name.starts_with("rayleigh400")) {
+    a.at("rayleigh").amount = 0.045e-3;
+    a.ground_albedo = 0.3;
+    if (name.ends_with("10km_down")) c.altitude_m = 10e3;
+    return c;
+  }
+  a.at("mie").single_scattering_albedo = 0.9;
+  a.at("mie").phase.g = 0.76;
+  if (name == "miefine550") {
+    a.at("mie").amount = 0.157380e-3;
+    a.at("mie").single_scattering_albedo = 0.944282;
+    a.at("mie").phase.type = PhaseType::kTabulated;
+    a.at("mie").phase.table = mie_fine();
+    return c;
+  }
+  a.top_radius_m = a.bottom_radius_m + 60e3;
+  a.at("mie").amount = name == "haze550_depol" ? 0.15e-3 : 0.004e-3;
+  if (name == "clear440_depol") a.at("rayleigh").amount = 0.032959e-3;
+  return c;
+}
+
+constexpr WavelengthNode kNode{550, 0};
+
+// Root mean squares and largest values of errors that count within suns.
+struct Sum {
+  int count = 0;
+  double squares = 0, worst = 0;
+  void add(double error) {
+    ++count;
+    squares += error * error;
+    worst = std::max(worst, std::abs(error));
+  }
+  double rms() const { return std::sqrt(squares / count); }
+};
+
+struct StokesErrors {
+  Sum i, q, u;  // relative, and shares of I
+};
+StokesErrors stokes_errors(const std::vector<Row>& rows, const StokesValues& model,
+                           double largest_sun_deg) {
+  StokesErrors e;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].number(1) > largest_sun_deg) continue;
+    const double i = rows[k].number(4);
+    e.i.add(model.i.value[k] / i - 1);
+    e.q.add((model.q.value[k] - rows[k].number(5)) / i);
+    e.u.add((model.u.value[k] - rows[k].number(6)) / i);
+  }
+  return e;
+}
+
+TEST(Stokes, AgreesWithMonteCarlo) {
+  std::map<std::string, std::vector<Row>> cases;
+  for (const Row& row : read_rows("stokes.csv")) cases[row.field[0]].push_back(row);
+  ASSERT_EQ(cases.size(), 5u);
+  struct Limits {
+    double sun_deg, rms, worst, polarised_rms;
+  };
+  // The truth's own noise is 0.2 % of I at most.
+  constexpr Limits kLimits[] = {{80, 0.004, 0.015, 0.005}, {88, 0.008, 0.03, 0.005}};
+  for (const auto& [name, rows] : cases) {
+    const StokesCase c = stokes_case(name);
+    std::vector<SkyPoint> points;
+    for (const Row& row : rows) {
+      points.push_back({c.altitude_m, row.number(1) * kDegree, row.number(2) * kDegree,
+                        row.number(3) * kDegree});
+    }
+    const StokesValues model = ReferenceModel({}).stokes(c.atmosphere, {&kNode, 1}, points, {});
+    for (const Limits& limits : kLimits) {
+      const StokesErrors e = stokes_errors(rows, model, limits.sun_deg);
+      std::cout << name << ", suns to " << limits.sun_deg << ": I rms " << 100 * e.i.rms()
+                << " % worst " << 100 * e.i.worst << " %, Q/I rms " << 100 * e.q.rms()
+                << " % worst " << 100 * e.q.worst << " %, U/I rms " << 100 * e.u.rms()
+                << " % worst " << 100 * e.u.worst << " %\n";
+      EXPECT_LT(e.i.rms(), limits.rms) << name;
+      EXPECT_LT(e.i.worst, limits.worst) << name;
+      if (name == "miefine550") continue;  // Q and U of the aerosol are left out
+      EXPECT_LT(e.q.rms(), limits.polarised_rms) << name;
+      EXPECT_LT(e.u.rms(), limits.polarised_rms) << name;
+    }
+  }
+}
+
+// Thin air: P11 and P12 of Rayleigh's matrix, turned from the scattering plane.
+TEST(Stokes, OfThinAirIsTheClosedForm) {
+  StokesCase c = stokes_case("rayleigh400");
+  Atmosphere<double>& a = c.atmosphere;
+  a.ground_albedo = 0;
+  a.at("rayleigh").amount = 1e-9;
+  a.at("rayleigh").phase.depolarisation = 0.03;
+  for (const double view : {0.0, 40.0, 75.0}) {
+    for (const double azimuth : {0.0, 50.0, 130.0, 180.0, 250.0}) {
+      const SkyPoint p{0, 60 * kDegree, view * kDegree, azimuth * kDegree};
+      const StokesValues s = ReferenceModel({}).stokes(a, {&kNode, 1}, {&p, 1}, {});
+      const double nu =
+          std::cos(p.view_zenith) * std::cos(p.sun_zenith) +
+          std::sin(p.view_zenith) * std::sin(p.sun_zenith) * std::cos(p.relative_azimuth);
+      const double degree = 0.97 * (1 - nu * nu) / (1.03 + 0.97 * nu * nu);
+      constexpr double kSecondOrder = 1e-4;  // optical depth 8e-6, 3e-5 along the ray
+      EXPECT_NEAR(std::hypot(s.q.value[0], s.u.value[0]) / s.i.value[0], degree, kSecondOrder);
+    }
+  }
+}
+
+TEST(Stokes, IsSymmetricAboutTheSunsVertical) {
+  const StokesCase c = stokes_case("haze550_depol");
+  const auto at = [&](double azimuth) {
+    const SkyPoint p{0, 65 * kDegree, 50 * kDegree, azimuth * kDegree};
+    return ReferenceModel({}).stokes(c.atmosphere, {&kNode, 1}, {&p, 1}, {});
+  };
+  const StokesValues left = at(70), right = at(-70);
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR(left.q.value[0], right.q.value[0], kRounding);
+  EXPECT_NEAR(left.u.value[0], -right.u.value[0], kRounding);
+  EXPECT_GT(std::abs(left.u.value[0]), 1e-4);
+}
+
+// Zenith angle, along the sun's vertical between two view zenith angles (negative: beyond the
+// zenith), at which Q changes its sign.
+double neutral_point(const Atmosphere<double>& a, double sun_deg, double low, double high) {
+  const auto q = [&](double view) {
+    const SkyPoint p{0, sun_deg * kDegree, std::abs(view) * kDegree,
+                     view < 0 ? std::numbers::pi : 0};
+    return ReferenceModel({}).stokes(a, {&kNode, 1}, {&p, 1}, {}).q.value[0];
+  };
+  const bool rises = q(high) > q(low);
+  if ((q(high) > 0) == (q(low) > 0)) return NAN;
+  for (int k = 0; k < 30; ++k) {
+    const double middle = 0.5 * (low + high);
+    ((q(middle) > 0) == rises ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Coulson 1988, Polarization and Intensity of Light in the Atmosphere, chapters 5 and 6: Babinet's
+// and Brewster's points lie 10 to 25 deg above and below the sun at middle heights, Arago's 18 to
+// 25 deg above the antisolar point when the sun is low.
+TEST(Stokes, HasTheNeutralPoints) {
+  Atmosphere<double> a = stokes_case("rayleigh400").atmosphere;
+  a.at("rayleigh").amount = 0.02e-3;  // 490 nm, optical depth 0.16
+  const double babinet = neutral_point(a, 50, 0, 49), brewster = neutral_point(a, 50, 51, 85);
+  std::cout << "sun zenith 50: Babinet " << 50 - babinet << " deg above, Brewster " << brewster - 50
+            << " deg below the sun\n";
+  EXPECT_GT(50 - babinet, 10);
+  EXPECT_LT(50 - babinet, 25);
+  EXPECT_GT(brewster - 50, 10);
+  EXPECT_LT(brewster - 50, 25);
+  const double arago = neutral_point(a, 85, -88, -45);
+  std::cout << "sun zenith 85: Arago " << 95 - (-arago) << " deg above the antisolar point\n";
+  EXPECT_GT(95 + arago, 18);
+  EXPECT_LT(95 + arago, 25);
+}
+
+TEST(Stokes, OfScalarTransferIsRefused) {
+  ReferenceOptions options;
+  options.transfer = Transfer::kScalar;
+  const SkyPoint p{};
+  EXPECT_THROW(ReferenceModel(options).stokes({}, {&kNode, 1}, {&p, 1}, {}), std::invalid_argument);
+}
+
+// Derivatives of Q and U equal central differences.
+TEST(Stokes, DerivativesAreExact) {
+  Atmosphere<double> a = stokes_case("haze550_depol").atmosphere;
+  std::vector<SkyPoint> points;
+  for (const double sun : {30.0, 80.0, 91.0}) {
+    for (const double view : {20.0, 80.0, 100.0})
+      points.push_back({3e3, sun * kDegree, view * kDegree, 1.2});
+  }
+  const ReferenceModel model({});
+  for (const Parameter& parameter :
+       {Parameter::kRayleighScattering, Parameter::kMieScattering, Parameter::kMiePhaseG,
+        Parameter::kGroundAlbedo, Parameter::kRayleighScaleHeight}) {
+    const StokesValues exact = model.stokes(a, {&kNode, 1}, points, {&parameter, 1});
+    const double middle = get_parameter(a, parameter), step = 2e-5 * middle;
+    const auto at = [&](double value) {
+      Atmosphere<double> b = a;
+      set_parameter(b, parameter, value);
+      return model.stokes(b, {&kNode, 1}, points, {});
+    };
+    const StokesValues more = at(middle + step), less = at(middle - step);
+    for (const auto which : {&StokesValues::q, &StokesValues::u}) {
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const double difference = ((more.*which).value[k] - (less.*which).value[k]) / (2 * step);
+        constexpr double kDifference = 1e-5;
+        EXPECT_NEAR((exact.*which).derivative[k], difference,
+                    kDifference * std::max(std::abs(difference), exact.i.value[k] / middle))
+            << parameter_info(parameter).name << " at point " << k;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace skyfit::truth
