@@ -143,7 +143,7 @@ TEST_F(CommandsTest, SkyTakesTablesBesideThePresetAndASitePressure) {
 
 TEST_F(CommandsTest, ReferencesPrintWhatCheckAccepts) {
   const json list = json::parse(output({"references", "--json"}));
-  EXPECT_EQ(list.size(), 22u);
+  EXPECT_EQ(list.size(), 23u);
   write("sky.csv",
         output({"references", "cie:12", "--sampling", "tregenza", "--sun-zenith-deg", "0:80:10"}));
   const json summary = json::parse(output({"check", "--json", "sky.csv"}));
