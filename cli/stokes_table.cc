@@ -36,7 +36,7 @@ void append_stokes(std::string_view place, const StokesValues& stokes,
     const double i = stokes.i.at(point, wave), q = stokes.q.at(point, wave),
                  u = sign * stokes.u.at(point, wave);
     const LinearPolarisation linear = linear_polarisation(i, q, u);
-    fmt::format_to(std::back_inserter(out), "{}{:.9g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
+    fmt::format_to(std::back_inserter(out), "{}{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
                    place, nodes[k].wavelength_nm, i, q, u, linear.degree, linear.angle_deg);
   }
 }
