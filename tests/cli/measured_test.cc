@@ -129,8 +129,8 @@ TEST_F(MeasuredTest, AFigureThatCannotBeDrawnDoesNotLoseTheFit) {
 TEST_F(MeasuredTest, AlmucantarsAreFitted) {
   const Outcome outcome =
       run({"fit", "--reference", std::string(SKYFIT_EXAMPLES) + "aeronet_almucantar.csv",
-           "--preset", "earth-clear", "--free", "mie.scattering", "--starts", "1", "--scalar",
-           "--out", "almucantar", "--json"});
+           "--preset", "earth-clear", "--free", "mie.scattering", "--starts", "1", "--out",
+           "almucantar", "--json", "--scalar"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json report = json::parse(outcome.out);
   EXPECT_LT(report["spectral_error_percent"].get<double>(), 0.01);  // five digits

@@ -29,6 +29,7 @@ class MeasuredExamples : public testing::TestWithParam<Example> {};
 
 // Of the sample in the unit of the reference, at the sun's distance.
 double model_value(const Sample& sample, Quantity quantity, double distance_au) {
+  // The examples were made before the model knew polarisation.
   static const auto model =
       make_sky_model("reference", standard_spectral_data(), 1, Transfer::kScalar);
   static const Preset preset = parse_preset(shipped_preset_json("earth-clear"), "earth-clear");
