@@ -62,7 +62,7 @@ truth_table() {
 # bench PROGRAM FILTER: the lines `name<TAB>CPU time<TAB>unit`; of repetitions the median.
 bench() {
   "$build/bench/$1" --benchmark_filter="$2" --benchmark_format=csv 2>/dev/null |
-    awk -F, 'NR > 1 && $1 !~ /_(mean|stddev|cv)"/ { gsub(/"/, "", $1); print $1 "\t" ($1 ~ /median/ ? $3 : $4) "\t" $5 }'
+    awk -F, 'NR > 1 && $1 !~ /_(mean|stddev|cv)"/ { gsub(/"/, "", $1); print $1 "\t" ($1 ~ /median|real_time/ ? $3 : $4) "\t" $5 }'
 }
 
 # speed_row LABEL PROGRAM FILTER
