@@ -16,6 +16,8 @@ namespace {
 constexpr double kMiddleGrey = 0.18, kOrdinary = 500, kKeyPower = 0.15;
 // At most one pixel in a hundred becomes brighter than this.
 constexpr double kHighlights = 0.99, kHighlightLevel = 1;
+// At most one in seven becomes brighter than this: land in the sun is not shown as snow.
+constexpr double kBrightPart = 0.86, kBrightLevel = 0.5;
 // Below this luminance pictures stay dark, as for the eye; above, a camera stops down no further.
 // cd/m^2.
 constexpr double kDarkest = 0.02;
@@ -77,7 +79,8 @@ double metered_exposure(const Frame& frame) {
   if (seen == 0) return 1 / level_of_disc(kDarkest / kMiddleGrey, frame);
   const double mean = std::exp(sum / seen);
   const double key = kMiddleGrey * std::pow(std::max(mean, kDarkest) / kOrdinary, kKeyPower);
-  double level = std::max(mean / key, highlight / kHighlightLevel);
+  const double bright = quantile(luminances, kBrightPart);
+  double level = std::max({mean / key, highlight / kHighlightLevel, bright / kBrightLevel});
   level = level_in_space(level, highlight, 1 - seen / static_cast<double>(luminances.size()));
   level = std::clamp(level, kDarkest / kMiddleGrey, kBrightest / kMiddleGrey);
   return 1 / level_of_disc(level, frame);
