@@ -2,7 +2,9 @@
 // `skyfit export` and `skyfit import`: presets as the parameters of other people's programs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -44,6 +46,13 @@ void run_export(const ExportArguments& arguments) {
   facts.sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 90);
   facts.sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
   const Preset preset = preset_named(arguments.preset);
+  if (std::ranges::none_of(preset.atmosphere.constituents, scatters<double>)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: no constituent scatters light: there is no sky to export", arguments.preset));
+  }
+  if (preset.atmosphere.star.spectrum != StarSpectrum::kSolar)
+    warn(fmt::format("{}: its star is not written: these programs have the sun's light",
+                     arguments.preset));
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   const auto truth = make_sky_model("reference", spectra, arguments.threads),
              scalar = make_sky_model("reference", spectra, arguments.threads, Transfer::kScalar);

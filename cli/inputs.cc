@@ -105,6 +105,12 @@ void warn_of_unused_options(const CLI::App& command, const std::string& referenc
     const bool is_import = option->get_group() == kImportGroup;
     const bool is_sampling =
         option->check_lname("sampling") || option->check_lname("sun-zenith-deg");
+    const bool is_hour = is_analytic && reference.find('@') != reference.npos;
+    if (is_hour && option->check_lname("sun-zenith-deg")) {
+      warn(
+          fmt::format("{} is not used: {} has the sun of its hour", option->get_name(), reference));
+      continue;
+    }
     if (!(is_import && !is_measured) && !(is_sampling && !is_analytic)) continue;
     warn(fmt::format("{} is not used: {} {}", option->get_name(), reference,
                      is_import ? "is no measured sky" : "has its own directions"));
@@ -195,6 +201,7 @@ refs::Reference load_references(const std::string& names, const std::string& sun
     begin = end + 1;
   }
   const std::vector<std::string> notes = left_out.notes();  // throws when nothing was read
+  for (const std::string& note : notes) warn(note);
   refs::Reference joint = refs::joint_reference(references);
   joint.notes.insert(joint.notes.end(), notes.begin(), notes.end());
   return joint;

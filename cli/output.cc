@@ -23,6 +23,7 @@ namespace {
 
 // "a, b or c"
 std::string either(const std::vector<std::string>& words) {
+  if (words.size() == 1) return words.front();
   const auto last = words.end() - 1;
   return fmt::format("{} or {}", fmt::join(words.begin(), last, ", "), *last);
 }
@@ -35,15 +36,15 @@ std::string either(const std::vector<std::string>& words) {
 }  // namespace
 
 void require_output_files(const std::vector<std::string>& files,
-                          const std::vector<std::string>& extensions) {
+                          const std::vector<std::string>& extensions, std::string_view option) {
   std::set<fs::path> seen;
   for (const std::string& file : files) {
     if (std::ranges::count(extensions, fs::path(file).extension().string()) == 0) {
-      throw UsageError("--out", file, "expected a name that ends in " + either(extensions));
+      throw UsageError(option, file, "expected a name that ends in " + either(extensions));
     }
     require_writable_file(file);
     if (!seen.insert(resolved_path(file)).second) {
-      throw UsageError("--out", file, "expected each file once");
+      throw UsageError(option, file, "expected each file once");
     }
   }
 }

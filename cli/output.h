@@ -15,7 +15,8 @@ namespace skyfit::cli {
 // where a name ends in none of `extensions` or a file is named twice. Called before long work whose
 // result goes there.
 void require_output_files(const std::vector<std::string>& files,
-                          const std::vector<std::string>& extensions);
+                          const std::vector<std::string>& extensions,
+                          std::string_view option = "--out");
 
 // Figures of a result, which is published without those that cannot be drawn.
 class Figures {

@@ -187,6 +187,9 @@ void run_sky(const SkyOptions& options) {
   table.orders = options.orders;
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--model", options.model, "expected reference with --orders");
+  if (options.stokes && options.scalar)
+    throw UsageError("--scalar", "",
+                     "expected without --stokes: Stokes parameters are those of polarised light");
   if (options.stokes && options.wavelength.empty())
     throw UsageError("--wavelength-nm", "", "expected wavelengths with --stokes");
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);

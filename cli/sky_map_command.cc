@@ -2,8 +2,10 @@
 // `skyfit sky-map`: the light of all directions as one picture.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -54,9 +56,12 @@ SkyMapOptions options_of(const SkyMapArguments& arguments) {
 MapChannels channels_of(const SkyMapArguments& arguments, const SpectralData& spectra) {
   if (arguments.wavelengths.empty()) return xyz_channels(spectra);
   const auto& table = spectra.ozone_cross_section.wavelength_nm;
-  return spectral_channels(
-      spectra, parse_list_within("--wavelength-nm", arguments.wavelengths, table.front(),
-                                 table.back(), "a wavelength in nm that the tables hold,"));
+  const std::vector<double> nm =
+      parse_list_within("--wavelength-nm", arguments.wavelengths, table.front(), table.back(),
+                        "a wavelength in nm that the tables hold,");
+  if (std::set<double>(nm.begin(), nm.end()).size() != nm.size())
+    throw UsageError("--wavelength-nm", arguments.wavelengths, "expected each wavelength once");
+  return spectral_channels(spectra, nm);
 }
 
 nlohmann::ordered_json sun_json(const SkyMap& map, const SkyMapOptions& options, const Star& star) {
@@ -97,7 +102,8 @@ void run_sky_map(const SkyMapArguments& arguments) {
   const bool spectral = !arguments.wavelengths.empty();
   require_output_files({arguments.out}, spectral ? std::vector<std::string>{".exr"}
                                                  : std::vector<std::string>{".exr", ".hdr"});
-  if (!arguments.sun_file.empty()) require_output_files({arguments.sun_file}, {".json"});
+  if (!arguments.sun_file.empty())
+    require_output_files({arguments.sun_file}, {".json"}, "--sun-file");
   const Primaries primaries = primaries_named(arguments.primaries);
   if (arguments.out.ends_with(".hdr") && primaries != Primaries::kRec709)
     throw UsageError("--primaries", arguments.primaries, "expected rec709 for a .hdr file");

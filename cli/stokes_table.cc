@@ -36,8 +36,12 @@ void append_stokes(std::string_view place, const StokesValues& stokes,
     const double i = stokes.i.at(point, wave), q = stokes.q.at(point, wave),
                  u = sign * stokes.u.at(point, wave);
     const LinearPolarisation linear = linear_polarisation(i, q, u);
-    fmt::format_to(std::back_inserter(out), "{}{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
-                   place, nodes[k].wavelength_nm, i, q, u, linear.degree, linear.angle_deg);
+    // Where there is no light or no polarisation, there is no degree or no angle.
+    const auto field = [](double value) {
+      return std::isnan(value) ? std::string() : fmt::format("{:.9g}", value);
+    };
+    fmt::format_to(std::back_inserter(out), "{}{:.9g},{:.9g},{:.9g},{:.9g},{},{}\n", place,
+                   nodes[k].wavelength_nm, i, q, u, field(linear.degree), field(linear.angle_deg));
   }
 }
 

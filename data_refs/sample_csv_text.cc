@@ -10,6 +10,7 @@
 
 #include "data_refs/sample_csv.h"
 #include "data_refs/sample_csv_columns.h"
+#include "model/base/text.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -104,7 +105,8 @@ std::vector<OutputColumn> output_columns(const Reference& reference) {
 }  // namespace
 
 std::string sample_csv_text(const Reference& reference) {
-  std::string text = fmt::format("# {}: {}\n", reference.name, reference.description);
+  std::string text = fmt::format(
+      "# {}\n", printable(fmt::format("{}: {}", reference.name, reference.description)));
   const std::vector<OutputColumn> columns = output_columns(reference);
   const auto append = [&](const auto& field) {
     for (const OutputColumn& column : columns) text += field(column) + ",";

@@ -131,13 +131,14 @@ class Mends {
   std::vector<Mend> mends_;
 };
 
-std::string text_of(const Disagreement& d) {
+std::string text_of(const std::string& sky, const Disagreement& d) {
   const double higher = d.stated_zenith - d.seen.zenith;
   const std::string who =
       d.scan->time_utc.empty() ? "the stated sun" : "the sun of its time and place";
   return fmt::format(
       "{}: the light of the sky puts the sun {} from {} (zenith {}): {} {}, {} {}; {}",
-      d.scan->name, degrees(d.apart()), who, degrees(d.stated_zenith), degrees(std::abs(higher)),
+      sky.ends_with(d.scan->name) ? sky : fmt::format("{}: {}", sky, d.scan->name),
+      degrees(d.apart()), who, degrees(d.stated_zenith), degrees(std::abs(higher)),
       higher > 0 ? "higher" : "lower", degrees(std::abs(d.seen.relative_azimuth)),
       d.seen.relative_azimuth > 0 ? "clockwise" : "counter-clockwise", Mends(d).text());
 }
@@ -163,11 +164,12 @@ void check_suns(const ImportOptions& facts, Reference& sky) {
   }
   if (2 * refused > telling && !facts.accept_sun) {
     const auto worst = std::ranges::max_element(noted, {}, &Disagreement::apart);
-    throw std::invalid_argument(text_of(*worst) + "; --accept-sun takes the sun as it is stated");
+    throw std::invalid_argument(text_of(sky.name, *worst) +
+                                "; --accept-sun takes the sun as it is stated");
   }
   constexpr std::size_t kMostNotes = 5;
   for (std::size_t i = 0; i < std::min(kMostNotes, noted.size()); ++i)
-    sky.notes.push_back(text_of(noted[i]));
+    sky.notes.push_back(text_of(sky.name, noted[i]));
   if (noted.size() > kMostNotes)
     sky.notes.push_back(fmt::format("the light of {} more scans puts the sun elsewhere",
                                     noted.size() - kMostNotes));

@@ -19,7 +19,7 @@ namespace {
 
 struct Clock {
   unsigned month, day;
-  double hour;  // of the day
+  double middle;  // of the interval, hours of the day
 };
 
 // What a file says of itself and how its rows are read.
@@ -28,11 +28,10 @@ struct Layout {
   double utc_offset_h = 0;
   int first_row = 0;  // line
   char separator = ',';
-  // Fields of a row; `clock`: the end of the hour, or its middle.
-  std::size_t direct = 0, diffuse = 0;
-  Clock (*clock)(const std::vector<std::string>& fields, std::string_view source,
+  double interval_h = 1;
+  std::size_t direct = 0, diffuse = 0;  // fields of a row
+  Clock (*clock)(const std::vector<std::string>& fields, double interval_h, std::string_view source,
                  int line) = nullptr;
-  bool clock_is_middle = false;
 };
 
 double number_of(const std::vector<std::string>& fields, std::size_t i, std::string_view name,
@@ -45,6 +44,21 @@ double number_of(const std::vector<std::string>& fields, std::size_t i, std::str
                       i < fields.size() ? fields[i] : std::string()));
 }
 
+// Degrees east and hours ahead of UTC, as files state them.
+Site site_of(double latitude_deg, double longitude_deg, double elevation_m, double utc_offset_h,
+             std::string_view source) {
+  const auto require = [&](const char* name, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+      throw std::invalid_argument(
+          fmt::format("{}: {} = {:.9g}: expected {:g} to {:g}", source, name, value, low, high));
+  };
+  require("latitude", latitude_deg, -90, 90);
+  require("longitude", longitude_deg, -180, 180);
+  require("elevation", elevation_m, -500, 9000);
+  require("time zone", utc_offset_h, -14, 14);
+  return {latitude_deg * kRadiansPerDegree, longitude_deg * kRadiansPerDegree, elevation_m};
+}
+
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream in(line);
   std::vector<std::string> words;
@@ -52,45 +66,54 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-Clock epw_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
+// The hour is the one that ends, from 1; the minute the end of the interval in it, 60 or 0 of whole
+// hours.
+Clock epw_clock(const std::vector<std::string>& fields, double interval_h, std::string_view source,
+                int line) {
+  const double hour = number_of(fields, 3, "hour", source, line);
+  const double minute = interval_h < 1 ? number_of(fields, 4, "minute", source, line) : 60;
   return {static_cast<unsigned>(number_of(fields, 1, "month", source, line)),
           static_cast<unsigned>(number_of(fields, 2, "day", source, line)),
-          number_of(fields, 3, "hour", source, line)};
+          hour - 1 + minute / 60 - 0.5 * interval_h};
 }
 
-Clock wea_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
+// gendaymtx takes the sun of the stated hour.
+Clock wea_clock(const std::vector<std::string>& fields, double, std::string_view source, int line) {
   return {static_cast<unsigned>(number_of(fields, 0, "month", source, line)),
           static_cast<unsigned>(number_of(fields, 1, "day", source, line)),
           number_of(fields, 2, "hour", source, line)};
 }
 
 // MM/DD/YYYY and HH:MM, 24:00 for midnight.
-Clock tmy_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
+Clock tmy_clock(const std::vector<std::string>& fields, double interval_h, std::string_view source,
+                int line) {
   unsigned month = 0, day = 0, hour = 0, minute = 0;
   if (fields.size() < 2 || std::sscanf(fields[0].c_str(), "%2u/%2u/", &month, &day) != 2 ||
       std::sscanf(fields[1].c_str(), "%2u:%2u", &hour, &minute) != 2)
     fail_at(source, line, "expected a date MM/DD/YYYY and a time HH:MM");
-  return {month, day, hour + minute / 60.0};
+  return {month, day, hour + minute / 60.0 - 0.5 * interval_h};
 }
 
-Layout epw_layout(const std::string& first, std::string_view source) {
-  const std::vector<std::string> fields = csv_fields(first, source, 1);
+Layout epw_layout(const std::vector<std::string>& lines, std::string_view source) {
+  const std::vector<std::string> fields = csv_fields(lines[0], source, 1);
   Layout layout{.first_row = 9, .direct = 14, .diffuse = 15, .clock = epw_clock};
-  layout.site = {number_of(fields, 6, "latitude", source, 1) * kRadiansPerDegree,
-                 number_of(fields, 7, "longitude", source, 1) * kRadiansPerDegree,
-                 number_of(fields, 9, "elevation", source, 1)};
   layout.utc_offset_h = number_of(fields, 8, "time zone", source, 1);
+  layout.site = site_of(number_of(fields, 6, "latitude", source, 1),
+                        number_of(fields, 7, "longitude", source, 1),
+                        number_of(fields, 9, "elevation", source, 1), layout.utc_offset_h, source);
+  if (lines.size() > 7) {  // DATA PERIODS, their number, records per hour
+    const double records =
+        number_of(csv_fields(lines[7], source, 8), 2, "records per hour", source, 8);
+    if (!(records >= 1 && records <= 60))
+      fail_at(source, 8, fmt::format("records per hour = {:.9g}: expected 1 to 60", records));
+    layout.interval_h = 1 / records;
+  }
   return layout;
 }
 
 // West is positive, and so is the meridian of its time.
 Layout wea_layout(const std::vector<std::string>& lines, std::string_view source) {
-  Layout layout{.first_row = 7,
-                .separator = ' ',
-                .direct = 3,
-                .diffuse = 4,
-                .clock = wea_clock,
-                .clock_is_middle = true};
+  Layout layout{.first_row = 7, .separator = ' ', .direct = 3, .diffuse = 4, .clock = wea_clock};
   const auto header = [&](std::size_t line, const std::string& name) {
     const std::vector<std::string> words =
         line < lines.size() ? words_of(lines[line]) : std::vector<std::string>{};
@@ -98,10 +121,10 @@ Layout wea_layout(const std::vector<std::string>& lines, std::string_view source
       fail_at(source, static_cast<int>(line) + 1, fmt::format("expected a line {}", name));
     return number_of(words, 1, name, source, static_cast<int>(line) + 1);
   };
-  layout.site = {header(1, "latitude") * kRadiansPerDegree,
-                 -header(2, "longitude") * kRadiansPerDegree, 0};
+  const double latitude = header(1, "latitude"), longitude = -header(2, "longitude");
   layout.utc_offset_h = -header(3, "time_zone") / 15;
-  layout.site.elevation_m = header(4, "site_elevation");
+  layout.site =
+      site_of(latitude, longitude, header(4, "site_elevation"), layout.utc_offset_h, source);
   if (header(5, "weather_data_file_units") != 1)
     fail_at(source, 6, "weather_data_file_units: expected 1, irradiances in W/m^2");
   return layout;
@@ -120,9 +143,9 @@ Layout tmy_layout(const std::vector<std::string>& lines, std::string_view source
   layout.direct = column("DNI (");
   layout.diffuse = column("DHI (");
   layout.utc_offset_h = number_of(fields, 3, "time zone", source, 1);
-  layout.site = {number_of(fields, 4, "latitude", source, 1) * kRadiansPerDegree,
-                 number_of(fields, 5, "longitude", source, 1) * kRadiansPerDegree,
-                 number_of(fields, 6, "elevation", source, 1)};
+  layout.site = site_of(number_of(fields, 4, "latitude", source, 1),
+                        number_of(fields, 5, "longitude", source, 1),
+                        number_of(fields, 6, "elevation", source, 1), layout.utc_offset_h, source);
   return layout;
 }
 
@@ -137,7 +160,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 Layout layout_of(const std::vector<std::string>& lines, std::string_view source) {
-  if (!lines.empty() && lines[0].starts_with("LOCATION,")) return epw_layout(lines[0], source);
+  if (!lines.empty() && lines[0].starts_with("LOCATION,")) return epw_layout(lines, source);
   if (!lines.empty() && lines[0].starts_with("place ")) return wea_layout(lines, source);
   if (lines.size() > 1 && lines[1].starts_with("Date (MM/DD/YYYY)"))
     return tmy_layout(lines, source);
@@ -151,40 +174,46 @@ WeatherHour weather_hour(std::string_view file_and_time) {
   const std::size_t at = file_and_time.rfind('@');
   const std::string file(file_and_time.substr(0, at)), time(file_and_time.substr(at + 1));
   const std::optional<Instant> wanted = instant(time, 0);
-  if (!wanted) {
+  if (!wanted || stated_utc_offset_h(time)) {
     throw std::invalid_argument(
-        fmt::format("{}: time = \"{}\": expected YYYY-MM-DDTHH:MM", file, printable(time)));
+        fmt::format("{}: time = \"{}\": expected YYYY-MM-DDTHH:MM of a day that exists, on the "
+                    "file's own clock",
+                    file, printable(time)));
   }
   const auto day = std::chrono::floor<std::chrono::days>(*wanted);
   const std::chrono::year_month_day date(day);
   const double clock = std::chrono::duration<double, std::ratio<3600>>(*wanted - day).count();
-  const double begin = std::floor(clock);
   const std::vector<std::string> lines = lines_of(read_csv_file(file, "a weather file"));
   const Layout layout = layout_of(lines, file);
+  WeatherHour found;
+  double nearest = 0.5 * layout.interval_h + 1e-9;  // hours from the middle
+  bool is_there = false;
   for (std::size_t i = static_cast<std::size_t>(layout.first_row) - 1; i < lines.size(); ++i) {
     if (trim(lines[i]).empty()) continue;
     const int line = static_cast<int>(i) + 1;
     const std::vector<std::string> fields =
         layout.separator == ',' ? csv_fields(lines[i], file, line) : words_of(lines[i]);
-    const Clock row = layout.clock(fields, file, line);
-    const double of_row = layout.clock_is_middle ? std::floor(row.hour) : std::ceil(row.hour) - 1;
+    const Clock row = layout.clock(fields, layout.interval_h, file, line);
+    // Where two intervals meet, the one that begins.
+    const double apart = std::abs(row.middle - clock);
     if (row.month != static_cast<unsigned>(date.month()) ||
-        row.day != static_cast<unsigned>(date.day()) || of_row != begin)
+        row.day != static_cast<unsigned>(date.day()) || apart > nearest)
       continue;
-    WeatherHour hour;
-    hour.middle =
-        day + std::chrono::milliseconds(std::llround((begin + 0.5 - layout.utc_offset_h) * 3.6e6));
-    hour.site = layout.site;
-    hour.direct_normal = number_of(fields, layout.direct, "direct normal", file, line);
-    hour.diffuse_horizontal = number_of(fields, layout.diffuse, "diffuse horizontal", file, line);
+    is_there = true;
+    nearest = apart;
+    found.middle =
+        day + std::chrono::milliseconds(std::llround((row.middle - layout.utc_offset_h) * 3.6e6));
+    found.site = layout.site;
+    found.direct_normal = number_of(fields, layout.direct, "direct normal", file, line);
+    found.diffuse_horizontal = number_of(fields, layout.diffuse, "diffuse horizontal", file, line);
     constexpr double kMost = 2000;  // W/m^2; 9999 stands for a missing value
-    for (const auto& [name, value] : {std::pair{"direct normal", hour.direct_normal},
-                                      {"diffuse horizontal", hour.diffuse_horizontal}}) {
+    for (const auto& [name, value] : {std::pair{"direct normal", found.direct_normal},
+                                      {"diffuse horizontal", found.diffuse_horizontal}}) {
       if (!(value >= 0 && value < kMost))
         fail_at(file, line, fmt::format("{} = {:.9g}: expected 0 to 2000 W/m^2", name, value));
     }
-    return hour;
   }
+  if (is_there) return found;
   throw std::invalid_argument(
       fmt::format("{}: time = {}: expected an hour that the file has", file, printable(time)));
 }
@@ -199,9 +228,10 @@ PerezHour perez_hour(const WeatherHour& hour, std::string_view name) {
         fmt::format("{}: the sun of {} is {:.2f} deg from the zenith: expected less than 89", name,
                     iso_text(hour.middle), zenith_deg));
   }
-  if (!(hour.diffuse_horizontal > 0)) {
+  constexpr double kLeast = 1;  // W/m^2
+  if (!(hour.diffuse_horizontal >= kLeast)) {
     throw std::invalid_argument(
-        fmt::format("{}: diffuse horizontal = {:.9g} W/m^2: expected more than 0", name,
+        fmt::format("{}: diffuse horizontal = {:.9g} W/m^2: expected at least 1", name,
                     hour.diffuse_horizontal));
   }
   const double cube = kKappa * zenith * zenith * zenith;

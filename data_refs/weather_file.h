@@ -14,14 +14,16 @@
 
 namespace skyfit::refs {
 
-// W/m^2. The hour's middle is where the sun is taken.
+// W/m^2. The sun is that of the interval's middle, in WEA files of the stated time, as gendaymtx
+// has it.
 struct WeatherHour {
   Instant middle;
   Site site;
   double direct_normal = 0, diffuse_horizontal = 0;
 };
 
-// Of "FILE@YYYY-MM-DDTHH:MM" in the file's own standard time, the hour that contains it. Throws
+// Of "FILE@YYYY-MM-DDTHH:MM" in the file's own standard time, the interval that contains it, where
+// two meet the later one. Throws
 // std::invalid_argument or std::runtime_error with one line that names file, line, field, value and
 // what was expected.
 WeatherHour weather_hour(std::string_view file_and_time);

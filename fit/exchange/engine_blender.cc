@@ -16,6 +16,7 @@ namespace {
 constexpr Rgb kAir = {5.290e-6, 1.237e-5, 3.018e-5};    // 1/m at 680, 550, 440 nm
 constexpr Rgb kOzone = {7.353e-7, 1.819e-6, 7.310e-8};  // at the tip
 constexpr double kDust = 2e-5, kDustExtinction = 1.11, kDustG = 0.76;
+constexpr double kGround = 0.1;  // it has none; what single scattering leaves out
 constexpr double kHighest = 10;  // of a density
 
 double density(double factor) { return std::min(factor, kHighest); }
@@ -33,6 +34,7 @@ void restrict_to_blender(EngineAtmosphere& engine) {
   engine.tent_peak_m = 25e3;
   engine.tent_half_width_m = 15e3;
   engine.g = kDustG;
+  engine.ground_albedo.fill(kGround);
   for (std::size_t k = 0; k < 3; ++k) {
     engine.rayleigh_scattering[k] = density(air / 8000 / kAir[1]) * kAir[k];
     engine.mie_scattering[k] = density(dust / 1200 / kDust) * kDust;
@@ -69,25 +71,21 @@ world.node_tree.links.new(sky.outputs["Color"], background.inputs["Color"])
 }
 
 std::optional<EngineAtmosphere> read_blender(std::string_view text, std::string_view source,
-                                             std::vector<std::string>&) {
-  const auto air = assigned_number(text, "air_density"),
-             dust = assigned_number(text, "dust_density"),
-             ozone = assigned_number(text, "ozone_density");
-  if (!air || !dust || !ozone) return {};
-  for (const auto& [name, value] :
-       {std::pair{"air_density", *air}, {"dust_density", *dust}, {"ozone_density", *ozone}}) {
-    if (!(value >= 0 && value <= kHighest))
-      throw std::invalid_argument(
-          fmt::format("{}: {} = {:.9g}: expected 0 to 10", source, name, value));
-  }
+                                             std::vector<std::string>& notes) {
+  const Script script{text, source, "#"};
+  if (!is_assigned(script, "air_density") && !is_assigned(script, "dust_density")) return {};
+  const double air = assigned_number(script, "air_density", kHighest),
+               dust = assigned_number(script, "dust_density", kHighest),
+               ozone = assigned_number(script, "ozone_density", kHighest);
+  if (is_assigned(script, "altitude") && assigned_number(script, "altitude", 6e4) != 0)
+    notes.push_back("altitude is not 0: a preset has no observer, see --altitude-m");
   EngineAtmosphere engine;
   engine.lobe = PhaseType::kCornetteShanks;
-  engine.rayleigh_scattering = {0, *air * kAir[1], 0};
+  engine.rayleigh_scattering = {0, air * kAir[1], 0};
   engine.rayleigh_scale_height_m = 8000;
-  engine.mie_scattering = {0, *dust * kDust, 0};
+  engine.mie_scattering = {0, dust * kDust, 0};
   engine.mie_scale_height_m = 1200;
-  engine.absorption = {0, *ozone * kOzone[1], 0};
-  engine.ground_albedo = {0.1, 0.1, 0.1};
+  engine.absorption = {0, ozone * kOzone[1], 0};
   restrict_to_blender(engine);
   return engine;
 }

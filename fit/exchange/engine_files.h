@@ -11,6 +11,9 @@ std::string unreal_text(const EngineAtmosphere& engine, const ExportFacts& facts
 std::optional<EngineAtmosphere> read_unreal(std::string_view text, std::string_view source,
                                             std::vector<std::string>& notes);
 
+// Absorption at the tip of its ozone layer, 1/m; Hillaire 2020.
+inline constexpr Rgb kUnityOzone = {0.650e-6, 1.881e-6, 0.085e-6};
+
 std::string unity_text(const EngineAtmosphere& engine, const ExportFacts& facts);
 std::optional<EngineAtmosphere> read_unity(std::string_view text, std::string_view source,
                                            std::vector<std::string>& notes);
@@ -34,7 +37,17 @@ std::optional<EngineAtmosphere> read_threejs(std::string_view text, std::string_
 double number_or(const PresetReader& object, std::string_view field, double if_none);
 Rgb rgb_or(const PresetReader& object, std::string_view field, const Rgb& if_none);
 
-// The number behind `name =` or `name:` in a text; nothing where it is not there.
-std::optional<double> assigned_number(std::string_view text, std::string_view name);
+// A script and how its comments begin.
+struct Script {
+  std::string_view text, source, comment;
+};
+
+// Whether the name is assigned anywhere in the script, comments not counted.
+bool is_assigned(const Script& script, std::string_view name);
+
+// The number that the last line `.. name .. = number` assigns. Throws std::invalid_argument
+// `source:line: name = text: expected a number from 0 to ..` where it is not one, and where the
+// name is missing.
+double assigned_number(const Script& script, std::string_view name, double highest);
 
 }  // namespace skyfit::fit

@@ -17,6 +17,7 @@ namespace {
 constexpr double kRayleigh = 1.3562911419845635e-5;                   // 1/m at 550 nm
 constexpr double kMie = 0.434 * 0.2 * 1e-17 * 2.7798023919660528e14;  // of turbidity 1, at 550 nm
 constexpr double kAirHeight = 8400, kAerosolHeight = 1250;
+constexpr double kGround = 0.1;  // it has none
 
 }  // namespace
 
@@ -30,6 +31,7 @@ void restrict_to_threejs(EngineAtmosphere& engine) {
     engine.rayleigh_scattering[k] = air / kAirHeight * std::pow(ratio, 4);
     engine.mie_scattering[k] = aerosol / kAerosolHeight * ratio * ratio;
     engine.mie_absorption[k] = engine.absorption[k] = 0;
+    engine.ground_albedo[k] = kGround;
   }
 }
 
@@ -61,26 +63,19 @@ export function makeSky() {{
 
 std::optional<EngineAtmosphere> read_threejs(std::string_view text, std::string_view source,
                                              std::vector<std::string>&) {
-  const auto turbidity = assigned_number(text, "turbidity"),
-             rayleigh = assigned_number(text, "rayleigh"),
-             mie = assigned_number(text, "mieCoefficient"),
-             g = assigned_number(text, "mieDirectionalG");
-  if (!turbidity || !rayleigh || !mie || !g) return {};
-  for (const auto& [name, value] : {std::pair{"turbidity", *turbidity},
-                                    {"rayleigh", *rayleigh},
-                                    {"mieCoefficient", *mie},
-                                    {"mieDirectionalG", *g}}) {
-    if (!(value >= 0 && value <= 1000))
-      throw std::invalid_argument(
-          fmt::format("{}: {} = {:.9g}: expected a number >= 0", source, name, value));
-  }
+  const Script script{text, source, "//"};
+  if (!is_assigned(script, "mieCoefficient") && !is_assigned(script, "mieDirectionalG")) return {};
+  constexpr double kMost = 1000;
+  const double turbidity = assigned_number(script, "turbidity", kMost),
+               rayleigh = assigned_number(script, "rayleigh", kMost),
+               mie = assigned_number(script, "mieCoefficient", kMost),
+               g = assigned_number(script, "mieDirectionalG", 1);
   EngineAtmosphere engine;
-  engine.rayleigh_scattering = {0, *rayleigh * kRayleigh, 0};
+  engine.rayleigh_scattering = {0, rayleigh * kRayleigh, 0};
   engine.rayleigh_scale_height_m = kAirHeight;
-  engine.mie_scattering = {0, *mie * *turbidity * kMie, 0};
+  engine.mie_scattering = {0, mie * turbidity * kMie, 0};
   engine.mie_scale_height_m = kAerosolHeight;
-  engine.g = *g;
-  engine.ground_albedo = {0.1, 0.1, 0.1};
+  engine.g = g;
   restrict_to_threejs(engine);
   return engine;
 }

@@ -83,6 +83,7 @@ std::optional<EngineAtmosphere> read_unity(std::string_view text, std::string_vi
     engine.mie_absorption[k] = extinction * (1 - tint[k]);
   }
   engine.g = number_or(sky, "aerosolAnisotropy", 0.8);
+  engine.absorption = kUnityOzone;
   engine.ground_albedo = rgb_or(sky, "groundTint", {0.4, 0.4, 0.4});
   if (rgb_or(sky, "airTint", {1, 1, 1}) != Rgb{1, 1, 1})
     notes.push_back("airTint is not white: air that absorbs is not read");

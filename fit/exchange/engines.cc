@@ -6,10 +6,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
 #include <stdexcept>
 
 #include "fit/exchange/engine_files.h"
+#include "model/base/text.h"
 
 namespace skyfit::fit {
 namespace {
@@ -25,6 +27,10 @@ void restrict_to_unity(EngineAtmosphere& engine) {
                scattering = engine.mie_scattering[1];
   engine.mie_scattering.fill(scattering);
   engine.mie_absorption.fill(extinction - scattering);
+  // Its ozone cannot be set; it is taken for Hillaire's.
+  engine.absorption = kUnityOzone;
+  engine.tent_peak_m = EngineAtmosphere{}.tent_peak_m;
+  engine.tent_half_width_m = EngineAtmosphere{}.tent_half_width_m;
 }
 
 std::vector<Parameter> grey_aerosol() {
@@ -46,7 +52,7 @@ constexpr std::array<Engine, 5> kEngines = {{
      [](EngineAtmosphere&) {}, aerosol, unreal_text, read_unreal},
     {"unity", "Unity HDRP, Physically Based Sky (JSON of its properties)", ".json", kCs,
      restrict_to_unity, grey_aerosol, unity_text, read_unity},
-    {"bruneton", "Bruneton 2017, arguments of atmosphere::Model (JSON)", ".json", kCs,
+    {"bruneton", "Bruneton 2017, atmosphere among the arguments of Model (JSON)", ".json", kCs,
      [](EngineAtmosphere&) {}, aerosol, bruneton_text, read_bruneton},
     {"blender", "Blender, sky texture node of the Nishita type (Python)", ".py", kCs,
      restrict_to_blender, amounts, blender_text, read_blender},
@@ -97,13 +103,49 @@ Rgb rgb_or(const PresetReader& object, std::string_view field, const Rgb& if_non
   return {values[0], values[1], values[2]};
 }
 
-std::optional<double> assigned_number(std::string_view text, std::string_view name) {
-  const std::regex pattern(
-      std::string(name) +
-      R"(["'\]]*\s*(?:\.value)?\s*[=:]\s*([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?))");
-  std::match_results<std::string_view::const_iterator> match;
-  if (!std::regex_search(text.begin(), text.end(), match, pattern)) return {};
-  const double value = std::stod(match[1].str());
+namespace {
+
+struct Assignment {
+  int line = 0;  // 0: none
+  std::string value;
+};
+
+// The last one; a program would use it.
+Assignment last_assignment(const Script& script, std::string_view name) {
+  // What stands before the name is a path to it, what stands behind it may be .value.
+  const std::regex pattern("(^|[^A-Za-z0-9_])" + std::string(name) +
+                           R"(["'\]]*(\.value)?\s*[=:]\s*([^=;,]*))");
+  Assignment found;
+  int line = 0;
+  for (std::string_view row : split(script.text, '\n')) {
+    ++line;
+    row = row.substr(0, row.find(script.comment));
+    std::match_results<std::string_view::const_iterator> match;
+    if (std::regex_search(row.begin(), row.end(), match, pattern))
+      found = {line, std::string(trim(match[3].str()))};
+  }
+  return found;
+}
+
+}  // namespace
+
+bool is_assigned(const Script& script, std::string_view name) {
+  return last_assignment(script, name).line > 0;
+}
+
+double assigned_number(const Script& script, std::string_view name, double highest) {
+  const Assignment found = last_assignment(script, name);
+  if (found.line == 0) {
+    throw std::invalid_argument(fmt::format("{}: {}: not there, expected a number from 0 to {:g}",
+                                            script.source, name, highest));
+  }
+  char* end = nullptr;
+  const double value = std::strtod(found.value.c_str(), &end);
+  if (found.value.empty() || *end != '\0' || !(value >= 0 && value <= highest)) {
+    throw std::invalid_argument(fmt::format("{}:{}: {} = {}: expected a number from 0 to {:g}",
+                                            script.source, found.line, name, printable(found.value),
+                                            highest));
+  }
   return value;
 }
 

@@ -58,6 +58,18 @@ TEST_F(WeatherFile, TheLayoutsGiveTheSameHour) {
   }
 }
 
+TEST_F(WeatherFile, IntervalsShorterThanAnHourHaveTheirOwnSun) {
+  std::string half = kEpw;
+  half.replace(half.find("DATA PERIODS,1,1"), 16, "DATA PERIODS,1,2");
+  half.replace(half.find("6,21,11,60"), 10, "6,21,12,30");
+  const WeatherHour first = weather_hour(hour_of(half, "2026-06-21T11:10")),
+                    second = weather_hour(hour_of(half, "2026-06-21T11:40"));
+  EXPECT_EQ(first.direct_normal, 800);
+  EXPECT_EQ(second.direct_normal, 850);
+  EXPECT_EQ(iso_text(first.middle), "2026-06-21T18:15:00Z");
+  EXPECT_EQ(iso_text(second.middle), "2026-06-21T18:45:00Z");
+}
+
 TEST_F(WeatherFile, ClearnessAndBrightnessAreThoseOfTheFormulas) {
   const PerezHour hour = perez_hour(weather_hour(hour_of(kEpw, "2026-06-21T11:20")), "x");
   const double z = hour.sun.zenith, cube = 1.041 * z * z * z;
@@ -80,6 +92,10 @@ TEST_F(WeatherFile, FaultsAreNamed) {
   };
   EXPECT_THAT(complaint(kEpw, "2026-06-22T11:20"), HasSubstr("an hour that the file has"));
   EXPECT_THAT(complaint(kEpw, "noon"), HasSubstr("YYYY-MM-DDTHH:MM"));
+  EXPECT_THAT(complaint(kEpw, "2026-06-21T11:20Z"), HasSubstr("the file's own clock"));
+  std::string north = kEpw;
+  north.replace(north.find("40.0"), 4, "91.0");
+  EXPECT_THAT(complaint(north, "2026-06-21T11:20"), HasSubstr("latitude = 91"));
   EXPECT_THAT(complaint("hello\n", "2026-06-21T11:20"), HasSubstr("expected EPW, WEA or TMY3"));
   std::string bad = kEpw;
   bad.replace(bad.find(",950,850,"), 9, ",950,9999,");

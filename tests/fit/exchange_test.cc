@@ -62,7 +62,7 @@ TEST_P(Engines, ReadsWhatItWrites) {
     EXPECT_NEAR(read->mie_scale_height_m, written.mie_scale_height_m, 1e-3);
     EXPECT_NEAR(read->g, written.g, 1e-5);
     EXPECT_EQ(read->lobe, written.lobe);
-    if (engine.name != "unity") expect_near(read->absorption, written.absorption, "absorption");
+    expect_near(read->absorption, written.absorption, "absorption");
   }
 }
 
@@ -120,7 +120,19 @@ TEST(Exchange, StrangersFilesAreRefusedByField) {
         engine_named("blender").read("air_density = 1\ndust_density = 11\nozone_density = 1\n",
                                      "c.py", notes);
       },
-      ThrowsMessage<std::invalid_argument>(HasSubstr("c.py: dust_density = 11")));
+      ThrowsMessage<std::invalid_argument>(HasSubstr("c.py:2: dust_density = 11")));
+  const auto blender = [&](const std::string& air) {
+    return engine_named("blender").read(air + "\nsky.dust_density = 1\nsky.ozone_density = 1\n",
+                                        "d.py", notes);
+  };
+  EXPECT_NEAR(blender("# sky.air_density = 9\nsky.air_density = 3\nsky.air_density = 2")
+                  ->rayleigh_scattering[1],
+              2 * 1.237e-5, 1e-9);
+  for (const char* wrong : {"sky.air_density = 1+1", "sky.air_density = x", "other = 1"}) {
+    EXPECT_THAT([&] { blender(wrong); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("air_density")))
+        << wrong;
+  }
   EXPECT_EQ(engine_of("{\"skyfit_preset\": 2}"), nullptr);
   EXPECT_THAT([] { engine_named("quake"); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("unreal, unity")));
