@@ -84,6 +84,8 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
       parse_ends("--height-range-m", options.height_range, "LOW..HIGH in metres");
   scene.lowest_m = parse_number("--height-range-m", low);
   scene.highest_m = parse_number("--height-range-m", high);
+  if (!(scene.lowest_m < scene.highest_m))
+    throw UsageError("--height-range-m", options.height_range, "expected LOW..HIGH, LOW < HIGH");
   scene.water_level_m = parse_number("--water-level-m", options.water_level);
   for (const std::string& mesh : options.meshes) scene.meshes.push_back(parse_mesh(mesh));
   scene.textures = options.textures;

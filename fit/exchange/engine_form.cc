@@ -168,21 +168,24 @@ Atmosphere<double> engine_form(const Atmosphere<double>& atmosphere, const Spect
 }
 
 EngineAtmosphere engine_atmosphere(const Atmosphere<double>& atmosphere) {
-  const Constituent<double>&air = atmosphere.at("rayleigh"), &mie = atmosphere.at("mie");
+  const Constituent<double>& air = atmosphere.at("rayleigh");
   EngineAtmosphere engine;
   engine.bottom_radius_m = atmosphere.bottom_radius_m;
   engine.top_radius_m = atmosphere.top_radius_m;
   engine.rayleigh_scattering = coefficients(air);
   engine.rayleigh_scale_height_m = air.profile.scale_height_m;
-  engine.mie_scattering = coefficients(mie);
-  engine.mie_scale_height_m = mie.profile.scale_height_m;
-  engine.g = mie.phase.g;
-  engine.lobe = mie.phase.type;
-  for (std::size_t k = 0; k < 3; ++k) {
-    engine.mie_absorption[k] =
-        engine.mie_scattering[k] * (1 / albedo(mie, kEngineWavelengths_nm[k]) - 1);
-    engine.ground_albedo[k] = ground_albedo_at(atmosphere, kEngineWavelengths_nm[k]);
+  if (const Constituent<double>* mie = atmosphere.find("mie")) {
+    engine.mie_scattering = coefficients(*mie);
+    engine.mie_scale_height_m = mie->profile.scale_height_m;
+    engine.g = mie->phase.g;
+    engine.lobe = mie->phase.type;
+    for (std::size_t k = 0; k < 3; ++k) {
+      engine.mie_absorption[k] =
+          engine.mie_scattering[k] * (1 / albedo(*mie, kEngineWavelengths_nm[k]) - 1);
+    }
   }
+  for (std::size_t k = 0; k < 3; ++k)
+    engine.ground_albedo[k] = ground_albedo_at(atmosphere, kEngineWavelengths_nm[k]);
   if (const Constituent<double>* absorber = atmosphere.find("absorber")) {
     engine.absorption = coefficients(*absorber);
     engine.tent_peak_m = absorber->profile.peak_m;
@@ -210,7 +213,10 @@ Atmosphere<double> atmosphere_of(const EngineAtmosphere& engine) {
   mie.single_scattering_albedo = albedos[1];
   if (std::ranges::max(albedos) - std::ranges::min(albedos) > 1e-9)
     mie.albedo_spectrum = table_of(albedos, kAlbedoFormat);
-  std::erase_if(a.constituents, [](const auto& c) { return c.name == "ozone"; });
+  const bool has_aerosol = std::ranges::max(engine.mie_scattering) > 0;
+  std::erase_if(a.constituents, [&](const auto& c) {
+    return c.name == "ozone" || (c.name == "mie" && !has_aerosol);
+  });
   if (std::ranges::max(engine.absorption) > 0) {
     Constituent<double> absorber;
     absorber.name = "absorber";

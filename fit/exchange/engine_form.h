@@ -33,9 +33,9 @@ struct EngineAtmosphere {
 Atmosphere<double> engine_form(const Atmosphere<double>& atmosphere, const SpectralData& spectra,
                                PhaseType lobe);
 
-// Between the two; `atmosphere` is of that form, with the constituents "rayleigh", "mie" and, if
-// any, "absorber". A dependence on wavelength is a power law through red and blue where that meets
-// green within 2 %, else a table.
+// Between the two; `atmosphere` is of that form, with the constituents "rayleigh" and, if any,
+// "mie" and "absorber". An aerosol that only absorbs is left out. A dependence on wavelength is a
+// power law through red and blue where that meets green within 2 %, else a table.
 EngineAtmosphere engine_atmosphere(const Atmosphere<double>& atmosphere);
 Atmosphere<double> atmosphere_of(const EngineAtmosphere& engine);
 

@@ -163,7 +163,7 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--color-map", "."}, {".: cannot be read", "--color-map", "directory"});
   write("heights.png", "");
   expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000..0"},
-                        {"highest_m", "0"});
+                        {"--height-range-m", "LOW < HIGH"});
   expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000"},
                         {"--height-range-m", "LOW..HIGH"});
   expect_render_refusal({"--height-range-m", "0..1"}, {"--height-range-m", "with --height-map"});

@@ -92,6 +92,18 @@ TEST(Exchange, WhatAProgramCannotHoldIsRefitted) {
   EXPECT_EQ(engine_atmosphere(better).lobe, PhaseType::kHenyeyGreenstein);
 }
 
+TEST(Exchange, AirWithoutAerosolHasNone) {
+  Atmosphere<double> air = shipped("earth-clear");
+  std::erase_if(air.constituents, [](const auto& c) { return c.name == "mie"; });
+  for (const Engine& engine : engines()) {
+    const std::string text = engine.write(restricted(air, engine), {"air", "", 0.5, 1, {}});
+    std::vector<std::string> notes;
+    const Atmosphere<double> back = atmosphere_of(*engine.read(text, "file", notes));
+    EXPECT_EQ(back.find("mie"), nullptr) << engine.name;
+    validate(back);
+  }
+}
+
 TEST(Exchange, UnrealsDefaultsAreHillaires) {
   std::vector<std::string> notes;
   const auto read = engine_named("unreal").read(
