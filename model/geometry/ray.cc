@@ -74,9 +74,7 @@ std::vector<double> shell_crossings(const ViewRay& ray, double bottom_radius,
   return s;
 }
 
-std::vector<double> with_piece_breaks(const ViewRay& ray, std::vector<double> breaks) {
-  constexpr double kHighestHaze = 5000;  // m
-  if (ray.entry_height > kHighestHaze) return breaks;
+std::vector<double> with_piece_breaks(const std::vector<double>& breaks) {
   std::vector<double> all = {breaks.front()};
   for (std::size_t i = 1; i < breaks.size(); ++i)
     for_pieces(breaks[i - 1], breaks[i], [&](double, double end) { all.push_back(end); });

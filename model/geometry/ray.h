@@ -75,9 +75,8 @@ void for_pieces(double begin, double end, Piece&& piece) {
   }
 }
 
-// The breaks of a ray (ascending) and those of the pieces between them; as they are where the ray
-// begins above 5 km, where no haze is so thick that it wants them.
-std::vector<double> with_piece_breaks(const ViewRay& ray, std::vector<double> breaks);
+// The breaks (ascending) and those of the pieces between them.
+std::vector<double> with_piece_breaks(const std::vector<double>& breaks);
 
 struct QuadratureNode {
   double s, weight;

@@ -22,7 +22,7 @@ std::vector<RayNode> ray_nodes(const Shells& shells, const ViewRay& ray) {
   constexpr double kLow = 0.1, kLongPiece = 2e3;  // of the top; m
   if (ray.entry_height < kLow * shells.top && breaks.size() > 1 &&
       breaks[1] - breaks[0] > kLongPiece)
-    breaks = with_piece_breaks(ray, breaks);
+    breaks = with_piece_breaks(breaks);
   std::vector<RayNode> nodes;
   for (const QuadratureNode& q : composite_gauss(breaks, kNodes)) {
     const RayPoint at = ray_point(ray, shells.bottom_radius, q.s);

@@ -8,6 +8,7 @@
 // M_2 that of the light without polarisation, b the P of light that the sun's beam polarises.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 

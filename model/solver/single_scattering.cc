@@ -133,7 +133,7 @@ RayNodes ray_nodes(const Shells& shells, const std::vector<char>& scattering, co
       shell_crossings(ray, shells.bottom_radius, shell_heights(shells.top)), shells.bottom_radius);
   breaks.insert(breaks.end(), edges.begin(), edges.end());
   RayNodes nodes;
-  breaks = with_piece_breaks(ray, with_profile_breaks(shells, ray, breaks));
+  breaks = with_piece_breaks(with_profile_breaks(shells, ray, breaks));
   for (const QuadratureNode& q : composite_gauss(breaks, kOrder)) {
     nodes.points.push_back(ray_point(ray, shells.bottom_radius, q.s));
     nodes.weight.push_back(q.weight);

@@ -77,8 +77,7 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
       shell_crossings(path.ray, shells.bottom_radius, heights), path.ray.tangent_s);
   for (const double x : s) path.nodes.push_back(ray_point(path.ray, shells.bottom_radius, x));
   set_sun_points(shells, path);
-  const std::vector<double> breaks =
-      with_piece_breaks(path.ray, with_profile_breaks(shells, path.ray, s));
+  const std::vector<double> breaks = with_piece_breaks(with_profile_breaks(shells, path.ray, s));
   for (const QuadratureNode& q : composite_gauss(breaks, 3)) {
     ViewPath::Sample sample{ray_point(path.ray, shells.bottom_radius, q.s), q.weight, {}};
     sample.columns = columns_along(shells, path.ray, sample.point);

@@ -83,6 +83,25 @@ TEST(Continuity, OfTheViewAlongThickHaze) {
   }
 }
 
+// The same from above the ground's haze, where it is deep: at every altitude, and through the
+// horizon.
+TEST(Continuity, OfTheViewAlongDeepHaze) {
+  Atmosphere<double> deep = haze(6e-4);
+  deep.at("mie").profile.scale_height_m = 5000;
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  for (const double altitude : {3e3, 4.9e3, 5.1e3, 7e3}) {
+    std::vector<SkyPoint> points;
+    for (double view = 89; view <= 92; view += 0.1)
+      points.push_back({altitude, 62 * kDegree, view * kDegree, 1.7});
+    const SkyValues sky = model->radiance(deep, {&kGreen, 1}, points, {});
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      constexpr double kStep = 0.02;  // of 0.1 deg, as above
+      EXPECT_LT(std::abs(std::log(sky.value[i] / sky.value[i - 1])), kStep)
+          << altitude << " m, view " << points[i].view_zenith / kDegree;
+    }
+  }
+}
+
 TEST(Continuity, OfTheObserverThroughTheTop) {
   const double top = haze().top_radius_m - haze().bottom_radius_m;
   for (const double view : {95.0, 120.0, 180.0}) {
