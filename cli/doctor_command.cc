@@ -44,7 +44,7 @@ void run_doctor() {
   print(fmt::format("skyfit {}\n", kVersion));
   bool well = examine("figures (gnuplot)", [] { return program_version("gnuplot", "--version"); });
   well &= examine("frames, software", [] { return renderer_of(GraphicsDevice::kSoftware); });
-  examine("frames, GPU (--gpu)", [] { return renderer_of(GraphicsDevice::kGpu); });
+  examine("frames by EGL, a GPU or Mesa (--gpu)", [] { return renderer_of(GraphicsDevice::kGpu); });
   examine("videos (ffmpeg)", [] { return program_version("ffmpeg", "-version"); });
   if (!well) throw std::runtime_error("something that skyfit needs is missing");
 }

@@ -172,6 +172,13 @@ std::vector<double> parse_sun_zeniths(const std::string& text) {
   return angles;
 }
 
+Primaries parse_primaries(const std::string& name) {
+  const auto found = std::ranges::find(kColorSpaces, name, &ColorSpace::name);
+  if (found == kColorSpaces.end())
+    throw UsageError("--primaries", name, "expected rec709, rec2020 or xyz");
+  return static_cast<Primaries>(found - kColorSpaces.begin());
+}
+
 refs::Sampling parse_sampling(const std::string& text) {
   if (text == "principal") return refs::Sampling::kPrincipalPlane;
   if (text == "tregenza") return refs::Sampling::kTregenza;

@@ -11,6 +11,7 @@
 #include "data_refs/references.h"
 #include "model/atmosphere/preset.h"
 #include "model/base/input_file.h"
+#include "render/color_space.h"
 
 namespace skyfit::cli {
 
@@ -50,6 +51,9 @@ refs::ImportOptions parse_import_options(const ImportArguments& arguments);
 // Radians; the sun of a daytime reference stands above the horizon: 0 <= angle < 90 degrees. Throws
 // UsageError.
 std::vector<double> parse_sun_zeniths(const std::string& text);
+
+// A name of kColorSpaces; throws UsageError.
+Primaries parse_primaries(const std::string& name);
 
 // "principal" or "tregenza"; throws UsageError.
 refs::Sampling parse_sampling(const std::string& text);

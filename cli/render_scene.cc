@@ -35,13 +35,6 @@ PlacedMesh parse_mesh(const std::string& text) {
   return mesh;
 }
 
-Primaries parse_primaries(const std::string& name) {
-  const auto found = std::ranges::find(kColorSpaces, name, &ColorSpace::name);
-  if (found == kColorSpaces.end())
-    throw UsageError("--primaries", name, "expected rec709, rec2020 or xyz");
-  return static_cast<Primaries>(found - kColorSpaces.begin());
-}
-
 void parse_sky_objects(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {
   if (command.count("--moon") > 0) {
     const auto values = parse_tuple("--moon", options.moon, 2, 4,

@@ -34,13 +34,6 @@ bool choice(std::string_view option, const std::string& text, std::string_view y
   throw UsageError(option, text, fmt::format("expected {} or {}", yes, no));
 }
 
-Primaries primaries_named(const std::string& name) {
-  for (std::size_t i = 0; i < kColorSpaces.size(); ++i) {
-    if (kColorSpaces[i].name == name) return static_cast<Primaries>(i);
-  }
-  throw UsageError("--primaries", name, "expected rec709, rec2020 or xyz");
-}
-
 SkyMapOptions options_of(const SkyMapArguments& arguments) {
   constexpr double kHighest_m = 1e9;
   SkyMapOptions options;
@@ -104,7 +97,7 @@ void run_sky_map(const SkyMapArguments& arguments) {
                                                  : std::vector<std::string>{".exr", ".hdr"});
   if (!arguments.sun_file.empty())
     require_output_files({arguments.sun_file}, {".json"}, "--sun-file");
-  const Primaries primaries = primaries_named(arguments.primaries);
+  const Primaries primaries = parse_primaries(arguments.primaries);
   if (arguments.out.ends_with(".hdr") && primaries != Primaries::kRec709)
     throw UsageError("--primaries", arguments.primaries, "expected rec709 for a .hdr file");
   if (spectral && primaries != Primaries::kRec709)

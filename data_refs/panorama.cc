@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
-#include "data_refs/fisheye.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -51,19 +51,6 @@ std::optional<PixelView> Panorama::view(double x_px, double y_px) const {
   const double solid_angle =
       step * (std::cos(std::max(zenith - half, 0.0)) - std::cos(zenith + half));
   return PixelView{zenith, std::remainder(east_is_left_ ? -turn : turn, kTurn), solid_angle};
-}
-
-std::unique_ptr<ImageDirections> image_directions(const ImportOptions& facts, int width, int height,
-                                                  std::string_view source) {
-  if (facts.projection == "equirectangular")
-    return std::make_unique<Panorama>(facts, width, height, source);
-  if (width == 2 * height && !facts.radius_px) {
-    throw std::invalid_argument(
-        fmt::format("{}: {} x {} pixels: expected a fisheye, this is as wide as a panorama; state "
-                    "projection = equirectangular, or radius_px where it is none",
-                    source, width, height));
-  }
-  return std::make_unique<Fisheye>(facts, width, height, source);
 }
 
 }  // namespace skyfit::refs

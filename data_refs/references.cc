@@ -80,7 +80,7 @@ Reference weather_reference(std::string_view name, Sampling sampling) {
   reference.description = fmt::format(
       "Perez, Seals & Michalsky 1993 of direct normal {:.6g} and diffuse horizontal {:.6g} W/m^2: "
       "clearness {:.4g}, brightness {:.4g}, sun zenith {:.2f} deg at {}",
-      hour.direct_normal, hour.diffuse_horizontal, perez.sky.epsilon, perez.sky.delta,
+      hour.direct_normal_w_m2, hour.diffuse_horizontal_w_m2, perez.sky.epsilon, perez.sky.delta,
       perez.sun.zenith * kDegreesPerRadian, iso_text(hour.middle));
   return reference;
 }

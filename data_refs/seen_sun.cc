@@ -39,11 +39,13 @@ std::vector<Direction> directions_of(std::span<const Sample> scan) {
   for (const Sample& s : scan) {
     if (s.weight > 0) ++count[s.wavelength_nm];
   }
-  if (count.empty()) return {};
-  const double wavelength =
-      std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) {
-        return a.second <= b.second && a.first < b.first ? true : a.second < b.second;
-      })->first;
+  double wavelength = 0;
+  int most = 0;
+  for (const auto& [nm, directions] : count) {
+    if (directions < most) continue;
+    wavelength = nm;
+    most = directions;
+  }
   std::vector<Direction> directions;
   for (const Sample& s : scan) {
     if (s.weight > 0 && s.wavelength_nm == wavelength)

@@ -204,11 +204,12 @@ WeatherHour weather_hour(std::string_view file_and_time) {
     found.middle =
         day + std::chrono::milliseconds(std::llround((row.middle - layout.utc_offset_h) * 3.6e6));
     found.site = layout.site;
-    found.direct_normal = number_of(fields, layout.direct, "direct normal", file, line);
-    found.diffuse_horizontal = number_of(fields, layout.diffuse, "diffuse horizontal", file, line);
+    found.direct_normal_w_m2 = number_of(fields, layout.direct, "direct normal", file, line);
+    found.diffuse_horizontal_w_m2 =
+        number_of(fields, layout.diffuse, "diffuse horizontal", file, line);
     constexpr double kMost = 2000;  // W/m^2; 9999 stands for a missing value
-    for (const auto& [name, value] : {std::pair{"direct normal", found.direct_normal},
-                                      {"diffuse horizontal", found.diffuse_horizontal}}) {
+    for (const auto& [name, value] : {std::pair{"direct normal", found.direct_normal_w_m2},
+                                      {"diffuse horizontal", found.diffuse_horizontal_w_m2}}) {
       if (!(value >= 0 && value < kMost))
         fail_at(file, line, fmt::format("{} = {:.9g}: expected 0 to 2000 W/m^2", name, value));
     }
@@ -229,23 +230,24 @@ PerezHour perez_hour(const WeatherHour& hour, std::string_view name) {
                     iso_text(hour.middle), zenith_deg));
   }
   constexpr double kLeast = 1;  // W/m^2
-  if (!(hour.diffuse_horizontal >= kLeast)) {
+  if (!(hour.diffuse_horizontal_w_m2 >= kLeast)) {
     throw std::invalid_argument(
         fmt::format("{}: diffuse horizontal = {:.9g} W/m^2: expected at least 1", name,
-                    hour.diffuse_horizontal));
+                    hour.diffuse_horizontal_w_m2));
   }
   const double cube = kKappa * zenith * zenith * zenith;
   result.sky.epsilon =
-      ((hour.diffuse_horizontal + hour.direct_normal) / hour.diffuse_horizontal + cube) /
+      ((hour.diffuse_horizontal_w_m2 + hour.direct_normal_w_m2) / hour.diffuse_horizontal_w_m2 +
+       cube) /
       (1 + cube);
   const double air_mass =
       1 / (std::cos(zenith) + 0.50572 * std::pow(96.07995 - zenith_deg, -1.6364));
-  result.sky.delta = air_mass * hour.diffuse_horizontal * result.sun.distance_au *
+  result.sky.delta = air_mass * hour.diffuse_horizontal_w_m2 * result.sun.distance_au *
                      result.sun.distance_au / kSolarConstant;
   if (!(result.sky.delta > 0 && result.sky.delta <= 1)) {
     throw std::invalid_argument(
         fmt::format("{}: brightness {:.4g} of {:.9g} W/m^2 of diffuse light: expected at most 1",
-                    name, result.sky.delta, hour.diffuse_horizontal));
+                    name, result.sky.delta, hour.diffuse_horizontal_w_m2));
   }
   return result;
 }

@@ -14,12 +14,12 @@
 
 namespace skyfit::refs {
 
-// W/m^2. The sun is that of the interval's middle, in WEA files of the stated time, as gendaymtx
+// The sun is that of the interval's middle, in WEA files of the stated time, as gendaymtx
 // has it.
 struct WeatherHour {
   Instant middle;
   Site site;
-  double direct_normal = 0, diffuse_horizontal = 0;
+  double direct_normal_w_m2 = 0, diffuse_horizontal_w_m2 = 0;
 };
 
 // Of "FILE@YYYY-MM-DDTHH:MM" in the file's own standard time, the interval that contains it, where

@@ -49,8 +49,8 @@ class WeatherFile : public ::testing::Test {
 TEST_F(WeatherFile, TheLayoutsGiveTheSameHour) {
   for (const std::string& text : {kEpw, kWea, kTmy}) {
     const WeatherHour hour = weather_hour(hour_of(text, "2026-06-21T11:20"));
-    EXPECT_EQ(hour.direct_normal, 850);
-    EXPECT_EQ(hour.diffuse_horizontal, 110);
+    EXPECT_EQ(hour.direct_normal_w_m2, 850);
+    EXPECT_EQ(hour.diffuse_horizontal_w_m2, 110);
     EXPECT_EQ(iso_text(hour.middle), "2026-06-21T18:30:00Z");
     EXPECT_NEAR(hour.site.latitude, 40 * kRadiansPerDegree, 1e-12);
     EXPECT_NEAR(hour.site.longitude, -105 * kRadiansPerDegree, 1e-12);
@@ -64,8 +64,8 @@ TEST_F(WeatherFile, IntervalsShorterThanAnHourHaveTheirOwnSun) {
   half.replace(half.find("6,21,11,60"), 10, "6,21,12,30");
   const WeatherHour first = weather_hour(hour_of(half, "2026-06-21T11:10")),
                     second = weather_hour(hour_of(half, "2026-06-21T11:40"));
-  EXPECT_EQ(first.direct_normal, 800);
-  EXPECT_EQ(second.direct_normal, 850);
+  EXPECT_EQ(first.direct_normal_w_m2, 800);
+  EXPECT_EQ(second.direct_normal_w_m2, 850);
   EXPECT_EQ(iso_text(first.middle), "2026-06-21T18:15:00Z");
   EXPECT_EQ(iso_text(second.middle), "2026-06-21T18:45:00Z");
 }

@@ -40,10 +40,11 @@ EngineAtmosphere restricted(const Atmosphere<double>& atmosphere, const Engine& 
 
 void expect_near(const Rgb& a, const Rgb& b, std::string_view what) {
   for (std::size_t k = 0; k < 3; ++k)
+    // Scripts hold six digits.
     EXPECT_NEAR(a[k], b[k], 2e-5 * std::abs(b[k]) + 1e-15) << what << " " << k;
 }
 
-class Engines : public ::testing::TestWithParam<const char*> {};
+class Engines : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(Engines, ReadsWhatItWrites) {
   const Engine& engine = engine_named(GetParam());
@@ -66,10 +67,13 @@ TEST_P(Engines, ReadsWhatItWrites) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Engines,
-                         ::testing::Values("unreal", "unity", "bruneton", "blender", "threejs"));
+std::vector<std::string_view> names() {
+  std::vector<std::string_view> list;
+  for (const Engine& engine : engines()) list.push_back(engine.name);
+  return list;
+}
 
-TEST(Exchange, EveryEngineIsTested) { EXPECT_EQ(engines().size(), 5u); }
+INSTANTIATE_TEST_SUITE_P(All, Engines, ::testing::ValuesIn(names()));
 
 TEST(Exchange, NothingIsLostWhereTheFormIsTheSame) {
   const Atmosphere<double> a = shipped("hillaire-2020");
