@@ -9,6 +9,7 @@
 
 #include "model/literature/bodare.h"
 #include "model/literature/bruneton.h"
+#include "model/literature/hillaire.h"
 #include "model/literature/hoffman_preetham.h"
 #include "model/literature/nielsen.h"
 #include "model/literature/oneil.h"
@@ -56,6 +57,8 @@ std::span<const SkyModelEntry> sky_models() {
        make_threaded<BrunetonModel>},
       {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering",
        make_threaded<BodareModel>},
+      {"hillaire", "Hillaire 2020, as engines do: 2D tables, multiple scattering as a series",
+       make_threaded<HillaireModel>},
       {"schafhitzel", "Schafhitzel, Falk & Ertl 2007: 3D table, single scattering",
        make_threaded<SchafhitzelModel>},
       {"oneil", "O'Neil 2005: five samples along the ray, single scattering",

@@ -267,12 +267,13 @@ RayLight<N> BodareTables<N>::light(const View& view) const {
 
 template <int N>
 SkyRayTexels BodareTables<N>::sky_rays() const {
-  SkyRayTexels sky{Sizes::sun, kHalf, Sizes::height, {}, {}};
+  SkyRayTexels sky;
+  sky.air = sky.aerosol = {Sizes::sun, kHalf, Sizes::height, {}};
   for (int i = 0; i < Sizes::height; ++i) {
     for (int v = kHalf; v < Sizes::view; ++v) {
       for (int s = 0; s < Sizes::sun; ++s) {
-        sky.air.push_back(static_cast<float>(air_sum_.at({i, v, s}).v));
-        sky.aerosol.push_back(static_cast<float>(aerosol_sum_.at({i, v, s}).v));
+        sky.air.values.push_back(static_cast<float>(air_sum_.at({i, v, s}).v));
+        sky.aerosol.values.push_back(static_cast<float>(aerosol_sum_.at({i, v, s}).v));
       }
     }
   }

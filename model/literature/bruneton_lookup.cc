@@ -57,13 +57,14 @@ RayLight<N> BrunetonTables<N>::light(const View& view) const {
 template <int N>
 SkyRayTexels BrunetonTables<N>::sky_rays() const {
   constexpr int kHalf = Sizes::mu / 2;
-  SkyRayTexels sky{Sizes::nu * Sizes::mu_s, kHalf, Sizes::r, {}, {}};
+  SkyRayTexels sky;
+  sky.air = sky.aerosol = {Sizes::nu * Sizes::mu_s, kHalf, Sizes::r, {}};
   for (int r = 0; r < Sizes::r; ++r) {
     for (int mu = kHalf; mu < Sizes::mu; ++mu) {
-      for (int i = 0; i < sky.width; ++i) {
+      for (int i = 0; i < sky.air.width; ++i) {
         const std::array<int, 4> at = {r, mu, i % Sizes::mu_s, i / Sizes::mu_s};
-        sky.air.push_back(static_cast<float>(rayleigh_like_.at(at).v));
-        sky.aerosol.push_back(static_cast<float>(single_mie_.at(at).v));
+        sky.air.values.push_back(static_cast<float>(rayleigh_like_.at(at).v));
+        sky.aerosol.values.push_back(static_cast<float>(single_mie_.at(at).v));
       }
     }
   }

@@ -147,8 +147,11 @@ struct RayLight {
 // What a renderer reads of a model's tables: those of rays to the sky, without phase functions, in
 // single precision.
 struct SkyRayTexels {
-  int width = 0, height = 0, depth = 0;  // width varies fastest
-  std::vector<float> air, aerosol;
+  struct Texels {
+    int width = 0, height = 0, depth = 0;  // width varies fastest
+    std::vector<float> values;
+  };
+  Texels air, aerosol;
 };
 
 // Whether models without absorption depend on a parameter.

@@ -116,10 +116,11 @@ RayLight<N> SchafhitzelTables<N>::light(const View& view) const {
 
 template <int N>
 SkyRayTexels SchafhitzelTables<N>::sky_rays() const {
-  SkyRayTexels sky{kSize, kSize, kSize, {}, {}};
+  SkyRayTexels sky;
+  sky.air = sky.aerosol = {kSize, kSize, kSize, {}};
   for (std::size_t i = 0; i < air_table_.count(); ++i) {
-    sky.air.push_back(static_cast<float>(air_table_[i].v));
-    sky.aerosol.push_back(static_cast<float>(aerosol_table_[i].v));
+    sky.air.values.push_back(static_cast<float>(air_table_[i].v));
+    sky.aerosol.values.push_back(static_cast<float>(aerosol_table_[i].v));
   }
   return sky;
 }

@@ -16,6 +16,7 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "model/literature/evaluate.h"
 
@@ -89,14 +90,13 @@ class TabulatedModel final : public SkyModel {
     SkyRayTables tables{Method::kSkyRays, {}, {}};
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       const SkyRayTexels texels = kept->prepared(nodes[node]).sky_rays();
-      if (node == 0) {
-        tables.air = {texels.width, texels.height, texels.depth,
-                      std::vector<float>(4 * texels.air.size())};
-        tables.aerosol = tables.air;
-      }
-      for (std::size_t i = 0; i < texels.air.size(); ++i) {
-        tables.air.rgba[4 * i + node] = texels.air[i];
-        tables.aerosol.rgba[4 * i + node] = texels.aerosol[i];
+      for (const auto& [of_node, table] :
+           {std::pair(&texels.air, &tables.air), std::pair(&texels.aerosol, &tables.aerosol)}) {
+        if (node == 0)
+          *table = {of_node->width, of_node->height, of_node->depth,
+                    std::vector<float>(4 * of_node->values.size())};
+        for (std::size_t i = 0; i < of_node->values.size(); ++i)
+          table->rgba[4 * i + node] = of_node->values[i];
       }
     }
     return tables;

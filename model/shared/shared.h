@@ -42,6 +42,7 @@ struct Shared {
 // after the geometry and the mapping that they stand on
 #include "model/shared/bodare_mapping.glsl"
 #include "model/shared/bruneton_mapping.glsl"
+#include "model/shared/hillaire_mapping.glsl"
 #include "model/shared/media.glsl"
 #include "model/shared/phase.glsl"
 #undef OUT

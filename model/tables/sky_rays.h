@@ -24,6 +24,9 @@ enum class SkyRayMapping {
   kBodare,       // x: sun, y: view, z: height; model/shared/bodare_mapping.glsl
   kSchafhitzel,  // the same, height and angles spaced evenly; all views
   kONeil,        // no tables: sums in the shader
+  // Sums in the shader with tables of their own; `air`: transmittance, x: mu, y: r; `aerosol`:
+  // multiple scattering, 1/sr, x: mu_s, y: height; model/literature/hillaire_tables.h.
+  kHillaire,
 };
 
 struct SkyRayTables {

@@ -82,17 +82,17 @@ TEST(Bodare, SkyRaysAreTheRaysToTheSky) {
   const literature::BodareTables<0> tables(
       geometry, literature::clear_air(geometry.shells(), seeded<0>(a, {}), kGreen), {});
   const literature::SkyRayTexels sky = tables.sky_rays();
-  ASSERT_EQ(sky.air.size(), std::size_t{32} * 64 * 32);
+  ASSERT_EQ(sky.air.values.size(), std::size_t{32} * 64 * 32);
   Shared<double> shared;
   for (const auto& [height, view, sun] : {std::tuple{0, 10, 20}, {5, 63, 31}, {20, 1, 12}}) {
     const double h = geometry.height(height),
-                 mu = shared.bodare_sky_view_from_unit(literature::unit_of(view, sky.height),
+                 mu = shared.bodare_sky_view_from_unit(literature::unit_of(view, sky.air.height),
                                                        shared.bodare_horizon(h, a.bottom_radius_m));
     const auto expected = tables.in_scatter(h, mu, literature::BodareGeometry::sun(sun), false);
     const std::size_t texel = (static_cast<std::size_t>(height) * 64 + view) * 32 + sun;
     constexpr double kFloat = 1e-4;  // and the fifth root that finds the texel again
-    EXPECT_NEAR(sky.air[texel] / expected.air.v, 1, kFloat) << "view " << view;
-    EXPECT_NEAR(sky.aerosol[texel] / expected.aerosol.v, 1, kFloat) << "view " << view;
+    EXPECT_NEAR(sky.air.values[texel] / expected.air.v, 1, kFloat) << "view " << view;
+    EXPECT_NEAR(sky.aerosol.values[texel] / expected.aerosol.v, 1, kFloat) << "view " << view;
   }
 }
 
