@@ -159,7 +159,8 @@ void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
 // Where the renderer sums the sky itself, the scattering tables hold the light before the ground
 // and in the irradiance alone, of single scattering, which is smooth.
 TableSizes sizes_beside(const std::optional<SkyRayTables>& own, TableSizes sizes) {
-  if (!own || own->mapping != SkyRayMapping::kONeil) return sizes;
+  if (!own || (own->mapping != SkyRayMapping::kONeil && own->mapping != SkyRayMapping::kHillaire))
+    return sizes;
   sizes.scattering_r = std::min(sizes.scattering_r, 16);
   sizes.scattering_ground = std::min(sizes.scattering_ground, 16);
   sizes.scattering_sky = std::min(sizes.scattering_sky, 24);

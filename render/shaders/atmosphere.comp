@@ -3,7 +3,7 @@
 #include "render/shaders/pixel_light.glsl"
 #include "render/shaders/pixel_class.glsl"
 
-layout(binding = 6) uniform sampler2D depth;
+layout(binding = 8) uniform sampler2D depth;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f, binding = 0) writeonly uniform image2D light;

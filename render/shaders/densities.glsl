@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much the classes of phase functions scatter over height.
+// How much the classes of phase functions scatter over height, and the extinction.
 #include "render/shaders/atmosphere.glsl"
 
-layout(binding = 13) uniform sampler2D scattering_coefficients;  // 1/km; rows: the Rayleigh-like class, then the others
+layout(binding = 13) uniform sampler2D scattering_coefficients;  // 1/km; rows: the Rayleigh-like class, the others, all extinction
 
 Scattering scattering_at(float h) {
   float x = height_coordinate(h, float(textureSize(scattering_coefficients, 0).x));
   Scattering s;
-  s.rayleigh_like = texture(scattering_coefficients, vec2(x, 0.5 / float(kClasses + 1)));
+  s.rayleigh_like = texture(scattering_coefficients, vec2(x, 0.5 / float(kClasses + 2)));
   for (int c = 0; c < kClasses; ++c)
-    s.single[c] = texture(scattering_coefficients, vec2(x, (float(c) + 1.5) / float(kClasses + 1)));
+    s.single[c] = texture(scattering_coefficients, vec2(x, (float(c) + 1.5) / float(kClasses + 2)));
   return s;
+}
+
+vec4 extinction_at(float h) {
+  float x = height_coordinate(h, float(textureSize(scattering_coefficients, 0).x));
+  return texture(scattering_coefficients, vec2(x, 1.0 - 0.5 / float(kClasses + 2)));
 }

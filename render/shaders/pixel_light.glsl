@@ -22,7 +22,7 @@ vec2 pixel_centre;  // that seen_at() is asked for
 #include "render/shaders/shadows.glsl"
 #endif
 
-layout(binding = 5) uniform usampler2D gbuffer;
+layout(binding = 7) uniform usampler2D gbuffer;
 
 const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // in the frame's primaries and luminance, cd/m^2
 
@@ -97,11 +97,15 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   path.transmittance = light.transmittance;
 #else
   if (ray.air && surface.d > ray.entry) {
-    WholeRay whole = whole_ray(ray, start, sun, nu, i);
     // Both ends from the same table: nothing is left of its errors where they are near each other.
     path.transmittance = transmittance_between(start, end, ray.hits_ground);
+#ifdef HILLAIRE
+    path.in_scatter = radiance(hillaire_march(start, nu, in_air), nu);
+#else
+    WholeRay whole = whole_ray(ray, start, sun, nu, i);
     Scattering rest = scattering(end, nu, ray.hits_ground);
     path.in_scatter = radiance(scattering_before(whole.scattering, path.transmittance, rest), nu);
+#endif
   }
 #endif
   float lit = 1.0;

@@ -4,8 +4,8 @@
 #include "model/shared/bodare_mapping.glsl"
 #include "model/shared/bruneton_mapping.glsl"
 
-layout(binding = 10) uniform sampler3D sky_ray_air;
-layout(binding = 11) uniform sampler3D sky_ray_aerosol;
+layout(binding = 5) uniform sampler3D sky_ray_air;
+layout(binding = 6) uniform sampler3D sky_ray_aerosol;
 
 const vec3 sky_ray_size = vec3(SKY_RAY_SIZE);
 

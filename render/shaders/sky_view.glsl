@@ -6,6 +6,9 @@
 // Not below, in a branch: files are included once.
 #include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
+#ifdef HILLAIRE
+#include "render/shaders/hillaire.glsl"
+#endif
 
 const vec3 sky_view_size = vec3(SKY_VIEW_SIZE);  // columns of a sun, rows of rays to the ground, rows of rays to the sky
 
@@ -31,12 +34,12 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
 }
 
 #if !defined(SKY_VIEW_WRITE) && !defined(VOLUME_WRITE)
-#ifdef SKY_RAYS
+#if defined(SKY_RAYS) && !defined(HILLAIRE)
 #include "render/shaders/sky_rays.glsl"
 #endif
-layout(binding = 7) uniform sampler2D view_air;      // logarithm of the amplitude
-layout(binding = 8) uniform sampler2D view_aerosol;  // the same of single scattering by the other classes
-layout(binding = 9) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
+layout(binding = 9) uniform sampler2D view_air;      // logarithm of the amplitude
+layout(binding = 10) uniform sampler2D view_aerosol;  // the same of single scattering by the other classes
+layout(binding = 11) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
 
 struct WholeRay {
   Scattering scattering;
@@ -44,7 +47,19 @@ struct WholeRay {
 };
 
 WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
-#if defined(SKY_RAYS)
+#if defined(SKY_RAYS) && defined(HILLAIRE)
+  vec4 depth = optical_depth_past_ground(ray.h, ray.mu);
+#ifdef FROM_ABOVE
+  return WholeRay(hillaire_ray(start, nu), depth);
+#else
+  // The picture holds radiances, with the phase functions of its texels.
+  vec2 place = hillaire_place_in_view(ray.h, ray.mu, cosine_of_azimuth(ray.mu, sun.z, nu));
+  Scattering light = march_begin().light;
+  light.rayleigh_like = texture(view_air, vec2((float(i) + place.x) / float(kSuns), place.y)) /
+                        rayleigh_phase(depolarisation, nu);
+  return WholeRay(light, depth);
+#endif
+#elif defined(SKY_RAYS)
   return WholeRay(sky_ray_scattering(start, nu), optical_depth_past_ground(ray.h, ray.mu));
 #elif defined(FROM_ABOVE)
   return WholeRay(scattering(start, nu, ray.hits_ground),

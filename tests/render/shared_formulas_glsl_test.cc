@@ -169,8 +169,8 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
   add_tables(tables, graph);
   const auto inputs = rays();
   const std::map<GLuint, const char*> names = {
-      {0, "optical_depth"}, {1, "irradiance"},   {2, "rayleigh_like"},   {3, "single"},
-      {4, "phase"},         {10, "sky_ray_air"}, {11, "sky_ray_aerosol"}};
+      {0, "optical_depth"}, {1, "irradiance"},  {2, "rayleigh_like"},  {3, "single"},
+      {4, "phase"},         {5, "sky_ray_air"}, {6, "sky_ray_aerosol"}};
   // One shader, so that the compiler drops no uniform; x.w says which function is asked for.
   const auto look_up = [&](float which) {
     std::vector<float> asked = inputs;

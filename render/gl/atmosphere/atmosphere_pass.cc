@@ -116,8 +116,9 @@ bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
 
 bool AtmosphereView::sees_grains() const { return !only_ground || nearest_m < grainless_m(*this); }
 
-bool AtmospherePass::has_sky_view(const FrameOptions& options) {
-  return options.camera.altitude_m <= kAbove;
+bool AtmospherePass::has_sky_view(const FrameOptions& options) const {
+  const bool hillaire = tables_.sky_rays.mapping == SkyRayMapping::kHillaire;
+  return options.camera.altitude_m <= (hillaire ? thickness_m(tables_) : kAbove);
 }
 
 AtmospherePass::AtmospherePass(GraphicsDevice device)
@@ -168,7 +169,7 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
 }
 
 void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {
-  const glm::ivec3 size = sky_view_size(tables_.sizes);
+  const glm::ivec3 size = sky_view_size(tables_);
   const int suns = options.second_sun ? 2 : 1,
             classes = static_cast<int>(tables_.phases.others.size());
   for (const std::string& target : kSkyViewWrites)
@@ -184,6 +185,7 @@ void AtmospherePass::draw_triangle(GLuint program) const {
 void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
   const GLuint id = program(kSkyView, defined_by(view.options));
   bind_blocks(id, view);
+  glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
   draw_triangle(id);
 }
 
@@ -195,6 +197,7 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
   if (device_ == GraphicsDevice::kGpu) defined.push_back("EXACT_FILTER");
   const GLuint id = program(kFillVolume, defined);
   bind_blocks(id, view);
+  glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
   volume_->fill(id);
 }
 

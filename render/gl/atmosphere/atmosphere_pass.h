@@ -29,13 +29,14 @@
 
 namespace skyfit {
 
-// The texture units of render/shaders/atmosphere.glsl, pixel_light.glsl, sky_view.glsl and
-// sky_rays.glsl.
-inline const std::vector<std::string> kTableReads = {"optical_depth", "irradiance", "rayleigh_like",
-                                                     "single", "phase"};
+// The texture units of render/shaders/atmosphere.glsl, sky_rays.glsl, pixel_light.glsl and
+// sky_view.glsl.
+inline const std::vector<std::string> kTableReads = {
+    "optical_depth", "irradiance",  "rayleigh_like",  "single",
+    "phase",         "sky_ray_air", "sky_ray_aerosol"};
 inline const std::vector<std::string> kAtmosphereReads = {
-    "optical_depth", "irradiance", "rayleigh_like", "single",     "phase",       "gbuffer",
-    "depth",         "view_air",   "view_aerosol",  "view_depth", "sky_ray_air", "sky_ray_aerosol"};
+    "optical_depth",   "irradiance", "rayleigh_like", "single",   "phase",        "sky_ray_air",
+    "sky_ray_aerosol", "gbuffer",    "depth",         "view_air", "view_aerosol", "view_depth"};
 
 // Of the suns' discs alone: light in the frame's primaries, cd/m^2, and the share of the sample
 // that they cover.
@@ -75,8 +76,9 @@ class AtmospherePass {
   void set_tables(const AtmosphereTables& tables);
   const AtmosphereTables& tables() const { return tables_; }  // without values
 
-  // Whether whole rays are looked up once a frame: not from high above the air.
-  static bool has_sky_view(const FrameOptions& options);
+  // Whether whole rays are looked up once a frame: not from high above the air; by Hillaire's
+  // method from everywhere in it.
+  bool has_sky_view(const FrameOptions& options) const;
   void add_sky_view(const FrameOptions& options, FrameGraph& graph) const;
   void draw_sky_view(const AtmosphereView& view);
   void fill_volume(const AtmosphereView& view);

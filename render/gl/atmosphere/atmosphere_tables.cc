@@ -10,6 +10,7 @@
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/literature/bruneton_tables.h"
+#include "model/literature/hillaire_tables.h"
 #include "model/literature/oneil.h"
 #include "model/shared/shared.h"
 
@@ -34,7 +35,11 @@ glm::vec4 ground_albedo(const AtmosphereTables& tables) {
 // Rows and columns of the sky's view for each texel of the scattering table.
 constexpr int kRowsPerTexel = 4, kColumnsPerTexel = 2;
 
-glm::ivec3 sky_view_size(const TableSizes& sizes) {
+glm::ivec3 sky_view_size(const AtmosphereTables& tables) {
+  using Hillaire = literature::HillaireSizes;
+  if (tables.sky_rays.mapping == SkyRayMapping::kHillaire)
+    return {Hillaire::sky_view_azimuth, 0, Hillaire::sky_view_rows / 2};
+  const TableSizes& sizes = tables.sizes;
   return {(sizes.scattering_azimuth - 1) * kColumnsPerTexel + 1,
           (sizes.scattering_ground - 1) * kRowsPerTexel + 1,
           (sizes.scattering_sky - 1) * kRowsPerTexel + 1};
@@ -43,9 +48,9 @@ glm::ivec3 sky_view_size(const TableSizes& sizes) {
 GlTexture scattering_texture(const AtmosphereTables& tables) {
   constexpr std::size_t kHeights = 256;
   const Atmosphere<double>& a = tables.atmosphere;
-  const Shells shells = shells_of(a, Keep::kScatterers);
+  const Shells shells = shells_of(a, Keep::kAll);
   const Atmosphere<Dual<0>> plain = seeded<0>(a, {});
-  std::vector<glm::vec4> values(kHeights * tables.phases.count(), glm::vec4(0));
+  std::vector<glm::vec4> values(kHeights * (tables.phases.count() + 1), glm::vec4(0));
   Shared<double> shared;
   for (int node = 0; node < 4; ++node) {
     const Optics<0> optics =
@@ -54,6 +59,10 @@ GlTexture scattering_texture(const AtmosphereTables& tables) {
       const double h =
           shared.height_from_unit(static_cast<double>(i) / (kHeights - 1.0), shells.top);
       const Densities<0> density = optics.densities(h);
+      for (std::size_t k = 0; k < optics.extinction.size(); ++k) {
+        values[tables.phases.count() * kHeights + i][node] +=
+            static_cast<float>(1e3 * optics.extinction[k].v * density[k].v);
+      }
       for (const Scatterer<0>& s : optics.scatterers) {
         const auto row = static_cast<std::size_t>(tables.phases.of_constituent[s.constituent]);
         values[row * kHeights + i][node] +=
@@ -62,7 +71,7 @@ GlTexture scattering_texture(const AtmosphereTables& tables) {
     }
   }
   const auto width = static_cast<GLsizei>(kHeights),
-             height = static_cast<GLsizei>(tables.phases.count());
+             height = static_cast<GLsizei>(tables.phases.count() + 1);
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &id);
   GlTexture texture(id);
@@ -105,30 +114,39 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
     phase_types.push_back(static_cast<int>(phase.type));
     lobe_types.push_back(static_cast<int>(phase.lobe));
   }
-  const glm::ivec3 sky_view = sky_view_size(s);
+  const glm::ivec3 sky_view = sky_view_size(tables);
   const Table& sky_rays = tables.sky_rays.air;
   const int classes = static_cast<int>(tables.phases.others.size());
   const double sun_radius = a.star.angular_radius_rad();
-  return {fmt::format("CLASSES {}", classes),
-          fmt::format("PHASE_TYPES {}", fmt::join(phase_types, ", ")),
-          fmt::format("LOBE_TYPES {}", fmt::join(lobe_types, ", ")),
-          fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
-          fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
-          fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
-          fmt::format("SUN_RADIUS {:.9g}", sun_radius),
-          fmt::format("SUN_SOLID_ANGLE {:.9g}",
-                      4 * std::numbers::pi * std::pow(std::sin(0.5 * sun_radius), 2)),
-          fmt::format("LIMB_DARKENING {:.9g}, {:.9g}", a.star.limb_darkening[0],
-                      a.star.limb_darkening[1]),
-          fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
-          fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
-          fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
-                      s.scattering_ground, s.scattering_sky),
-          fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
-          fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
-          fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
-          fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
-          fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)};
+  std::vector<std::string> defined = {
+      fmt::format("CLASSES {}", classes),
+      fmt::format("PHASE_TYPES {}", fmt::join(phase_types, ", ")),
+      fmt::format("LOBE_TYPES {}", fmt::join(lobe_types, ", ")),
+      fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
+      fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
+      fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
+      fmt::format("SUN_RADIUS {:.9g}", sun_radius),
+      fmt::format("SUN_SOLID_ANGLE {:.9g}",
+                  4 * std::numbers::pi * std::pow(std::sin(0.5 * sun_radius), 2)),
+      fmt::format("LIMB_DARKENING {:.9g}, {:.9g}", a.star.limb_darkening[0],
+                  a.star.limb_darkening[1]),
+      fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
+      fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
+      fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
+                  s.scattering_ground, s.scattering_sky),
+      fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
+      fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
+      fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
+      fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
+      fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)};
+  if (tables.sky_rays.mapping == SkyRayMapping::kHillaire) {
+    using Hillaire = literature::HillaireSizes;
+    defined.insert(defined.end(),
+                   {"HILLAIRE", fmt::format("HILLAIRE_STEPS {}", Hillaire::view_steps),
+                    fmt::format("HILLAIRE_SKY_VIEW {}, {}", Hillaire::sky_view_azimuth,
+                                Hillaire::sky_view_rows)});
+  }
+  return defined;
 }
 
 }  // namespace skyfit

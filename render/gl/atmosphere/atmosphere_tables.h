@@ -22,9 +22,10 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables);
 void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers);
 
 // Of the sky's view: columns of a sun, rows to the ground, rows to the sky.
-glm::ivec3 sky_view_size(const TableSizes& sizes);
+glm::ivec3 sky_view_size(const AtmosphereTables& tables);
 
-// What the classes of phase functions scatter, 1/km, over the heights of the tables; a row each.
+// What the classes of phase functions scatter, a row each, and in the last row the extinction,
+// 1/km, over the heights of the tables.
 GlTexture scattering_texture(const AtmosphereTables& tables);
 
 }  // namespace skyfit

@@ -277,7 +277,7 @@ class GlRenderer final : public FrameDrawer {
     if (!current_.meshes.empty() || current_.moon) {
       list.push_back({"objects", {}, kGBuffer, [this] { draw_objects(); }});
     }
-    if (AtmospherePass::has_sky_view(options)) {
+    if (atmosphere_.has_sky_view(options)) {
       list.push_back({"sky view", kTableReads, kSkyViewWrites,
                       [this, view] { atmosphere_.draw_sky_view(view); }});
     }
