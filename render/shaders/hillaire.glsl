@@ -2,6 +2,7 @@
 // Light along rays by the steps of Hillaire 2020, as model/literature/hillaire_tables.h computes it: whole rays through the
 // picture of the sky (his sky-view look-up), from outside the atmosphere and to surfaces step by step.
 #include "render/shaders/densities.glsl"
+#include "model/shared/bruneton_mapping.glsl"
 #include "model/shared/hillaire_mapping.glsl"
 
 layout(binding = 5) uniform sampler3D sun_transmittance_table;

@@ -97,6 +97,7 @@ TEST_P(LiteratureDerivatives, EqualDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Models, LiteratureDerivatives,
                          ::testing::Values(Case{"bruneton", false, false},
+                                           Case{"hillaire", false, false},
                                            Case{"bodare", false, false},
                                            Case{"schafhitzel", false, true},
                                            Case{"oneil", false, true}, Case{"nielsen", true, true},
