@@ -2,18 +2,17 @@
 // Light along rays by the steps of Hillaire 2020, as model/literature/hillaire_tables.h computes it: whole rays through the
 // picture of the sky (his sky-view look-up), from outside the atmosphere and to surfaces step by step.
 #include "render/shaders/densities.glsl"
-#include "model/shared/bruneton_mapping.glsl"
 #include "model/shared/hillaire_mapping.glsl"
 
-layout(binding = 5) uniform sampler3D sun_transmittance_table;
-layout(binding = 6) uniform sampler3D multiple_scattering_table;  // 1/sr
+layout(binding = 5) uniform sampler2D sun_transmittance_table;
+layout(binding = 6) uniform sampler2D multiple_scattering_table;  // 1/sr
 
 const float kHillaireSteps = float(HILLAIRE_STEPS);
 const vec2 hillaire_view_size = vec2(HILLAIRE_SKY_VIEW);  // columns, rows of rays to the sky and to the ground
 
-vec4 hillaire_look_up(sampler3D table, vec2 unit) {
-  vec2 size = vec2(textureSize(table, 0).xy);
-  return look_up(table, vec3(0.5 / size + clamp(unit, vec2(0.0), vec2(1.0)) * (1.0 - 1.0 / size), 0.5));
+vec4 hillaire_look_up(sampler2D table, vec2 unit) {
+  vec2 size = vec2(textureSize(table, 0));
+  return look_up(table, 0.5 / size + clamp(unit, vec2(0.0), vec2(1.0)) * (1.0 - 1.0 / size));
 }
 
 vec4 hillaire_sun(float h, float mu_s) {

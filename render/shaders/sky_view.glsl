@@ -6,6 +6,7 @@
 // Not below, in a branch: files are included once.
 #include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
+#include "model/shared/bruneton_mapping.glsl"
 #ifdef HILLAIRE
 #include "render/shaders/hillaire.glsl"
 #endif
