@@ -31,13 +31,18 @@ double sun_after(double bottom, double h, double mu_s, double nu, double s, doub
   return std::clamp(((bottom + h) * mu_s + s * nu) / (bottom + height), -1.0, 1.0);
 }
 
-// The share of a step's light that reaches its beginning: (1 - exp(-x)) / x.
+// What a step lets through, exp(-x), and its mean over the step, (1 - exp(-x)) / x.
 template <int N>
-Dual<N> mean_transmittance(const Dual<N>& depth) {
-  const double x = depth.v;
-  if (x < 1e-3) return depth.chain(1 - x * (0.5 - x / 6), -0.5 + x / 3);  // to 1e-10
-  const double mean = -std::expm1(-x) / x;
-  return depth.chain(mean, (std::exp(-x) - mean) / x);
+struct Passage {
+  Dual<N> through, mean;
+};
+template <int N>
+Passage<N> passage(const Dual<N>& depth) {
+  const double x = depth.v, through = std::exp(-x);
+  const Dual<N> passing = depth.chain(through, -through);
+  if (x < 1e-3) return {passing, depth.chain(1 - x * (0.5 - x / 6), -0.5 + x / 3)};  // to 1e-7
+  const double mean = (1 - through) / x;
+  return {passing, depth.chain(mean, (through - mean) / x)};
 }
 
 }  // namespace
@@ -172,8 +177,8 @@ void HillaireTables<N>::fill_multiple(int r) {
     Dual<N> through(1.0 / Sizes::zeniths);  // the share of the direction in the mean
     for (const HillaireGeometry::Place& step : ray.steps) {
       const Medium at = medium(step.height);
-      const Dual<N> depth = step.length * at.extinction;
-      const Dual<N> reaching = step.length * through * mean_transmittance(depth);
+      const Passage<N> passing = passage(step.length * at.extinction);
+      const Dual<N> reaching = step.length * through * passing.mean;
       const Dual<N> scattering = at.air + at.aerosol;
       transfer += reaching * scattering;
       escaping += reaching * (at.extinction - scattering);
@@ -181,7 +186,7 @@ void HillaireTables<N>::fill_multiple(int r) {
         add_product(kIsotropic * reaching * scattering, mean_sun_light(step, sun),
                     second[static_cast<std::size_t>(sun)]);
       }
-      through *= exp(-depth);
+      through *= passing.through;
     }
     escaping += through;
     if (!ray.hits_ground) continue;
@@ -231,8 +236,8 @@ typename HillaireTables<N>::Marched HillaireTables<N>::march(double h, double mu
         std::clamp(shared.height_after(bottom, h, mu, s), 0.0, geometry_.thickness());
     const double sun = sun_after(bottom, h, mu_s, nu, s, height);
     const Medium at = medium(height);
-    const Dual<N> depth = (end - begin) * at.extinction;
-    const Dual<N> reaching = (end - begin) * through * mean_transmittance(depth);
+    const Passage<N> passing = passage((end - begin) * at.extinction);
+    const Dual<N> reaching = (end - begin) * through * passing.mean;
     const HillaireGeometry::Beam beam = geometry_.beam(height, sun);
     if (beam.weight > 0) {
       const Dual<N> light = static_cast<double>(beam.weight) * reaching *
@@ -241,7 +246,7 @@ typename HillaireTables<N>::Marched HillaireTables<N>::march(double h, double mu
       add_product(light, at.aerosol, marched.aerosol);
     }
     add_product(reaching * multiple(height, sun), at.air + at.aerosol, marched.multiple);
-    through *= exp(-depth);
+    through *= passing.through;
   }
   return marched;
 }
@@ -288,12 +293,17 @@ RayLight<N> HillaireTables<N>::sky_view(const View& view) const {
 }
 
 template <int N>
+RayLight<N> HillaireTables<N>::scattered(const View& view) const {
+  const ViewRay& ray = view.ray;
+  return phased(march(ray.entry_height, ray.entry_mu, view.mu_s, view.nu, ray.length), view.nu);
+}
+
+template <int N>
 RayLight<N> HillaireTables<N>::light(const View& view) const {
   const ViewRay& ray = view.ray;
   if (ray.length <= 0 && !ray.hits_ground) return {};
   if (ray.entry_distance <= 0 && !ray.hits_ground) return sky_view(view);
-  RayLight<N> light =
-      phased(march(ray.entry_height, ray.entry_mu, view.mu_s, view.nu, ray.length), view.nu);
+  RayLight<N> light = scattered(view);
   if (ray.hits_ground) {
     light.ground =
         ground_light(geometry_.shells(), air_, view, [](double) { return Dual<N>(0.0); });

@@ -91,6 +91,8 @@ class HillaireTables {
   // Of the whole ray: to the sky, from an eye in the air, by the sky-view look-up; else marched.
   // `air` holds all that was scattered more than once.
   RayLight<N> light(const View& view) const;
+  // Marched, without the ground.
+  RayLight<N> scattered(const View& view) const;
 
   // The single scattering without phase functions, and all further scattering, 1/sr.
   struct Marched {

@@ -3,7 +3,8 @@
 //   kName, kBatch (derivatives at once),
 //   Geometry(Atmosphere<double>): all that does not depend on the wavelength,
 //   Tables<N>(geometry, optics, views): the tables, of which those that the views need may do,
-//   with light(view), sky_rays() and bytes(); no views: all of them,
+//   with light(view), sky_rays() and bytes(); no views: all of them; where it is cheaper,
+//   scattered(view), which is light(view) without the ground and without interpolation,
 //   kSkyRays: how sky_rays() are read,
 //   see(Atmosphere<T>): the atmosphere as the method sees it,
 //   can_fit(Parameter).
@@ -75,7 +76,13 @@ class TabulatedModel final : public SkyModel {
       tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
         const View view = view_of(atmosphere, points[i]);
         for (std::size_t w = 0; w < wavelengths.size(); ++w) {
-          const RayLight<0> of_ray = kept->prepared(wavelengths[w]).light(view);
+          const Tables<0>& tables = kept->prepared(wavelengths[w]);
+          RayLight<0> of_ray;
+          if constexpr (requires { tables.scattered(view); }) {
+            of_ray = tables.scattered(view);
+          } else {
+            of_ray = tables.light(view);
+          }
           light.air[i * wavelengths.size() + w] = of_ray.air.v;
           light.aerosol[i * wavelengths.size() + w] = of_ray.aerosol.v;
         }
