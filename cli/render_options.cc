@@ -215,7 +215,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE|NAME");
   command
       .add_option("--model", options.model,
-                  "Sky model: reference, bruneton, bodare, schafhitzel or oneil")
+                  "Sky model: reference, bruneton, bodare, hillaire, schafhitzel or oneil")
       ->type_name("NAME")
       ->capture_default_str();
   add_scalar_option(command, options.scalar);

@@ -157,7 +157,8 @@ void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
 }
 
 // Where the renderer sums the sky itself, the scattering tables hold the light before the ground
-// and in the irradiance alone, of single scattering, which is smooth.
+// and in the irradiance alone, of single scattering, which is smooth; by Hillaire's method that in
+// the irradiance and before clouds.
 TableSizes sizes_beside(const std::optional<SkyRayTables>& own, TableSizes sizes) {
   if (!own || (own->mapping != SkyRayMapping::kONeil && own->mapping != SkyRayMapping::kHillaire))
     return sizes;

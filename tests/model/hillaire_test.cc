@@ -168,7 +168,8 @@ TEST(Hillaire, MarchedLightIsTheSingleScattering) {
   std::printf("[ measured ] %.2f %% rms, worst %.2f %% at %.0f m, sun %.0f, view %.0f\n",
               100 * std::sqrt(square), 100 * worst, at_worst.altitude_m,
               at_worst.sun_zenith / kDegree, at_worst.view_zenith / kDegree);
-  constexpr double kThirtySteps = 0.09, kWorst = 0.18;  // the worst in haze along the horizon
+  constexpr double kThirtySteps = 0.09,
+                   kWorst = 0.18;  // the worst from space: the steps are longest at the ground
   EXPECT_LT(std::sqrt(square), kThirtySteps);
   EXPECT_LT(std::abs(worst), kWorst);
 }
