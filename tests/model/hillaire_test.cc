@@ -58,6 +58,34 @@ SkyValues reference_of(const Atmosphere<double>& a, const std::vector<SkyPoint>&
   return ReferenceModel(options).radiance(a, nodes, points, {});
 }
 
+// Rows to directions and back; the last one of the sky lies just above the horizon, where the rows
+// are densest.
+TEST(Hillaire, SkyViewMappingGoesThereAndBack) {
+  Shared<double> shared;
+  constexpr double kBottom = 6360e3, kRows = HillaireSizes::sky_view_rows;
+  for (const double h : {0.0, 2.0, 10e3, 99e3}) {
+    double last = 2, last_step = 0;
+    for (int row = 0; row < kRows / 2; ++row) {
+      const double mu =
+          shared.hillaire_view_from_unit(shared.hillaire_unit_from_row(row, kRows), h, kBottom);
+      EXPECT_NEAR(
+          shared.hillaire_row_from_unit(shared.hillaire_unit_from_view(mu, h, kBottom), kRows), row,
+          1e-5)
+          << h << " m";
+      EXPECT_LT(mu, last);
+      EXPECT_GT(mu, horizon_cosine(kBottom, h));
+      last_step = std::acos(mu) - std::acos(std::min(last, 1.0));
+      last = mu;
+    }
+    EXPECT_LT(last_step / kDegree, 0.1) << h << " m";
+    EXPECT_EQ(shared.hillaire_row_from_unit(
+                  shared.hillaire_unit_from_view(horizon_cosine(kBottom, h), h, kBottom), kRows),
+              kRows / 2 - 1);
+  }
+  for (double x = 0; x <= 1; x += 0.125)
+    EXPECT_NEAR(shared.hillaire_unit_from_azimuth(shared.hillaire_azimuth_from_unit(x)), x, 1e-12);
+}
+
 TEST(Hillaire, TransmittanceIsThatOfTheColumn) {
   const Tables at(preset("earth-hazy"));
   constexpr double kLinear = 3e-3;  // between texels, of 1

@@ -120,6 +120,38 @@ TEST_F(SharedFormulas, MappingsOfTheLiterature) {
   }
 }
 
+TEST_F(SharedFormulas, MappingsOfHillaire) {
+  const auto inputs = rays();
+  const auto outputs = run_glsl(
+      "#include \"model/shared/geometry.glsl\"\n#include \"model/shared/mapping.glsl\"\n"
+      "#include \"model/shared/hillaire_mapping.glsl\"\n",
+      "float unit = hillaire_unit_from_view(x.y, x.x, 6360.0);\n"
+      "y = vec4(hillaire_row_from_unit(unit, 108.0), "
+      "hillaire_view_from_unit(hillaire_unit_from_row(20.0, 108.0), x.x, 6360.0), "
+      "hillaire_unit_from_azimuth(x.z), "
+      "hillaire_sample(hillaire_step_begin(7.0, 30.0), hillaire_step_begin(8.0, 30.0)));",
+      inputs);
+  // Of a row: the square root of a rounded angle at the horizon, of a rounded cosine at the zenith.
+  constexpr double kSquareRoot = 0.05, kArcCosine = 1e-4;  // Mesa's is a polynomial
+  for (std::size_t i = 0; i < inputs.size(); i += 4) {
+    const double h = inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
+    EXPECT_NEAR(
+        outputs[i],
+        shared_.hillaire_row_from_unit(shared_.hillaire_unit_from_view(mu, h, kBottom), 108),
+        kSquareRoot)
+        << "h = " << h << ", mu = " << mu;
+    EXPECT_NEAR(
+        outputs[i + 1],
+        shared_.hillaire_view_from_unit(shared_.hillaire_unit_from_row(20, 108), h, kBottom),
+        kArcCosine);
+    EXPECT_NEAR(outputs[i + 2], shared_.hillaire_unit_from_azimuth(mu_s), 4e-4);
+    EXPECT_NEAR(outputs[i + 3],
+                shared_.hillaire_sample(shared_.hillaire_step_begin(7, 30),
+                                        shared_.hillaire_step_begin(8, 30)),
+                kCoordinate);
+  }
+}
+
 TEST_F(SharedFormulas, ClosedFormsOfTheLiterature) {
   std::vector<float> inputs;
   for (const float height_m : {0.0f, 800.0f, 12000.0f}) {
