@@ -26,12 +26,15 @@ struct Layout {
   Box maps;
 };
 
-Layout layout_of(const Suns& suns, std::size_t curves) {
+Layout layout_of(const Suns& suns, const Comparison& comparison) {
   const std::size_t count = suns.shown.size(), columns = panel_columns(count);
   const std::size_t rows = (count + columns - 1) / columns;
   const double row_height = rows == 1 ? 420 : rows == 2 ? 340 : 270;
   const double height = kHeader + row_height * static_cast<double>(rows) + kFooter;
-  const double width = suns.has_hemisphere || curves > kMapCurves ? 1600 : 1080;
+  const bool wide = suns.has_hemisphere || comparison.curves.size() > kMapCurves;
+  // The legend of many curves stands centred over the panels, which then fill the width.
+  const double legend = kLeft + legend_width_px(plane_legend(comparison, suns)) + kLeft;
+  const double width = wide ? std::max(1600.0, suns.has_hemisphere ? 0 : legend) : 1080;
   const double right = suns.has_hemisphere ? 910 : width - 10;
   const double body = height - kHeader - kFooter;
   const Grid panels{columns, rows, {kLeft, kFooter, right - kLeft, body}};
@@ -103,7 +106,7 @@ void write_comparison(const Comparison& comparison,
   check_figure_files(files);
   validate(comparison);
   const Suns suns = samples_by_sun(comparison);
-  const Layout layout = layout_of(suns, comparison.curves.size());
+  const Layout layout = layout_of(suns, comparison);
   write_figure({layout.width, layout.height, figure_body(comparison, suns, layout)}, files);
 }
 

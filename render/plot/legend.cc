@@ -33,11 +33,15 @@ std::string mark_style(Mark mark, std::string_view color) {
   return {};
 }
 
-void draw_legend(Script& script, const std::vector<LegendEntry>& entries, double centre_x_px,
-                 double y_px) {
+double legend_width_px(const std::vector<LegendEntry>& entries) {
   double width = -kEntryGap;
   for (const auto& entry : entries) width += width_of(entry) + kEntryGap;
-  double x = centre_x_px - width / 2;
+  return width;
+}
+
+void draw_legend(Script& script, const std::vector<LegendEntry>& entries, double centre_x_px,
+                 double y_px) {
+  double x = centre_x_px - legend_width_px(entries) / 2;
   for (const auto& entry : entries) {
     const std::string style = mark_style(entry.mark, entry.color);
     if (is_line(entry.mark))

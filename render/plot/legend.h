@@ -22,6 +22,8 @@ struct LegendEntry {
 // width, colour.
 std::string mark_style(Mark mark, std::string_view color);
 
+double legend_width_px(const std::vector<LegendEntry>& entries);
+
 // Labels and marks centred at (centre_x, y), in the axes of a plot that begins next.
 void draw_legend(Script& script, const std::vector<LegendEntry>& entries, double centre_x_px,
                  double y_px);

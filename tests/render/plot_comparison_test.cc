@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "model/registry.h"
 #include "plot_samples.h"
 #include "render/plot/comparison.h"
 #include "render/plot/figure_style.h"
@@ -138,6 +139,12 @@ TEST(Style, LogTicksLieInsideAndEndsAreBare) {
   }
 }
 
+// `skyfit compare` draws them all by default.
+TEST(PlotComparison, EveryModelFindsAColour) {
+  EXPECT_LE(sky_models().size(), kMaxCurves);
+  EXPECT_EQ(kCurveColors.size(), kMaxCurves);
+}
+
 TEST_F(PlotTest, BadFiguresAreRefusedAndLeaveNothing) {
   Comparison negative = comparison_at({30});
   negative.curves[0].plane[0].model = -1;
@@ -146,7 +153,7 @@ TEST_F(PlotTest, BadFiguresAreRefusedAndLeaveNothing) {
                   StrEq("figure: model = -1 in \"fitted\" at sun zenith 30, view zenith "
                         "85, azimuth 180 deg: expected a number > 0")));
   EXPECT_THAT([&] { write_comparison(Comparison(), {folder_ / "c.svg"}); },
-              ThrowsMessage<std::invalid_argument>(StrEq("figure: 0 curves: expected 1 to 9")));
+              ThrowsMessage<std::invalid_argument>(StrEq("figure: 0 curves: expected 1 to 10")));
   EXPECT_THAT(
       [&] {
         write_comparison(comparison_at({30}), {folder_ / "c.svg", folder_ / "c.gif"});
