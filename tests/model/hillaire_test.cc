@@ -268,36 +268,49 @@ TEST(Hillaire, KeepsTheEnergy) {
   }
 }
 
-// The error over the sky without the sun's surroundings, per sun; docs/models.md has the same
-// table.
-TEST(Hillaire, ErrsAgainstTheReferenceAsTheDocumentsSay) {
-  const Atmosphere<double> a = preset("hillaire-2020");
+// Root mean square of log(hillaire / reference) over the sky from the ground, without 3 deg about
+// the sun, at the three wavelengths of the paper; printed as docs/models.md has it.
+double error_of(const std::string& preset_name, double sun_deg) {
+  const Atmosphere<double> a = preset(preset_name);
   const std::vector<WavelengthNode> nodes =
       spectral_nodes(refs::standard_spectral_data(), {680, 550, 440});
-  constexpr double kDaylight = 0.05, kTwilight = 0.08;  // rms of log(hillaire / reference)
-  for (const double sun : {0.0, 20.0, 40.0, 60.0, 80.0, 88.0, 92.0}) {
-    std::vector<SkyPoint> points;
-    for (double view = 0; view <= 85; view += 17) {
-      for (const double azimuth : {0.0, 60.0, 120.0, 180.0}) {
-        const double nu =
-            std::cos(sun * kDegree) * std::cos(view * kDegree) +
-            std::sin(sun * kDegree) * std::sin(view * kDegree) * std::cos(azimuth * kDegree);
-        if (nu < std::cos(3 * kDegree))
-          points.push_back({0, sun * kDegree, view * kDegree, azimuth * kDegree});
-      }
+  std::vector<SkyPoint> points;
+  for (double view = 0; view <= 85; view += 17) {
+    for (const double azimuth : {0.0, 60.0, 120.0, 180.0}) {
+      const SkyPoint point{0, sun_deg * kDegree, view * kDegree, azimuth * kDegree};
+      if (literature::view_of(a, point).nu < std::cos(3 * kDegree)) points.push_back(point);
     }
-    const SkyValues exact = reference_of(a, points, nodes, 0),
-                    model = HillaireModel(2).radiance(a, nodes, points, {});
-    double square = 0, mean = 0, worst = 0;
-    for (std::size_t i = 0; i < exact.value.size(); ++i) {
-      const double error = std::log(model.value[i] / exact.value[i]);
-      square += error * error / static_cast<double>(exact.value.size());
-      mean += error / static_cast<double>(exact.value.size());
-      if (std::abs(error) > std::abs(worst)) worst = error;
-    }
-    std::printf("[ measured ] sun %2.0f: rms %.1f %%, mean %.1f %%, worst %.1f %%\n", sun,
-                100 * std::sqrt(square), 100 * mean, 100 * worst);
-    EXPECT_LT(std::sqrt(square), sun <= 80 ? kDaylight : kTwilight) << "sun " << sun;
+  }
+  const SkyValues exact = reference_of(a, points, nodes, 0),
+                  model = HillaireModel(2).radiance(a, nodes, points, {});
+  const auto count = static_cast<double>(exact.value.size());
+  double square = 0, mean = 0, worst = 0;
+  for (std::size_t i = 0; i < exact.value.size(); ++i) {
+    const double error = std::log(model.value[i] / exact.value[i]);
+    square += error * error / count;
+    mean += error / count;
+    if (std::abs(error) > std::abs(worst)) worst = error;
+  }
+  std::printf("[ measured ] %s, sun %2.0f: rms %.1f %%, mean %.1f %%, worst %.1f %%\n",
+              preset_name.c_str(), sun_deg, 100 * std::sqrt(square), 100 * mean, 100 * worst);
+  return std::sqrt(square);
+}
+
+TEST(Hillaire, IsNearTheReferenceInClearAir) {
+  constexpr double kDaylight = 0.05, kTwilight = 0.08;
+  for (const double sun : {0.0, 20.0, 40.0, 60.0, 80.0})
+    EXPECT_LT(error_of("hillaire-2020", sun), kDaylight) << "sun " << sun;
+  for (const double sun : {88.0, 92.0})
+    EXPECT_LT(error_of("hillaire-2020", sun), kTwilight) << "sun " << sun;
+}
+
+// What is scattered often and forward is where the method errs, as the paper says.
+TEST(Hillaire, IsOffWhereHazeScattersForward) {
+  constexpr double kHaze = 0.3;
+  for (const double sun : {20.0, 60.0}) {
+    const double error = error_of("earth-hazy", sun);
+    EXPECT_LT(error, kHaze) << "sun " << sun;
+    EXPECT_GT(error, 1.5 * error_of("hillaire-2020", sun)) << "sun " << sun;
   }
 }
 
