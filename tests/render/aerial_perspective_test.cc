@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light that the air scatters into the paths to the ground, looked up for each pixel and from
-// the volume, is that of the reference.
+// the volume, is that of the reference; by `hillaire` what that model gathers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "data_refs/spectra.h"
+#include "model/atmosphere/phase_moments.h"
+#include "model/literature/hillaire.h"
 #include "model/registry.h"
+#include "model/shared/shared.h"
 #include "model/sky_model.h"
 #include "model/tables/table_lookup.h"
 #include "tests/render/frame_fixture.h"
@@ -133,6 +139,60 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
   const double agreement = narrow_lobe ? kAgreementOfNarrowLobes : kAgreement;
   EXPECT_LT(worst_pixel, agreement);
   EXPECT_LT(worst_volume, agreement);
+}
+
+// By `hillaire` it is what its steps gather along the path, for each pixel the same steps as in
+// C++, in the volume others.
+TEST(AerialPerspective, OfHillaireIsMarched) {
+  const Preset preset = shipped("earth-clear");
+  const SpectralData& spectra = refs::standard_spectral_data();
+  const AtmosphereTables tables = compute_tables_of(HillaireModel(2), preset.atmosphere,
+                                                    color_rule(spectra), kSmallTables, 2, {});
+  const literature::HillaireGeometry geometry(preset.atmosphere);
+  std::vector<literature::ClearAir<0>> airs;
+  std::vector<std::unique_ptr<literature::HillaireTables<0>>> nodes;
+  for (const WavelengthNode& node : tables.color.nodes) {
+    airs.push_back(
+        literature::clear_air(geometry.shells(), seeded<0>(preset.atmosphere, {}), node));
+    nodes.push_back(std::make_unique<literature::HillaireTables<0>>(geometry, airs.back(),
+                                                                    std::span<const View>{}));
+  }
+  Renderer renderer;
+  renderer.set_atmosphere(preset, tables);
+  FrameOptions options = options_of("10km", 96, 54);
+  options.layers = true;
+  options.aerial = AerialPerspective::kPerPixel;
+  const Frame by_pixel = renderer.draw(options);
+  options.aerial = AerialPerspective::kVolume;
+  const Frame by_volume = renderer.draw(options);
+  const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
+  int pixels = 0;
+  double worst_pixel = 0, worst_volume = 0;
+  for (std::size_t i = 0; i < by_pixel.depth_m.size(); i += 4) {
+    if (is_sky(by_pixel, i)) continue;
+    const glm::dvec3 ray = ray_of(by_pixel, i);
+    const double nu = glm::dot(ray, sun);
+    NodeValues light;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto marched =
+          nodes[k]->march(options.camera.altitude_m, ray.z, sun.z, nu, double{by_pixel.depth_m[i]});
+      light[k] = Shared<double>{}.rayleigh_phase(airs[k].depolarisation, nu) * marched.air.v +
+                 phase_value(airs[k].phase, nu).v * marched.aerosol.v + marched.multiple.v;
+    }
+    const double truth = luminance(tables.color, light);
+    const auto error = [&](const Frame& frame) {
+      return std::abs(luminance_of(frame.layers->in_scatter, i) / truth - 1);
+    };
+    worst_pixel = std::max(worst_pixel, error(by_pixel));
+    worst_volume = std::max(worst_volume, error(by_volume));
+    ++pixels;
+  }
+  std::printf("[ aerial ] %d paths: worst %.2f %% by pixel, %.2f %% from the volume\n", pixels,
+              100 * worst_pixel, 100 * worst_volume);
+  ASSERT_GT(pixels, 80);
+  constexpr double kSameSteps = 0.01, kOtherSteps = 0.03;
+  EXPECT_LT(worst_pixel, kSameSteps);
+  EXPECT_LT(worst_volume, kOtherSteps);
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf,
