@@ -3,6 +3,7 @@
 // pixel would look up in the tables at the same height, made once a frame. Rows as in the scattering table, columns by the
 // azimuth from the sun, each sun its own. A multiple of the table's texels, so that the two interpolate alike. Not for an eye
 // high above, FROM_ABOVE: there the sun's height at the far end of a ray changes too fast with the azimuth.
+// HILLAIRE: the radiances of his sky-view look-up, of rays to the sky alone and by its mapping, for every eye in the air.
 // Not below, in a branch: files are included once.
 #include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
@@ -38,7 +39,7 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
 #if defined(SKY_RAYS) && !defined(HILLAIRE)
 #include "render/shaders/sky_rays.glsl"
 #endif
-layout(binding = 9) uniform sampler2D view_air;      // logarithm of the amplitude
+layout(binding = 9) uniform sampler2D view_air;      // logarithm of the amplitude; HILLAIRE: radiance of the sky
 layout(binding = 10) uniform sampler2D view_aerosol;  // the same of single scattering by the other classes
 layout(binding = 11) uniform sampler2D view_depth;    // optical depth to the top, of rays that miss the ground
 
