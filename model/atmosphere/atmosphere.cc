@@ -33,6 +33,7 @@ constexpr double kLeastAsymmetry = -0.8, kMostAsymmetry = 0.999;
 constexpr double kLeastWavelength = 1, kMostWavelength = 1e6;  // nm
 constexpr double kMostColumn = 1e5;                            // DU
 constexpr double kMostPressure = 1e6;                          // hPa
+constexpr double kMostCo2 = 1e5;                               // ppm: of air
 
 void validate_asymmetry(const std::string& path, double g) {
   expect(g >= kLeastAsymmetry && g <= kMostAsymmetry, path, g,
@@ -99,6 +100,12 @@ void validate_amount(const Constituent<double>& c, const std::string& path) {
     return expect(c.amount >= 0 && c.amount <= kMostColumn, at, c.amount,
                   fmt::format("a column from 0 to {} DU", kMostColumn));
   }
+  if (c.amount_type == AmountType::kAirPressure) {
+    expect(c.co2_ppm >= 0 && c.co2_ppm <= kMostCo2, path + ".rayleigh.co2_ppm", c.co2_ppm,
+           fmt::format("a share from 0 to {} ppm", kMostCo2));
+    return expect(c.amount >= 0 && c.amount <= kMostPressure, at, c.amount,
+                  fmt::format("a pressure from 0 to {} hPa", kMostPressure));
+  }
   if (c.amount_type == AmountType::kOpticalDepth) {
     expect(c.amount >= 0 && c.amount <= kMostDepth, at, c.amount,
            fmt::format("an optical depth from 0 to {}", kMostDepth));
@@ -162,6 +169,8 @@ std::string_view amount_path(AmountType type) {
       return "extinction_per_m.value";
     case AmountType::kOpticalDepth:
       return "optical_depth.value";
+    case AmountType::kAirPressure:
+      return "rayleigh.pressure_hpa";
     case AmountType::kColumn:
       break;
   }

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/atmosphere/dry_air.h"
 #include "model/atmosphere/linear_profile.h"
 #include "model/atmosphere/spectrum_table.h"
 #include "model/atmosphere/tabulated_phase.h"
@@ -78,7 +79,14 @@ enum class AmountType {
   kOpticalDepth,  // vertical optical depth (of extinction), a pure number
   kColumn,        // vertical column of ozone in Dobson units; its absorption is that of the
                   // tabulated cross section of model/photometry/photometry.h
+  kAirPressure,   // pressure of dry air at the ground, hPa: its column scatters as in dry_air.h
 };
+
+// Whether the amount is stated at a wavelength and depends on it by an exponent or a table.
+constexpr bool is_at_wavelength(AmountType type) {
+  return type == AmountType::kScattering || type == AmountType::kExtinction ||
+         type == AmountType::kOpticalDepth;
+}
 
 inline constexpr double kStandardPressureHpa = 1013.25;
 
@@ -87,19 +95,28 @@ struct Constituent {
   std::string name;
   AmountType amount_type = AmountType::kScattering;
   T amount{};
-  double wavelength_nm = 550;  // of the amount; not for a column
+  double wavelength_nm = 550;  // of an amount that is_at_wavelength()
   // How coefficients depend on wavelength: (lambda / wavelength_nm)^-angstrom_exponent, or a table
   // over its value at wavelength_nm.
   T angstrom_exponent{};
   std::shared_ptr<const SpectrumTable> spectrum;
   // The coefficient is that of the standard pressure and goes as the pressure of the site.
   double site_pressure_hpa = kStandardPressureHpa;
+  double co2_ppm = 400;                                  // kAirPressure only, by volume
   T single_scattering_albedo{1.0};                       // scattering / extinction; 0: an absorber
   std::shared_ptr<const SpectrumTable> albedo_spectrum;  // in its place
   VerticalProfile<T> profile;
   PhaseFunction<T> phase;  // of one that scatters
   bool operator==(const Constituent&) const = default;
 };
+
+// The phase function of air that states its pressure: Rayleigh's with the depolarisation of King's
+// factor at 550 nm, which the optical properties replace by that at their wavelength.
+template <class T>
+void set_king_depolarisation(Constituent<T>& c) {
+  c.phase.type = PhaseType::kRayleigh;
+  c.phase.depolarisation = king_depolarisation(550, c.co2_ppm);
+}
 
 // "rayleigh": dry air, 1.216e-5 / m at 550 nm with the exponent 4.08 and a scale height of 8 km.
 template <class T>
@@ -109,6 +126,17 @@ Constituent<T> standard_rayleigh() {
   c.amount = T(1.216e-5);
   c.angstrom_exponent = T(4.08);
   c.phase.type = PhaseType::kRayleigh;
+  return c;
+}
+
+// "rayleigh" of a measured sky: dry air of the standard pressure after Bodhaine et al. 1999.
+template <class T>
+Constituent<T> standard_air() {
+  Constituent<T> c = standard_rayleigh<T>();
+  c.amount_type = AmountType::kAirPressure;
+  c.amount = T(kStandardPressureHpa);
+  c.angstrom_exponent = T(0.0);
+  set_king_depolarisation(c);
   return c;
 }
 

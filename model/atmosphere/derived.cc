@@ -77,7 +77,11 @@ double standard_pressure_hpa(double elevation_m) {
 
 void set_site_pressure(Atmosphere<double>& atmosphere, double pressure_hpa) {
   for (Constituent<double>& c : atmosphere.constituents) {
-    if (is_molecular(c)) c.site_pressure_hpa = pressure_hpa;
+    if (c.amount_type == AmountType::kAirPressure) {
+      c.amount = pressure_hpa;
+    } else if (is_molecular(c)) {
+      c.site_pressure_hpa = pressure_hpa;
+    }
   }
 }
 

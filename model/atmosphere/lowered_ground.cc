@@ -27,7 +27,7 @@ VerticalProfile<double> raised(VerticalProfile<double> profile, double by) {
 }
 
 bool is_total(AmountType amount) {
-  return amount == AmountType::kOpticalDepth || amount == AmountType::kColumn;
+  return amount != AmountType::kScattering && amount != AmountType::kExtinction;
 }
 
 }  // namespace

@@ -105,6 +105,12 @@ Coefficients<N> coefficients_at(const Constituent<Dual<N>>& c, const Dual<N>& ve
   if (c.amount_type == AmountType::kColumn) {
     return {c.amount * (kMoleculesPerDobson * node.ozone_cross_section_m2) / vertical_column, {}};
   }
+  if (c.amount_type == AmountType::kAirPressure) {
+    const double depth_per_hpa =
+        air_column_per_hpa(c.co2_ppm) * rayleigh_cross_section_m2(node.wavelength_nm, c.co2_ppm);
+    const Dual<N> scattering = c.amount * depth_per_hpa / vertical_column;
+    return {scattering, scattering};
+  }
   Dual<N> amount = c.amount;
   if (c.amount_type == AmountType::kOpticalDepth) amount /= vertical_column;
   if (c.spectrum) {
@@ -144,9 +150,11 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
     }
     const Coefficients<N> k = coefficients_at(c, column, node);
     o.extinction[at] += k.extinction;
-    if (scatters(c))
-      o.scatterers.push_back(
-          {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}});
+    if (!scatters(c)) continue;
+    o.scatterers.push_back(
+        {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}});
+    if (c.amount_type == AmountType::kAirPressure)
+      o.scatterers.back().phase.depolarisation = king_depolarisation(node.wavelength_nm, c.co2_ppm);
   }
   o.scaled_extinction = o.polarised_extinction = o.extinction;
   o.ground_albedo = ground_albedo_at(a, node.wavelength_nm);

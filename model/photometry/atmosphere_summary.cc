@@ -71,8 +71,8 @@ std::vector<std::string> warnings_of(const Atmosphere<double>& atmosphere,
           fmt::format("{} has a single scattering albedo of {:.3g}: darker than "
                       "any aerosol but soot",
                       c.name, *s.single_scattering_albedo));
-    if (c.phase.type == PhaseType::kRayleigh && scatters(c) && !c.spectrum &&
-        std::abs(c.angstrom_exponent - 4) > 0.5)
+    if (c.phase.type == PhaseType::kRayleigh && scatters(c) && is_at_wavelength(c.amount_type) &&
+        !c.spectrum && std::abs(c.angstrom_exponent - 4) > 0.5)
       warnings.push_back(
           fmt::format("{} has Rayleigh's phase function and the exponent {:.3g}: "
                       "molecules have about 4",

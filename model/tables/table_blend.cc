@@ -52,7 +52,7 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
 
 // The same with its amount stated at another wavelength.
 Constituent<double> stated_at(Constituent<double> c, double wavelength_nm) {
-  if (c.amount_type == AmountType::kColumn) return c;
+  if (!is_at_wavelength(c.amount_type)) return c;
   c.amount *= c.spectrum ? c.spectrum->at(wavelength_nm) / c.spectrum->at(c.wavelength_nm)
                          : std::pow(wavelength_nm / c.wavelength_nm, -c.angstrom_exponent);
   c.wavelength_nm = wavelength_nm;
@@ -81,6 +81,7 @@ Atmosphere<double> interpolated_atmosphere(const Atmosphere<double>& a, const At
     const Constituent<double> end = stated_at(b.at(c.name), c.wavelength_nm);
     c.amount = mix(c.amount, end.amount);
     c.angstrom_exponent = mix(c.angstrom_exponent, end.angstrom_exponent);
+    c.co2_ppm = mix(c.co2_ppm, end.co2_ppm);
     c.site_pressure_hpa = mix(c.site_pressure_hpa, end.site_pressure_hpa);
     c.single_scattering_albedo = mix(c.single_scattering_albedo, end.single_scattering_albedo);
     c.profile.scale_height_m = mix(c.profile.scale_height_m, end.profile.scale_height_m);

@@ -13,6 +13,9 @@
 
 namespace skyfit::fit {
 
+// The air that toy_sky.h knows, in the place of that of measured skies.
+inline Preset power_law_air() { return {"power law", {}, {}, {}}; }
+
 struct SyntheticScans {
   std::vector<double> sun_zenith_deg = {30, 60};
   std::vector<double> view_zenith_deg = {20, 45, 70};
