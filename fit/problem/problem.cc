@@ -210,10 +210,17 @@ std::optional<double> site_pressure(const refs::Reference& reference, const FitO
   return {};
 }
 
+Atmosphere<double> with_gases_of_measured_skies(Atmosphere<double> atmosphere) {
+  atmosphere.at("rayleigh") = standard_air<double>();
+  atmosphere.constituents.push_back(standard_oxygen_pairs<double>());
+  atmosphere.constituents.push_back(standard_nitrogen_dioxide<double>());
+  return atmosphere;
+}
+
 Atmosphere<double> given_atmosphere(const refs::Reference& reference, const FitOptions& options) {
   Atmosphere<double> given = start_atmosphere(options);
   if (!options.start && reference.quantity != refs::Quantity::kRelativeLuminance)
-    given.at("rayleigh") = standard_air<double>();
+    given = with_gases_of_measured_skies(given);
   if (const auto pressure = site_pressure(reference, options)) set_site_pressure(given, *pressure);
   if (options.ground) given.ground_spectrum = *options.ground;
   return given;

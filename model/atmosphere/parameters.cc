@@ -111,6 +111,7 @@ bool states_amount(const Constituent<double>& c, Quantity quantity) {
     case AmountType::kColumn:
       return quantity == kColumn;
     case AmountType::kAirPressure:
+    case AmountType::kOxygenPairs:
       return quantity == kPressure;
   }
   return false;

@@ -20,8 +20,7 @@ ConstituentSummary summary_of(const Atmosphere<double>& atmosphere, const Consti
   ConstituentSummary summary{c.name, {}, {}, {}};
   for (std::size_t k = 0; k < kSummaryWavelengths_nm.size(); ++k) {
     const double nm = kSummaryWavelengths_nm[k];
-    summary.optical_depth[k] =
-        vertical_optical_depth(atmosphere, c, nm, spectra.ozone_cross_section.at(nm));
+    summary.optical_depth[k] = vertical_optical_depth(atmosphere, c, node_at(spectra, nm));
   }
   if (scatters(c)) {
     summary.single_scattering_albedo =

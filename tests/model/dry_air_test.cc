@@ -58,12 +58,12 @@ TEST(DryAir, OpticalDepthGoesAsThePressureAndNotAsTheScaleHeight) {
   a.constituents = {standard_air<double>()};
   Constituent<double>& air = a.constituents.front();
   air.co2_ppm = kCo2;
-  const double standard = vertical_optical_depth(a, air, 400, 0);
+  const double standard = vertical_optical_depth(a, air, {400, 0});
   EXPECT_NEAR(standard / 0.36022, 1, kFiveDigits);
   air.profile.scale_height_m = 6500;
-  EXPECT_NEAR(vertical_optical_depth(a, air, 400, 0) / standard, 1, 1e-14);
+  EXPECT_NEAR(vertical_optical_depth(a, air, {400, 0}) / standard, 1, 1e-14);
   set_site_pressure(a, 506.625);
-  EXPECT_NEAR(vertical_optical_depth(a, air, 400, 0) / standard, 0.5, 1e-14);
+  EXPECT_NEAR(vertical_optical_depth(a, air, {400, 0}) / standard, 0.5, 1e-14);
 }
 
 TEST(DryAir, PresetKeepsIt) {
