@@ -22,10 +22,6 @@ constexpr int kSearchChannels = 6;
 // describe fine and coarse aerosol together.
 constexpr Prior kForwardLobePrior{0.88, 0.05};
 
-// One sigma of the pressure of the air over itself: a barometer and the formulas of Bodhaine et al.
-// 1999 leave 0.1 % each open, gravity 0.3 %.
-constexpr double kPressureSigma = 0.005;
-
 // Within its bounds an unknown may still contradict another, such as the base of a layer its top.
 // Throws std::domain_error, which makes the solver take a shorter step.
 void require_possible(const SkyState& state) {
@@ -142,7 +138,9 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
   if (options.use_priors && is_free(Parameter::kRayleighPressure) &&
       has_parameter(atmosphere, Parameter::kRayleighPressure)) {
     const double pressure = get_parameter(atmosphere, Parameter::kRayleighPressure);
-    result.priors.emplace(Parameter::kRayleighPressure, Prior{pressure, kPressureSigma * pressure});
+    const Prior standard = *parameter_info(Parameter::kRayleighPressure).prior;
+    result.priors.emplace(Parameter::kRayleighPressure,
+                          Prior{pressure, pressure * standard.sigma / standard.mean});
   }
   if (options.free || !several_wavelengths) return result;
   result.free.emplace();

@@ -63,9 +63,10 @@ struct StandardRow {
 
 // Priors hold what the shape of a sky's luminance cannot say; they are weak against what it can.
 // - Rayleigh scattering and scale height follow from the surface pressure and temperature: 5 %
-//   covers sites to about 500 m (fits of measured skies have a prior of their own in its place,
-//   fit/problem/options.h), 500 m of scale height covers -15 .. +20 C around the mean of the
-//   troposphere.
+//   covers sites to about 500 m, 500 m of scale height covers -15 .. +20 C around the mean of the
+//   troposphere. Where the pressure itself is the unknown, it is that of the site to 0.5 %: a
+//   barometer and the formulas of dry_air.h leave 0.1 % each open, gravity 0.3 %. Fits of measured
+//   skies take the share for the pressure that they know (fit/problem/options.h).
 // - The sky fixes the aerosol's optical depth, not its height: 1200 +- 500 m spans the mixed layers
 //   of a day.
 // - Single scattering albedo: 0.92 +- 0.05 spans urban, smoke and dust aerosols (AERONET: Dubovik
@@ -76,7 +77,7 @@ constexpr std::array<StandardRow, 13> kStandard = {{
      Prior{1.216e-5, 0.05 * 1.216e-5}, true,
      "scattering coefficient of air at h = 0 and its wavelength"},
     {Parameter::kRayleighPressure, 200.0, 1100.0,
-     Prior{kStandardPressureHpa, 0.05 * kStandardPressureHpa}, true,
+     Prior{kStandardPressureHpa, 0.005 * kStandardPressureHpa}, true,
      "pressure of the air at the ground, which its scattering follows"},
     {Parameter::kRayleighScaleHeight, 5000.0, 12000.0, Prior{8000.0, 500.0}, true,
      "height over which the density of air falls by e"},
