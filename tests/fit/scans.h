@@ -10,6 +10,7 @@
 
 #include "data_refs/spectra.h"
 #include "fit/problem/sky_values.h"
+#include "model/atmosphere/preset.h"
 
 namespace skyfit::fit {
 
