@@ -174,21 +174,34 @@ std::string unknowns_text(const Result& result) {
   return text + fixed_text(result) + "\n" + sigma_text(result) + "\n";
 }
 
-// A prior that the misfit overrides: the unknown is neither known nor at its prior.
+// What a pull may stand for.
+std::string pull_reason(const Unknown& unknown) {
+  const auto is = [&](const Parameter& id) {
+    return unknown.what == std::variant<Parameter, Instrument>(id);
+  };
+  if (is(Parameter::kMieSingleScatteringAlbedo))
+    return "; an unknown calibration (--scale) may be what it stands for";
+  if (is(Parameter::kRayleighPressure))
+    return "; the air weighs what the site's pressure says (--site-pressure-hpa, elevation_m), so "
+           "that\nit stands for something else: the calibration (--scale), an absorber, the "
+           "aerosol";
+  return "";
+}
+
+// A prior that the misfit overrides: the unknown is neither known nor at its prior. The pressure of
+// the air is known better than a sky can tell it, so that it is said whatever the sky tells.
 std::string pulled_text(const Result& result) {
   constexpr double kPulled = 2;  // prior sigmas
   std::string text;
   for (const UnknownRow& row : result.unknowns) {
     const std::optional<Prior>& prior = row.unknown.prior;
-    if (!prior || row.identifiable) continue;
+    const bool is_air =
+        row.unknown.what == std::variant<Parameter, Instrument>(Parameter::kRayleighPressure);
+    if (!prior || (row.identifiable && !is_air)) continue;
     const double pull = (row.fitted * row.unknown.unit_value() - prior->mean) / prior->sigma;
     if (std::abs(pull) < kPulled) continue;
     text += fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there{}.\n",
-                        row.unknown.name(), pull,
-                        row.unknown.what == std::variant<Parameter, Instrument>(
-                                                Parameter::kMieSingleScatteringAlbedo)
-                            ? "; an unknown calibration (--scale) may be what it stands for"
-                            : "");
+                        row.unknown.name(), pull, pull_reason(row.unknown));
   }
   return text.empty() ? text : text + "\n";
 }

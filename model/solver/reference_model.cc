@@ -43,7 +43,7 @@ ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& at
     if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
     constexpr double kGreen = 550;  // nm
     const double cut = phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back();
-    return cut > kNarrow || cut * vertical_optical_depth(atmosphere, c, kGreen, 0) > kNarrowDepth;
+    return cut > kNarrow || cut * vertical_optical_depth(atmosphere, c, {kGreen, 0}) > kNarrowDepth;
   };
   if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
     options.streams *= 2;
