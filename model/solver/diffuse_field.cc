@@ -85,10 +85,6 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
   if (m == 0) pack.append_ground_irradiance(lane, field.ground_irradiance);
 }
 
-// Steps of the iteration that couples the suns; a third changes twilight by less than 0.1 % down to
-// 92 deg, 1 % to 96.
-constexpr int kCouplings = 2;
-
 }  // namespace
 
 int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
@@ -184,7 +180,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
         unpack_all(pack, p);
       }
     });
-    for (int k = 0; coupled && k < kCouplings; ++k) {
+    for (int k = 0; coupled && k < options.couplings; ++k) {
       tbb::parallel_for(0, count, [&](int p) { packs[p]->prepare_coupling(coupling); });
       tbb::parallel_for(0, count,
                         [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });

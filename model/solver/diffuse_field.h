@@ -4,7 +4,7 @@
 // Azimuth is a Fourier series, zenith a set of streams (model/solver/streams.h), each mode is
 // solved directly (model/solver/fourier_modes.h). At first the sun turns with the local zenith, as
 // if the sky were the same everywhere on the planet; horizontal coupling then adds the light of
-// columns under another sun, which couples modes and suns, in two steps of an iteration, for the
+// columns under another sun, which couples modes and suns, in steps of an iteration, for the
 // suns for which it matters (docs/theory, chapter 7). The field's Legendre moments are the source
 // of multiple scattering; the caller integrates it along view rays at the local sun.
 #pragma once
@@ -40,12 +40,18 @@ struct DiffuseField {
   LargeArray ground_irradiance;  // diffuse, on the ground, [sun][slice]
 };
 
+// Steps of the iteration that couples the suns. A third changes twilight by less than 0.1 % down to
+// 92 deg. In the deep twilight all light comes from far places: it takes as many steps as there are
+// nodes of the sun grid on the way.
+inline constexpr int kCouplings = 2, kTwilightCouplings = 20;
+
 struct DiffuseOptions {
   int moments = 16;  // of the phase functions, as many as the optics keep
   // A mode is left out when a bound on what it adds to the field is below this share of mode 0.
   double tolerance = 3e-3;
   // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
   int order = 0;
+  int couplings = kCouplings;
   bool polarised = true;  // with P of the light that air polarises
 };
 

@@ -9,6 +9,17 @@
 
 namespace skyfit {
 
+namespace {
+
+// docs/theory (7.6). Beyond this zenith angle light falls by decades from node to node, roughly
+// like this; over it the field is smooth.
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDeepTwilight = 97.5 * kDegree;
+constexpr double kFalloff = 1.1 / kDegree;
+double falloff(double from, double to) { return std::exp(-kFalloff * (to - from)); }
+
+}  // namespace
+
 SunGrid::SunGrid() {
   // Steps in degrees up to each end: the field changes fastest near the horizon and is dark below
   // 108.
@@ -66,6 +77,10 @@ SunSlope SunGrid::slope(int i) const {
       sum += product;
     }
     s.even[k] = sum / denominator;
+    if (x > kDeepTwilight + 1e-9) {
+      s.even[k] *= falloff(node[k], x);
+      if (s.index[k] == i) s.even[k] -= kFalloff;
+    }
     s.odd[k] = first + k < 0 ? -s.even[k] : s.even[k];
   }
   return s;
@@ -86,6 +101,7 @@ SunStencil SunGrid::stencil(double mu_s) const {
   s.index = four.index;
   s.even = {b * c * d * four.factor[0], a * c * d * four.factor[1], a * b * d * four.factor[2],
             a * b * c * four.factor[3]};
+  for (int i = 0; x > kDeepTwilight && i < 4; ++i) s.even[i] *= falloff(four.node[i], x);
   s.odd = s.even;
   if (first < 0) s.odd[0] = -s.odd[0];
   return s;

@@ -41,10 +41,12 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
   const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
-  const std::vector<DiffuseField> fields = solve_diffuse_fields<0>(
-      shells, optics, 1, levels_.heights(), sun_mu, streams,
-      sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
-      {.moments = kSourceOptions.moments, .polarised = transfer == Transfer::kVector});
+  const std::vector<DiffuseField> fields =
+      solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams,
+                              sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
+                              {.moments = kSourceOptions.moments,
+                               .couplings = kTwilightCouplings,
+                               .polarised = transfer == Transfer::kVector});
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
     const int blocks = scatterer.moments.size() <= kPowers ? 1 : kBlocks;
