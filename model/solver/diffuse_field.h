@@ -40,18 +40,15 @@ struct DiffuseField {
   LargeArray ground_irradiance;  // diffuse, on the ground, [sun][slice]
 };
 
-// Steps of the iteration that couples the suns. A third changes twilight by less than 0.1 % down to
-// 92 deg. In the deep twilight all light comes from far places: it takes as many steps as there are
-// nodes of the sun grid on the way.
-inline constexpr int kCouplings = 2, kTwilightCouplings = 20;
-
 struct DiffuseOptions {
   int moments = 16;  // of the phase functions, as many as the optics keep
   // A mode is left out when a bound on what it adds to the field is below this share of mode 0.
   double tolerance = 3e-3;
   // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
   int order = 0;
-  int couplings = kCouplings;
+  // Couples the suns in as many steps as a deep twilight takes, whose light all comes from far
+  // places; in two where that does not converge.
+  bool deep_twilight = false;
   bool polarised = true;  // with P of the light that air polarises
 };
 

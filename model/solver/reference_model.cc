@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "model/atmosphere/derived.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/phase_moments.h"
+#include "model/numerics/angles.h"
 #include "model/shared/shared.h"
 #include "model/solver/single_scattering.h"
 #include "model/solver/sky_solution.h"
@@ -134,12 +134,11 @@ ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<O
   return light;
 }
 
-// The light of points under which no sun stands higher than this comes from far places: they take
-// fields of their own, with more steps of the coupling. A list of points thus gives what each gives
-// alone.
-const double kDeepTwilight = std::cos(93 * std::numbers::pi / 180);
+// A ray along which the sun goes down further than this takes the fields of deep twilight. They are
+// solved apart from those of the other rays, so that a list of points gives what each gives alone.
+const double kDeepTwilight = std::cos(94 * kRadiansPerDegree);
 enum Fields : std::size_t { kDay, kTwilight };
-Fields fields_of(const SunRange& range) { return range.highest < kDeepTwilight ? kTwilight : kDay; }
+Fields fields_of(const SunRange& range) { return range.lowest < kDeepTwilight ? kTwilight : kDay; }
 
 template <int N>
 struct Solutions {
@@ -237,13 +236,12 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
   const bool first = options.order <= 1, further = options.order != 1;
   ByStokes<Dual<N>> single;
   for (const Stokes which : wanted) single[which].resize(points.size() * optics.size());
-  const auto solve_fields = [&](Fields fields, int couplings) {
+  const auto solve_fields = [&](Fields fields) {
     if (!needed[fields].empty())
       solutions.of[fields].emplace(shells, levels, optics, derivatives.size(), needed[fields],
-                                   options, couplings);
+                                   options, fields == kTwilight);
   };
-  tbb::parallel_invoke([&] { solve_fields(kDay, kCouplings); },
-                       [&] { solve_fields(kTwilight, kTwilightCouplings); },
+  tbb::parallel_invoke([&] { solve_fields(kDay); }, [&] { solve_fields(kTwilight); },
                        [&] {
                          if (first)
                            single = single_scattering_of(shells, optics, rays, suns, wanted);

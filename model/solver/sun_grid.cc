@@ -11,24 +11,30 @@ namespace skyfit {
 
 namespace {
 
-// docs/theory (7.6). Beyond this zenith angle light falls by decades from node to node, roughly
-// like this; over it the field is smooth.
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kDeepTwilight = 97.5 * kDegree;
-constexpr double kFalloff = 1.1 / kDegree;
-double falloff(double from, double to) { return std::exp(-kFalloff * (to - from)); }
+// docs/theory (7.6): the decay of twilight, 1 by day. Its rate grows from 0 to kFastest; over it
+// the field changes slowly from node to node.
+constexpr double kDusk = 91 * kRadiansPerDegree, kSlow = 6 * kRadiansPerDegree;
+constexpr double kFastest = 1.4 / kRadiansPerDegree;  // 1/rad
+double decay_rate(double zenith) {
+  return zenith < kDusk ? 0 : kFastest * (1 - std::exp((kDusk - zenith) / kSlow));
+}
+double decay(double zenith) {
+  if (zenith < kDusk) return 1;
+  const double x = zenith - kDusk;
+  return std::exp(-kFastest * (x + kSlow * std::expm1(-x / kSlow)));
+}
 
 }  // namespace
 
 SunGrid::SunGrid() {
-  // Steps in degrees up to each end: the field changes fastest near the horizon and is dark below
-  // 108.
+  // Steps in degrees up to each end: the field changes fastest near the horizon and decays
+  // below the last node.
   struct Range {
     double end, step;
   };
   double zenith = 0;
   for (const Range range :
-       {Range{60, 10}, Range{75, 5}, Range{85, 2.5}, Range{90, 2.5}, Range{108, 1.5}}) {
+       {Range{60, 10}, Range{75, 5}, Range{85, 2.5}, Range{90, 2.5}, Range{111, 1.5}}) {
     if (range.end == 90) day_ = size();
     for (; zenith < range.end - 1e-9; zenith += range.step)
       zenith_.push_back(zenith * kRadiansPerDegree);
@@ -45,7 +51,7 @@ void SunGrid::set_fours() {
       four.node[i] = first + i < 0 ? -zenith_[1] : zenith_[first + i];
     }
     for (int i = 0; i < 4; ++i) {
-      four.factor[i] = 1;
+      four.factor[i] = 1 / decay(four.node[i]);
       for (int k = 0; k < 4; ++k) {
         if (k != i) four.factor[i] /= four.node[i] - four.node[k];
       }
@@ -77,17 +83,15 @@ SunSlope SunGrid::slope(int i) const {
       sum += product;
     }
     s.even[k] = sum / denominator;
-    if (x > kDeepTwilight + 1e-9) {
-      s.even[k] *= falloff(node[k], x);
-      if (s.index[k] == i) s.even[k] -= kFalloff;
-    }
+    s.even[k] *= decay(x) / decay(node[k]);
+    if (s.index[k] == i) s.even[k] -= decay_rate(x);
     s.odd[k] = first + k < 0 ? -s.even[k] : s.even[k];
   }
   return s;
 }
 
 SunStencil SunGrid::stencil(double mu_s) const {
-  const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
+  const double asked = std::acos(std::clamp(mu_s, -1.0, 1.0)), x = std::min(asked, zenith_.back());
   const int above =
       static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
   // Up to 85 deg no node below 85 deg is asked for: suns below are dear, for they come with all
@@ -101,7 +105,7 @@ SunStencil SunGrid::stencil(double mu_s) const {
   s.index = four.index;
   s.even = {b * c * d * four.factor[0], a * c * d * four.factor[1], a * b * d * four.factor[2],
             a * b * c * four.factor[3]};
-  for (int i = 0; x > kDeepTwilight && i < 4; ++i) s.even[i] *= falloff(four.node[i], x);
+  for (double& weight : s.even) weight *= decay(asked);
   s.odd = s.even;
   if (first < 0) s.odd[0] = -s.odd[0];
   return s;

@@ -26,11 +26,11 @@ class SunGrid {
   int size() const { return static_cast<int>(zenith_.size()); }
   double mu(int i) const;
   double zenith(int i) const { return zenith_[i]; }  // radians
-  // Of the quartic through the node and its neighbours; beyond 97.5 deg of the field over a
-  // falloff, docs/theory (7.6).
+  // Of the quartic through the node and its neighbours, of the field over the decay of twilight,
+  // docs/theory (7.6).
   SunSlope slope(int i) const;
-  // Lagrange's cubic in the zenith angle through the four nearest nodes, beyond 97.5 deg as
-  // slope(); the last node's value below the grid.
+  // Lagrange's cubic in the zenith angle through the four nearest nodes, of the field over the decay
+  // of twilight, which goes on below the grid.
   SunStencil stencil(double mu_s) const;
 
  private:

@@ -45,7 +45,7 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
       solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams,
                               sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
                               {.moments = kSourceOptions.moments,
-                               .couplings = kTwilightCouplings,
+                               .deep_twilight = true,
                                .polarised = transfer == Transfer::kVector});
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
