@@ -97,7 +97,7 @@ constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 30;
 bool has_converged(const DiffuseField& after_few, const DiffuseField& field,
                    const HorizontalCoupling& coupling) {
   constexpr int kKept = 2;
-  constexpr int kDark = 4;  // nodes beyond 105 deg
+  constexpr int kDark = 2;  // nodes beyond 105 deg
   constexpr double kChange = 0.02, kRise = 2;
   const auto mean = [&](const DiffuseField& f, int level, int sun) {
     return f.moments[0][level * f.shape.level(0) + static_cast<std::size_t>(sun) * f.shape.slices];

@@ -13,7 +13,7 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
                             const std::vector<Optics<N>>& optics, std::size_t derivatives,
                             std::span<const SunRange> needed, const ReferenceOptions& options,
                             bool deep_twilight)
-    : shells_(shells), levels_(levels), solved_(grid_.size(), -1), optics_(optics) {
+    : shells_(shells), levels_(levels), grid_(shells), solved_(grid_.size(), -1), optics_(optics) {
   for (const SunRange& range : needed) {
     const SunStencil high = grid_.stencil(range.highest), low = grid_.stencil(range.lowest);
     const auto first = *std::ranges::min_element(high.index),

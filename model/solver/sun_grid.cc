@@ -10,23 +10,25 @@
 namespace skyfit {
 
 namespace {
-
-// docs/theory (7.6): the decay of twilight, 1 by day. Its rate grows from 0 to kFastest; over it
-// the field changes slowly from node to node.
-constexpr double kDusk = 91 * kRadiansPerDegree, kSlow = 6 * kRadiansPerDegree;
-constexpr double kFastest = 1.4 / kRadiansPerDegree;  // 1/rad
-double decay_rate(double zenith) {
-  return zenith < kDusk ? 0 : kFastest * (1 - std::exp((kDusk - zenith) / kSlow));
-}
-double decay(double zenith) {
-  if (zenith < kDusk) return 1;
-  const double x = zenith - kDusk;
-  return std::exp(-kFastest * (x + kSlow * std::expm1(-x / kSlow)));
-}
-
+constexpr double kDusk = 91 * kRadiansPerDegree;
 }  // namespace
 
-SunGrid::SunGrid() {
+// docs/theory (7.6).
+double SunGrid::decay_rate(double zenith) const {
+  return zenith < kDusk ? 0 : fastest_ * (1 - std::exp((kDusk - zenith) / slow_));
+}
+double SunGrid::decay(double zenith) const {
+  if (zenith < kDusk) return 1;
+  const double x = zenith - kDusk;
+  return std::exp(-fastest_ * (x + slow_ * std::expm1(-x / slow_)));
+}
+
+SunGrid::SunGrid(const Shells& shells) {
+  constexpr double kEarth = 10 * kRadiansPerDegree;
+  const double extent =
+      std::max(kEarth, std::acos(shells.bottom_radius / (shells.bottom_radius + shells.top)));
+  fastest_ = 14 / extent;
+  slow_ = 0.6 * extent;
   // Steps in degrees up to each end: the field changes fastest near the horizon and decays
   // below the last node.
   struct Range {
@@ -34,7 +36,7 @@ SunGrid::SunGrid() {
   };
   double zenith = 0;
   for (const Range range :
-       {Range{60, 10}, Range{75, 5}, Range{85, 2.5}, Range{90, 2.5}, Range{111, 1.5}}) {
+       {Range{60, 10}, Range{75, 5}, Range{85, 2.5}, Range{90, 2.5}, Range{108, 1.5}}) {
     if (range.end == 90) day_ = size();
     for (; zenith < range.end - 1e-9; zenith += range.step)
       zenith_.push_back(zenith * kRadiansPerDegree);

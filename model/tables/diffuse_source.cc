@@ -35,7 +35,7 @@ ChebyshevRows chebyshev_rows() {
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
                              const std::vector<double>& heights, Transfer transfer)
-    : levels_(shells, kSourceOptions.levels) {
+    : suns_(shells), levels_(shells, kSourceOptions.levels) {
   std::vector<double> sun_mu;
   for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
   std::vector<int> all(sun_mu.size());
