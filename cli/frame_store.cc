@@ -118,6 +118,7 @@ Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<Timel
     : timeline_(timeline) {
   common_ = {{"version", kVersion},
              {"model", request.model},
+             {"light", {static_cast<int>(request.light.transfer), request.light.orders}},
              {"device", static_cast<int>(request.device)},
              {"scene", json_of(request.scene)},
              {"frame", json_of(request.frame)},

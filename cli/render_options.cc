@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <utility>
 
 #include "cli/arguments.h"
@@ -219,6 +220,13 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("NAME")
       ->capture_default_str();
   add_scalar_option(command, options.scalar);
+  command
+      .add_option("--orders", options.orders,
+                  "Light that met air or ground N times at most, of the model reference; 1: single "
+                  "scattering. Below suns of 86 deg neighbouring places are left out (docs/theory)")
+      ->type_name("N|all")
+      ->transform(CLI::Transformer(std::map<std::string, int>{{"all", 0}}).description(""))
+      ->check(CLI::Range(0, 20).description(""));
   command.add_option("--out", options.out, "frame.png or frame.exr; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);

@@ -31,6 +31,7 @@ struct RenderOptions {
   std::string view_transform = "hue", glare = "eye";
   std::string primaries = "rec709";
   int samples_per_side = FrameOptions{}.samples_per_side;
+  int orders = 0;  // 0: all
   bool scalar = false, shadows = false, layers = false, gpu = false, stats = false;
   std::vector<std::string> out;
   int threads = default_threads();

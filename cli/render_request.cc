@@ -152,7 +152,9 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
   request.scene = parse_scene(options, command);
   request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
   request.model = options.model;
-  request.transfer = transfer_of(options.scalar);
+  request.light = {transfer_of(options.scalar), options.orders};
+  if (options.orders > 0 && options.model != "reference")
+    throw UsageError("--orders", std::to_string(options.orders), "expected the model reference");
   request.stats = options.stats;
   request.threads = options.threads;
   return request;

@@ -8,6 +8,7 @@
 
 #include "cli/render_options.h"
 #include "model/atmosphere/parameters.h"
+#include "model/tables/tables.h"
 #include "render/sequence/sequence.h"
 
 namespace skyfit::cli {
@@ -21,7 +22,7 @@ struct RenderRequest {
   Scene scene;
   GraphicsDevice device = GraphicsDevice::kSoftware;
   std::string model;
-  Transfer transfer = Transfer::kVector;
+  TableLight light;
   FrameOptions frame;  // camera, site and sun are those of the sequence
   Sequence sequence;   // of one frame for a single picture and a strip
   bool is_sequence = false;

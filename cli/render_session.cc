@@ -15,15 +15,19 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
     : request_(request),
       report_(std::move(report)),
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
-                            request.transfer)),
+                            request.light.transfer)),
       renderer_(request.scene, request.device),
       timeline_(std::move(timeline), [this](const Preset& preset) { return tables_of(preset); }) {}
 
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
-  return compute_tables_of(*model_, lowered_by(basin_depth_m(request_.scene), preset.atmosphere),
-                           color_rule(refs::spectral_data_of(preset.atmosphere)), TableSizes{},
-                           request_.threads,
-                           [this](double done) { report_(done, "tables of the atmosphere"); });
+  const auto atmosphere = lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
+  const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
+  const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
+  if (request_.light.orders > 0) {
+    return compute_tables(atmosphere, color, TableSizes{}, request_.threads, progress,
+                          request_.light);
+  }
+  return compute_tables_of(*model_, atmosphere, color, TableSizes{}, request_.threads, progress);
 }
 
 Frame RenderSession::draw(const Shot& shot, double time_s,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -31,27 +32,42 @@ ChebyshevRows chebyshev_rows() {
   return row;
 }
 
+// Fields of the same wavelengths.
+void add(const std::vector<DiffuseField>& more, std::vector<DiffuseField>& to) {
+  for (std::size_t w = 0; w < to.size(); ++w) {
+    for (std::size_t m = 0; m < to[w].moments.size(); ++m)
+      std::ranges::transform(more[w].moments[m], to[w].moments[m], to[w].moments[m].begin(),
+                             std::plus<>());
+  }
+}
+
 }  // namespace
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
-                             const std::vector<double>& heights, Transfer transfer)
+                             const std::vector<double>& heights, const TableLight& light)
     : suns_(shells), levels_(shells, kSourceOptions.levels) {
-  std::vector<double> sun_mu;
-  for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
-  std::vector<int> all(sun_mu.size());
-  std::iota(all.begin(), all.end(), 0);
-  const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
-  const std::vector<DiffuseField> fields =
-      solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams,
-                              sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
-                              {.moments = kSourceOptions.moments,
-                               .deep_twilight = true,
-                               .polarised = transfer == Transfer::kVector});
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
     const int blocks = scatterer.moments.size() <= kPowers ? 1 : kBlocks;
     kept_.push_back({blocks, std::vector<float>(index(count, 0, blocks))});
   }
+  if (light.orders == 1) return;
+  std::vector<double> sun_mu;
+  for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
+  std::vector<int> all(sun_mu.size());
+  std::iota(all.begin(), all.end(), 0);
+  const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
+  const HorizontalCoupling coupling =
+      sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells));
+  const auto fields_of = [&](int order) {
+    return solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams, coupling,
+                                   {.moments = kSourceOptions.moments,
+                                    .order = order,
+                                    .deep_twilight = true,
+                                    .polarised = light.transfer == Transfer::kVector});
+  };
+  std::vector<DiffuseField> fields = fields_of(light.orders == 0 ? 0 : 1);
+  for (int order = 2; order < light.orders; ++order) add(fields_of(order), fields);
   tbb::parallel_for(0, count, [&](int i) {
     tabulate(i, levels_.coordinate(heights[static_cast<std::size_t>(i)]), optics, fields);
   });

@@ -24,6 +24,14 @@ using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blu
 // doubles them for a narrow lobe; optics_at() needs the moments.
 inline constexpr ReferenceOptions kSourceOptions{};
 
+// Which light of the reference the tables hold.
+struct TableLight {
+  Transfer transfer = Transfer::kVector;
+  // 0: all of it. k > 0: what met air or ground k times at most; approximate for suns below 86 deg,
+  // as `order` in model/solver/reference_model.h.
+  int orders = 0;
+};
+
 class DiffuseSource {
  public:
   static constexpr int kPowers = 4;  // of the cosine in a block: 1, c, c^2, c^3
@@ -32,9 +40,10 @@ class DiffuseSource {
   // Floats of one block: [wavelength][power].
   static constexpr std::size_t kBlock = 4 * kPowers;
 
-  // Kept at `heights`, which ascend from 0 to the top.
+  // Kept at `heights`, which ascend from 0 to the top. Of light of k orders, the source of all but
+  // the first.
   DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& heights,
-                Transfer transfer);
+                const TableLight& light);
 
   const SunGrid& suns() const { return suns_; }
 

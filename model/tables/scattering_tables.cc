@@ -24,12 +24,12 @@ constexpr int kLevelsPerTexel = kSourceStep;
 class ScatteringBuilder {
  public:
   ScatteringBuilder(const Shells& shells, const NodeOptics& optics, AtmosphereTables& tables,
-                    Transfer transfer)
+                    const TableLight& light)
       : shells_(shells),
         optics_(optics),
         tables_(tables),
         heights_(level_heights()),
-        source_(shells, optics, source_heights(heights_), transfer),
+        source_(shells, optics, source_heights(heights_), light),
         kinds_(tables.phases.count()) {
     set_sun_steps();
     beam_.resize(heights_.size());
@@ -224,9 +224,9 @@ class ScatteringBuilder {
 }  // namespace
 
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            AtmosphereTables& tables, Transfer transfer,
+                            AtmosphereTables& tables, const TableLight& light,
                             const std::function<void(double)>& progress) {
-  ScatteringBuilder(shells, optics, tables, transfer).build(progress);
+  ScatteringBuilder(shells, optics, tables, light).build(progress);
 }
 
 }  // namespace skyfit

@@ -12,7 +12,7 @@ namespace skyfit {
 
 // `tables` has its atmosphere and sizes; progress in 0..1 per part of this work, may be empty.
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            AtmosphereTables& tables, Transfer transfer,
+                            AtmosphereTables& tables, const TableLight& light,
                             const std::function<void(double)>& progress);
 
 }  // namespace skyfit

@@ -94,7 +94,8 @@ std::shared_ptr<const TableModel::Kept> TableModel::tables_for(
     ColorRule four{};  // no colours are asked for; the last wavelength fills the four
     for (std::size_t k = 0; k < 4; ++k)
       four.nodes[k] = wavelengths[std::min(first + k, wavelengths.size() - 1)];
-    made->tables.push_back(compute_tables(atmosphere, four, TableSizes{}, threads_, {}, transfer_));
+    made->tables.push_back(
+        compute_tables(atmosphere, four, TableSizes{}, threads_, {}, {transfer_}));
   }
   return made;
 }

@@ -191,10 +191,10 @@ void tabulate(const SkyModel& model, std::optional<SkyRayTables> own, const Shel
   progress(1);
 }
 
-// `model`: null for the reference's light, by `transfer`.
+// `model`: null for the light of the reference.
 AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphere,
                        const ColorRule& color, const TableSizes& sizes,
-                       const std::function<void(double)>& progress, Transfer transfer) {
+                       const std::function<void(double)>& progress, const TableLight& light) {
   AtmosphereTables tables;
   tables.atmosphere = atmosphere;
   tables.color = color;
@@ -223,7 +223,7 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
     tabulate(*model, std::move(own), shells, tables, of_scattering);
   } else {
     tables.sky_rays = outside_tables(sizes.outside(), tables.phases);
-    make_scattering_tables(shells, optics, tables, transfer, of_scattering);
+    make_scattering_tables(shells, optics, tables, light, of_scattering);
   }
   make_optical_depth(shells, optics, tables);
   make_irradiance(shells.top, tables);
@@ -235,22 +235,21 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
 
 AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
                                 const TableSizes& sizes, int threads,
-                                const std::function<void(double)>& progress, Transfer transfer) {
+                                const std::function<void(double)>& progress,
+                                const TableLight& light) {
   validate(atmosphere);
   tbb::task_arena arena(threads);
-  return arena.execute(
-      [&] { return build(nullptr, atmosphere, color, sizes, progress, transfer); });
+  return arena.execute([&] { return build(nullptr, atmosphere, color, sizes, progress, light); });
 }
 
 AtmosphereTables compute_tables_of(const SkyModel& model, const Atmosphere<double>& atmosphere,
                                    const ColorRule& color, const TableSizes& sizes, int threads,
                                    const std::function<void(double)>& progress) {
   if (model.name() == "reference" || model.name() == "tables")
-    return compute_tables(atmosphere, color, sizes, threads, progress, model.transfer());
+    return compute_tables(atmosphere, color, sizes, threads, progress, {model.transfer()});
   validate(atmosphere);
   tbb::task_arena arena(threads);
-  return arena.execute(
-      [&] { return build(&model, atmosphere, color, sizes, progress, model.transfer()); });
+  return arena.execute([&] { return build(&model, atmosphere, color, sizes, progress, {}); });
 }
 
 }  // namespace skyfit

@@ -71,7 +71,7 @@ struct AtmosphereTables {
 AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
                                 const TableSizes& sizes, int threads,
                                 const std::function<void(double)>& progress,
-                                Transfer transfer = Transfer::kVector);
+                                const TableLight& light = {});
 
 // Of another model's light, by its scattered_light(); `reference` and `tables` are the above,
 // with their transfer.

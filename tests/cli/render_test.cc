@@ -101,6 +101,14 @@ TEST_F(RenderTest, ASequenceIsKeptContinuedAndRedrawn) {
       run(command + std::vector<std::string>{"--tone", "exponential"}, {nowhere});
   EXPECT_THAT(fourth.out, HasSubstr("3 drawn, 0 kept"));
   EXPECT_NE(read("film/frame_00001.png"), bytes);
+
+  // And so does other light.
+  for (const std::vector<std::string>& light :
+       {std::vector<std::string>{"--scalar"}, {"--orders", "1"}}) {
+    std::vector<std::string> of_light = command;
+    of_light.insert(of_light.end(), light.begin(), light.end());
+    EXPECT_THAT(run(of_light, {nowhere}).out, HasSubstr("3 drawn, 0 kept")) << light.front();
+  }
 }
 
 TEST_F(RenderTest, AFailingFfmpegIsNamed) {

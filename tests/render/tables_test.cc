@@ -10,6 +10,7 @@
 #include "data_refs/spectra.h"
 #include "model/atmosphere/preset.h"
 #include "model/atmosphere/slant_column.h"
+#include "model/solver/reference_model.h"
 #include "model/tables/table_lookup.h"
 
 namespace skyfit {
@@ -77,6 +78,29 @@ TEST(Tables, FinerTablesSayTheSame) {
         }
       }
     }
+  }
+}
+
+TEST(Tables, OrdersAreThoseOfTheReference) {
+  const Preset preset = parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear");
+  const ColorRule color = color_rule(refs::standard_spectral_data());
+  constexpr double kTables = 0.02, kView = 58 * kDegree, kSun = 47 * kDegree, kAzimuth = 1;
+  const double mu = std::cos(kView), mu_s = std::cos(kSun);
+  const double nu = mu * mu_s + std::sin(kView) * std::sin(kSun) * std::cos(kAzimuth);
+  const SkyPoint point{2, kSun, kView, kAzimuth};
+  NodeValues sum{};
+  for (const int orders : {1, 2, 3}) {
+    ReferenceOptions options;
+    options.order = orders;
+    const SkyValues of_order =
+        ReferenceModel(options).radiance(preset.atmosphere, color.nodes, {&point, 1}, {});
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += of_order.value[k];
+    const AtmosphereTables tables =
+        compute_tables(preset.atmosphere, color, {64, 64, 16, 4, 16, 16, 48, 48, 16, 4, 8, 4}, 2,
+                       {}, {Transfer::kVector, orders});
+    const NodeValues found = lookup_radiance(tables, 2, mu, mu_s, nu, false);
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(found[k] / sum[k], 1, kTables) << orders << " orders, node " << k;
   }
 }
 

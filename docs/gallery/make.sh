@@ -1,0 +1,243 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Draws what the sources of the models show and writes the page that holds it: for each figure the
+# source's own model, beside it the reference model, what is to be seen, and the commands.
+#
+#   make.sh SKYFIT DIRECTORY
+set -euo pipefail
+
+skyfit=$1 out=$2
+mkdir -p "$out"
+page=$out/index.html
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+commands=""
+
+escaped() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
+
+# picture NAME ARGUMENTS: one frame or strip, kept as NAME.jpg; its command goes under the figure.
+picture() {
+  local name=$1
+  shift
+  commands+="skyfit render $* --out $name.png"$'\n'
+  "$skyfit" render "$@" --out "$scratch/$name.png" >/dev/null
+  oiiotool "$scratch/$name.png" --ch R,G,B --compression jpeg:88 -o "$out/$name.jpg"
+  pictures+=("$name")
+}
+
+source_of() { # ID TITLE
+  printf '<h2 id="%s">%s</h2>\n' "$1" "$(escaped <<<"$2")" >>"$page"
+}
+
+begin() {
+  pictures=()
+  commands=""
+}
+
+# figure TITLE WHAT-IS-TO-BE-SEEN CAPTION...: with the pictures since begin, each with its caption.
+figure() {
+  local title=$1 seen=$2 i
+  shift 2
+  {
+    printf '<section><h3>%s</h3>\n<p>%s</p>\n<div class="row">\n' "$(escaped <<<"$title")" "$(escaped <<<"$seen")"
+    for i in "${!pictures[@]}"; do
+      printf '<figure><img loading="lazy" src="%s.jpg" alt="%s"><figcaption>%s</figcaption></figure>\n' \
+        "${pictures[$i]}" "$(escaped <<<"$title")" "$(escaped <<<"${1-}")"
+      shift || true
+    done
+    printf '</div>\n<details><summary>Commands</summary><pre>%s</pre></details></section>\n' "$(escaped <<<"$commands")"
+  } >>"$page"
+}
+
+# text TITLE WHAT-IS-TO-BE-SEEN ARGUMENTS: what a command prints.
+text() {
+  local title=$1 seen=$2
+  shift 2
+  {
+    printf '<section><h3>%s</h3>\n<p>%s</p>\n<pre>skyfit %s\n\n' "$(escaped <<<"$title")" "$(escaped <<<"$seen")" "$(escaped <<<"$*")"
+    "$skyfit" "$@" | escaped
+    printf '</pre></section>\n'
+  } >>"$page"
+}
+
+cat >"$page" <<'HTML'
+<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>skyfit: the figures of its sources</title>
+<style>
+:root { color-scheme: light dark; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 0 auto; padding: 1.5rem 1rem 4rem; }
+h2 { margin-top: 3rem; border-bottom: 1px solid gray; }
+.row { display: flex; flex-wrap: wrap; gap: 0.6rem; }
+figure { margin: 0; }
+figure img { max-width: 100%; display: block; }
+figcaption { font-size: 0.85rem; opacity: 0.75; }
+pre { overflow: auto; font-size: 0.8rem; }
+</style>
+</head>
+<body>
+<h1>The figures of the sources</h1>
+<p>Each picture is made by the command under it, from the model of the source and from skyfit's <code>reference</code>
+(spherical, polarised, all orders of scattering) in the same atmosphere. <code>./run gallery</code> makes the page anew. What
+the sources do not state (sun, place, exposure) is chosen here. The last section names what cannot be shown.</p>
+HTML
+
+small=(--size 320x180)
+strip=(--size 200x150)
+
+# --- Sperlhofer 2011 --------------------------------------------------------------------------------------------------
+s11=(--preset sperlhofer-2011)
+source_of s11 "Sperlhofer 2011: tables of Bruneton and Neyret, deferred shading"
+text "Tables 4-1 and 4-2: the atmosphere" "The published coefficients as a preset, and what they amount to." check sperlhofer-2011
+
+begin
+for altitude in 6000e3 400e3 30e3 2e3; do
+  case $altitude in 6000e3) pitch=-56 ;; 400e3) pitch=-17 ;; 30e3) pitch=-4 ;; *) pitch=2 ;; esac
+  for sun in 84 30; do
+    picture "s11-4-44-${altitude}-${sun}" "${s11[@]}" --model bruneton --view ground --altitude-m "$altitude" \
+      --pitch-deg "$pitch" --sun-zenith-deg "$sun" "${small[@]}"
+  done
+done
+figure "4-44: from space to the ground, sunset and midday" "No jump anywhere on the way down." \
+  "6000 km, low sun" "6000 km, midday" "400 km, low sun" "400 km, midday" "30 km, low sun" "30 km, midday" "2 km, low sun" "2 km, midday"
+
+# grid ID TITLE SEEN PARAMETER=LOW..HIGH ALTITUDES ARGUMENTS: a strip for each altitude, by both models.
+grid() {
+  local id=$1 title=$2 seen=$3 parameter=$4 altitudes=$5 model altitude
+  shift 5
+  begin
+  local captions=()
+  for altitude in $altitudes; do
+    for model in bruneton reference; do
+      picture "s11-$id-$model-$altitude" "${s11[@]}" --model "$model" --view ground --altitude-m "$altitude" \
+        --sun-zenith-deg 60 --strip "$parameter:3" "${strip[@]}" "$@"
+      captions+=("$model, $altitude m, ${parameter%=*} ${parameter#*=}")
+    done
+  done
+  figure "$title" "$seen" "${captions[@]}"
+}
+grid 4-46 "4-46: Rayleigh scattering, half to twice" "Less scattering: a darker sky and less blue shift of the land." \
+  rayleigh.scattering=6.75e-6..2.7e-5 "2000 5000 20000" --pitch-deg -4 --azimuth-deg 120
+grid 4-47 "4-47: scale height of the air, 2 to 10 km" "How far up the air reaches." \
+  rayleigh.scale_height=2000..10000 "2000 5000 20000" --pitch-deg -4 --azimuth-deg 120
+grid 4-48 "4-48: Mie scattering, towards the sun" "A larger halo near the ground, hardly any effect higher up." \
+  mie.scattering=2e-6..8e-6 "1000 3000 5000" --pitch-deg 8
+grid 4-49 "4-49: scale height of the aerosol, 1 to 4 km, towards the sun" "The halo now reaches greater heights." \
+  mie.scale_height=1000..4000 "1000 3000 5000" --pitch-deg 8
+
+begin
+for k in 1e-4 3e-4 1e-3; do
+  picture "s11-4-42-$k" "${s11[@]}" --model bruneton --view valley --tone exponential --exposure "$k" "${small[@]}"
+done
+figure "4-42: one scene at exposures of 1 to 3 to 10" "Brighter with the exposure; the greatest washes out." \
+  "exposure 1e-4 m^2/cd" "3e-4 m^2/cd" "1e-3 m^2/cd"
+
+begin
+for orders in 1 2 all; do
+  picture "s11-4-45-$orders" "${s11[@]}" --view valley --orders "$orders" --exposure 2e-4 "${small[@]}"
+done
+figure "4-45: orders of scattering" "Single scattering alone is too dark; all orders are thicker and bluer." \
+  "reference, single scattering" "two orders" "all orders"
+
+# --- Bodare and Sandberg 2014 -----------------------------------------------------------------------------------------
+bs=(--preset bodare-2014)
+source_of bs14 "Bodare and Sandberg 2014: 3D tables, ozone"
+both() { # NAME ARGUMENTS: the picture by the source's model and by the reference.
+  local name=$1 model=$2
+  shift 2
+  picture "$name-$model" --model "$model" "$@"
+  picture "$name-reference" "$@"
+}
+begin
+both bs14-20 bodare "${bs[@]}" --view sunset --sun-zenith-deg 93 --strip ozone.column=0..454:2 "${small[@]}"
+figure "20: without and with ozone" "Ozone makes the twilight bluer." "bodare: 0 and 454 DU" "reference: 0 and 454 DU"
+
+begin
+both bs14-21 bodare "${bs[@]}" --view sunset --sun-zenith-deg 80 --second-sun 70,25,0.5 "${small[@]}"
+figure "21: two suns" "Each adds its light with its own direction." "bodare" "reference"
+
+begin
+thin_and_dense=(--strip rayleigh.scattering=1.279e-6..1.279e-4:2)
+both bs14-22 bodare "${bs[@]}" --view sunset --sun-zenith-deg 75 "${thin_and_dense[@]}" "${small[@]}"
+both bs14-22-1 bodare "${bs[@]}" --view sunset --sun-zenith-deg 75 "${small[@]}"
+figure "22: the air's density times 0.1, 10 and 1" "Skies of other worlds by density alone." \
+  "bodare, 0.1 and 10" "reference, 0.1 and 10" "bodare, 1" "reference, 1"
+
+begin
+captions=()
+for sun in 90 88 86 82 75 65; do
+  picture "bs14-24-$sun" --model bodare "${bs[@]}" --view valley --sun-zenith-deg "$sun" "${small[@]}"
+  captions+=("sun zenith $sun deg")
+done
+figure "24: light on the ground" "It changes evenly over the day." "${captions[@]}"
+
+begin
+both bs14-13 bodare "${bs[@]}" --view sunset --sun-zenith-deg 86 --clouds 0.5,4000 "${small[@]}"
+figure "13: clouds under a low sun" "They turn red: the sun's light is what the air lets through." "bodare" "reference"
+
+begin
+both bs14-28 bodare "${bs[@]}" --view valley --strip mie.scattering=2e-5..1e-3:3 "${strip[@]}"
+figure "28: fog" "Foggy weather by parameters alone." "bodare" "reference"
+
+begin
+both bs14-29 bodare "${bs[@]}" --view limb "${small[@]}"
+figure "29: the limb from space" "Limb and disc without a seam." "bodare" "reference"
+
+# --- Nielsen 2003 -----------------------------------------------------------------------------------------------------
+source_of n03 "Nielsen 2003: closed form with mean densities"
+text "7.3: the sky over height" "The zenith darkens with height, the horizon does not. Luminance 90 deg from the sun by his model." \
+  sky --preset nielsen-2003 --model nielsen --sun-zenith-deg 40 --view-zenith-deg 0,30,60,80,89 --azimuth-deg 90 --altitude-m 0,16000
+text "7.3, by the reference" "The same by the reference." \
+  sky --preset nielsen-2003 --sun-zenith-deg 40 --view-zenith-deg 0,30,60,80,89 --azimuth-deg 90 --altitude-m 0,16000
+
+# --- O'Neil 2005 ------------------------------------------------------------------------------------------------------
+on=(--preset oneil-2005)
+source_of o05 "O'Neil 2005: samples along the ray"
+begin
+for view in space limb ground sunset; do
+  both "o05-16-1-$view" oneil "${on[@]}" --view "$view" "${small[@]}"
+done
+figure "16-1: from space to sunset" "Plausible at every height; single scattering leaves the sunset too dark." \
+  "space, oneil" "space, reference" "limb, oneil" "limb, reference" "ground, oneil" "ground, reference" "sunset, oneil" "sunset, reference"
+
+# --- Schafhitzel, Falk and Ertl 2007 ----------------------------------------------------------------------------------
+source_of sfe07 "Schafhitzel, Falk and Ertl 2007: 3D texture, Earth and Mars"
+earth=(--preset schafhitzel-2007-earth)
+begin
+both sfe07-4a schafhitzel "${earth[@]}" --view space "${small[@]}"
+both sfe07-4b schafhitzel "${earth[@]}" --view orbit --sun-zenith-deg 80 "${small[@]}"
+figure "4a, 4b: the Earth from space, and after sunrise from high above" "A blue limb; long paths are tinted near the terminator." \
+  "space, schafhitzel" "space, reference" "orbit, schafhitzel" "orbit, reference"
+begin
+captions=()
+for sun in 89 78 40; do
+  both "sfe07-4d-$sun" schafhitzel "${earth[@]}" --view valley --sun-zenith-deg "$sun" "${small[@]}"
+  captions+=("sun zenith $sun deg, schafhitzel" "reference")
+done
+figure "4c to 4f: mountains at sunrise, in the morning, at midday" "The light follows the sun's angle." "${captions[@]}"
+begin
+both sfe07-4g schafhitzel --preset schafhitzel-2007-mars --view space "${small[@]}"
+both sfe07-4h schafhitzel --preset schafhitzel-2007-mars --view valley "${small[@]}"
+figure "4g, 4h: Mars without dust, from space and in a valley" "Another colour by density and wavelengths alone." \
+  "space, schafhitzel" "space, reference" "valley, schafhitzel" "valley, reference"
+
+# --- what is missing --------------------------------------------------------------------------------------------------
+cat >>"$page" <<'HTML'
+<h2 id="missing">What is not shown</h2>
+<ul>
+<li>Sperlhofer: the terrain and its levels (4-11 to 4-25), the parts of a frame as panels (4-40; <code>--layers</code> has them in the
+EXR), clipped against mapped (4-41), an object half in the air (4-50), and the three repairs and the
+8-bit tables (5-1 to 5-5): the renderer has no options for them. His half and double values are the ends of the strips, whose steps are
+even.</li>
+<li>Bodare and Sandberg: the Mie channel by proportion (11), the update over frames as frames (12), the aerial volume against samples
+(16, 18, 23), the build-up (27). Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>
+<li>Nielsen: his pictures (7.4 to 7.15); the renderer does not draw the models <code>nielsen</code> and <code>hoffman-preetham</code>.</li>
+<li>O'Neil: other numbers of samples, the frame without a tone curve (16-4).</li>
+<li>All: times on the machines of their day.</li>
+</ul>
+</body>
+</html>
+HTML
