@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `bodare`: Bodare & Sandberg 2014, "Efficient and Dynamic Atmospheric Scattering": the tables of
-// bodare_tables.h, which says its equations; five orders of scattering; ozone. bodare_update.h
+// bodare_tables.h, which says its equations; five orders of scattering, where
+// the source, which leaves the number open, times four; ozone. bodare_update.h
 // spreads an update of the tables over frames.
 // Left out: the azimuth between view and sun within the tables, light that the ground reflects into
 // the air, the direction of what is scattered more than once, refraction, and the frustum volumes

@@ -60,24 +60,25 @@ void BodareUpdate::advance(const Atmosphere<double>& atmosphere) {
   frame_ = 0;
 }
 
-double BodareUpdate::blend() const { return frame_ / static_cast<double>(frames_of_update()); }
+double BodareUpdate::blend() const {
+  const int ramp = frames_of_update() - frames_of_order(options_.orders) - (options_.orders > 1);
+  return frame_ < ramp ? frame_ / static_cast<double>(ramp) : 1;
+}
 
 void BodareUpdate::step(BodareSet& set, int frame) const {
-  const int single_frames = options_.slices / 2, slice = BodareSizes::height / options_.slices;
+  int order = 1, part = frame;  // part -1 gathers
+  while (part >= frames_of_order(order)) part -= frames_of_order(order++) + 1;
+  const int parts = frames_of_order(order), slices = BodareSizes::height / parts;
   tbb::parallel_for(std::size_t{0}, set.tables().size(), [&](std::size_t w) {
     BodareTables<0>& tables = *set.tables()[w];
-    if (frame < single_frames) {
-      tables.scatter_once(2 * slice * frame, 2 * slice * (frame + 1));
-      if (frame == single_frames - 1) tables.add_order();
+    if (part < 0) {
+      tables.gather();
+    } else if (order == 1) {
+      tables.scatter_once(slices * part, slices * (part + 1));
     } else {
-      const int part = (frame - single_frames) % (options_.slices + 1) - 1;
-      if (part < 0) {
-        tables.gather();
-      } else {
-        tables.scatter_gathered(slice * part, slice * (part + 1));
-        if (part == options_.slices - 1) tables.add_order();
-      }
+      tables.scatter_gathered(slices * part, slices * (part + 1));
     }
+    if (part == parts - 1) tables.add_order();
     if (frame == frames_of_update() - 1) tables.finish();
   });
 }

@@ -38,8 +38,8 @@ class BodareUpdate {
   BodareUpdate(const Atmosphere<double>& atmosphere, std::vector<WavelengthNode> wavelengths,
                const BodareUpdateOptions& options);
 
-  // F = (K - 1) X + X / 2 + (K - 1): X / 2 frames of single scattering, two slices each; then for
-  // every further order one frame that gathers and X frames of one slice.
+  // F = (K - 1) X + X / 2 + (K - 1): X frames of one slice for every order but the last, X / 2 of
+  // two slices for the last, and before each but the first one frame that gathers.
   int frames_of_update() const;
 
   // One frame's share of the next set (the first frame also lays out its rays, which costs as much
@@ -47,8 +47,8 @@ class BodareUpdate {
   // the set becomes newer(), the one before it older().
   void advance(const Atmosphere<double>& atmosphere);
 
-  // The two finished sets and the weight of the newer, which grows from 0 to 1 while the next is
-  // built: picture = (1 - blend) of older + blend of newer.
+  // The two finished sets and the weight of the newer, which grows from 0 to 1 over the orders but
+  // the last and rests there: picture = (1 - blend) of older + blend of newer.
   const BodareSet& older() const { return *older_; }
   const BodareSet& newer() const { return *newer_; }
   double blend() const;
@@ -57,6 +57,10 @@ class BodareUpdate {
   std::vector<double> radiance(const SkyPoint& point) const;
 
  private:
+  // Of one order, from 1, without the one that gathers.
+  int frames_of_order(int order) const {
+    return order < options_.orders ? options_.slices : options_.slices / 2;
+  }
   void step(BodareSet& set, int frame) const;
   BodareUpdateOptions options_;
   std::vector<WavelengthNode> wavelengths_;

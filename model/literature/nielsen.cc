@@ -11,7 +11,7 @@ namespace skyfit {
 namespace {
 
 constexpr std::string_view kName = "nielsen";
-constexpr double kHighest = 20e3;                            // m
+constexpr double kHighest = 30e3;                            // m
 constexpr double kAirTerrain = 15e3, kAerosolTerrain = 5e3;  // scale heights, m
 
 // Hoffman & Preetham's Mie coefficient of turbidity 2 at 550 nm, 1/m:

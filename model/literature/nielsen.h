@@ -9,7 +9,8 @@
 // factor on the Mie coefficient is over Hoffman & Preetham's of turbidity 2; the sun's light is
 // that at the eye, behind the model's own depth of the sky. Left out: absorption and ozone, every
 // further scattering, the preset's scale heights (the model has its own). Valid by day, the sun
-// above the horizon, up to 20 km.
+// above the horizon, up to 30 km, the highest eye of the source. Its light of the sun is another
+// one: 9.2 - 550 m for the haze m, times a colour that it does not state.
 #pragma once
 
 #include "model/sky_model.h"

@@ -5,9 +5,12 @@
 // (oneil_slant in model/shared/closed_forms.glsl) where planet and air have the one geometry that
 // it was fitted to: an atmosphere of 0.025 planet radii, both scale heights a quarter of it. In
 // every other geometry they are evaluated in closed form. The source has one scale height; the
-// preset's two are used. Left out: absorption and ozone, every further scattering; the ground
-// reflects the sun alone. Five samples do not resolve an aerosol that is thin against the ray's
-// length: that error is the method's.
+// preset's two are used. It leaves the Rayleigh phase function out for its demo's sky to be bright
+// enough at 90 deg, and has no test of the planet's shadow; here air scatters by its phase
+// function, and samples in shadow give no light. Five samples are those of its prose; its shader
+// takes a number that it does not state. Left out: absorption and ozone, every further scattering;
+// the ground reflects the sun alone. Five samples do not resolve an aerosol that is thin against
+// the ray's length: that error is the method's.
 #pragma once
 
 #include "model/sky_model.h"

@@ -2,7 +2,10 @@
 // `schafhitzel`: Schafhitzel, Falk & Ertl 2007, "Real-Time Rendering of Planets with Atmospheres":
 // single scattering from the table of schafhitzel_tables.h, on any planet.
 // Left out: absorption and ozone, every further scattering, the azimuth between view and sun within
-// the table; the ground reflects the sun alone. Angles spaced evenly blur the horizon over 1.4 deg.
+// the table; the ground reflects the sun alone. The source contradicts itself on the angles of its
+// table: it fills it by functions of the angle that it does not state and reads it by cosines. Here
+// the angles are spaced evenly, which blurs the horizon over 1.4 deg; that is ours, not the
+// paper's.
 #pragma once
 
 #include "model/literature/schafhitzel_tables.h"

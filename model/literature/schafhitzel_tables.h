@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of Schafhitzel, Falk & Ertl 2007 at one wavelength, with derivatives: single
 // scattering 128^3 (height, view, sun) of air and aerosol without their phase functions, view and
-// sun in one plane; height and both angles spaced evenly; phase functions 1D over the angle. Values
-// per unit solar irradiance. Optical depths are evaluated in closed form in the place of the 2D
-// texture.
+// sun in one plane; height and both angles spaced evenly (schafhitzel.h says why); phase functions
+// 1D over the angle. Values per unit solar irradiance. Optical depths are evaluated in closed form
+// in the place of the 2D texture.
 #pragma once
 
 #include <vector>

@@ -135,14 +135,16 @@ TEST(BodareUpdate, NeverShowsAHalfBuiltTable) {
   };
   const double first = direct(before), second = direct(after);
   BodareUpdate update(before, {kGreen}, {5, 4});
-  const int frames = update.frames_of_update();
+  const int frames = update.frames_of_update(), ramp = 4 * 4 + 3;  // the orders before the last
+  EXPECT_EQ(frames, ramp + 1 + 2);
+  const auto blend = [&](int frame) { return std::min(1.0, frame / static_cast<double>(ramp)); };
   for (int frame = 0; frame < frames; ++frame) {
-    EXPECT_DOUBLE_EQ(update.blend(), frame / static_cast<double>(frames));
+    EXPECT_DOUBLE_EQ(update.blend(), blend(frame));
     EXPECT_NEAR(update.radiance(point)[0] / first, 1, 1e-12) << "frame " << frame;
     update.advance(after);
   }
   for (int frame = 0; frame < frames; ++frame) {  // older is the first, newer the second
-    const double expected = first + (second - first) * frame / frames;
+    const double expected = first + (second - first) * blend(frame);
     EXPECT_NEAR(update.radiance(point)[0] / expected, 1, 1e-12) << "frame " << frame;
     update.advance(after);
   }
