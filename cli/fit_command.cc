@@ -16,6 +16,7 @@
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
+#include "fit/standard_sky.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
 
@@ -41,7 +42,9 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
                                               arguments.sampling, arguments.import, command);
   const auto model = make_sky_model(arguments.model, refs::standard_spectral_data(),
                                     arguments.threads, transfer_for(reference, arguments.scalar));
-  const fit::FitOptions options = fit_options(arguments, *model, command);
+  fit::FitOptions options = fit_options(arguments, *model, command);
+  if (const std::optional<int> type = fit::standard_sky_type(arguments.reference))
+    options = fit::with_standard_sky(options, fit::standard_sky_kind(*type, *model), *model);
   const fit::CheckOptions checks = check_options(arguments);
   if (!arguments.keep_absorption_bands) refs::mask_absorption_bands(reference);
   const FinishedFit finished = fit_with_progress(reference, *model, options, checks);

@@ -18,7 +18,7 @@ struct FitArguments {
   bool scalar = false;
   std::string free, preset, site_pressure, out, exclude_sun = "3";
   std::string per_scan, link, scale, pointing, noise, loss, ground, hold_out;
-  std::vector<std::string> fix, prior, profiles;
+  std::vector<std::string> fix, bounds, prior, profiles;
   ImportArguments import;
   int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads(), bootstrap = 0, seed = 1;
