@@ -199,8 +199,9 @@ std::map<Parameter, Prior> parse_priors(std::string_view option,
   std::map<Parameter, Prior> priors;
   parse_pairs(option, texts, "expected name=mean:sigma with finite numbers, sigma > 0",
               [&](const Parameter& parameter, double mean, double sigma) {
-                return sigma > 0 ? std::optional(priors.emplace(parameter, Prior{mean, sigma}).second)
-                                 : std::nullopt;
+                return sigma > 0
+                           ? std::optional(priors.emplace(parameter, Prior{mean, sigma}).second)
+                           : std::nullopt;
               });
   return priors;
 }

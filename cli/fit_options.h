@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/inputs.h"
@@ -31,5 +32,10 @@ void add_fit_options(CLI::App& command, FitArguments& arguments);
 fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model,
                             const CLI::App& command);
 fit::CheckOptions check_options(const FitArguments& arguments);
+
+// `skyfit fit --reference cie:all`: all standard skies, each by itself, with one table and one
+// figure of all (cli/fit_standard_skies.cc).
+inline constexpr std::string_view kAllStandardSkies = "cie:all";
+void run_standard_skies(const FitArguments& arguments, const CLI::App& command);
 
 }  // namespace skyfit::cli

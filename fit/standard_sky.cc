@@ -18,7 +18,8 @@ constexpr Parameter kCloudOpticalDepth{"cloud", Quantity::kOpticalDepth};
 // - Scale height of aerosol: from a shallow to a deep mixed layer.
 // - Scattering of aerosol under a cloud: with the scale height of the presets and the least single
 //   scattering albedo an optical depth of 0.67, that of a town's air.
-// - Ground under a cloud: from water to clean fresh snow (Warren 1982: 0.97 to 0.99 in visible light).
+// - Ground under a cloud: from water to clean fresh snow (Warren 1982: 0.97 to 0.99 in visible
+// light).
 // - A cloud of more than 80 is as dark or bright everywhere as one of 80, and the solver resolves
 //   about 85 (docs/accuracy.md).
 constexpr Bounds kAlbedoOfAerosol{0.82, 1}, kMixedLayer{800, 3000}, kLobe{0, 0.98}, kShare{0, 1},
@@ -39,10 +40,10 @@ const std::vector<StandardSkyKind>& kinds() {
         {Parameter::kMiePhaseG2, kLobe},
         {Parameter::kMiePhaseWeight, kShare},
         {Parameter::kGroundAlbedo, kGroundWithoutSnow}}},
-      {"thin cloud",
-       "a closed thin cloud over haze that absorbs, any ground",
+      {"cloud over haze",
+       "a closed cloud, thin at the start, over haze that absorbs, any ground",
        "thin-cloud",
-       {2, 4, 6},
+       {1, 2, 4, 6},
        {{Parameter::kMieScattering, kAerosolUnderCloud},
         {Parameter::kMieSingleScatteringAlbedo, kAlbedoOfAerosol},
         {kCloudOpticalDepth, kCloudDepth},
@@ -50,7 +51,7 @@ const std::vector<StandardSkyKind>& kinds() {
       {"overcast",
        "a closed thick cloud over any ground",
        "overcast",
-       {1, 3, 5},
+       {3, 5},
        {{kCloudOpticalDepth, kCloudDepth}, {Parameter::kGroundAlbedo, kAnyGround}}},
   };
   return kAll;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a CIE standard sky (CIE S 011) is fitted with where nothing else is asked for: clear air, air
-// under a thin cloud or under a thick one. These skies are formulas without an uncertainty, so that
-// physical bounds take the place of priors, and Rayleigh scattering, which the pressure fixes, is
-// not free.
+// What a CIE standard sky (CIE S 011) is fitted with where nothing else is asked for: clear air,
+// haze under a cloud, or a thick cloud alone. These skies are formulas without an uncertainty, so
+// that physical bounds take the place of priors, and Rayleigh scattering, which the pressure fixes,
+// is not free.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@
 namespace skyfit::fit {
 
 struct StandardSkyKind {
-  std::string_view name;     // "thin cloud"
+  std::string_view name;     // "cloud over haze"
   std::string_view meaning;  // one line
   std::string_view preset;   // shipped, where the fit starts; empty: the defaults of FitOptions
   std::vector<int> types;    // that are fitted with it

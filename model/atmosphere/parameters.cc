@@ -22,10 +22,10 @@ struct Row {
   std::string_view meaning;
 };
 
-// Of a constituent of any name; "NAME" in a meaning stands for it. Bounds are those of particles that
-// exist: none of an ensemble scatters mostly backward (g >= 0, where lobes of small particles end at
-// Rayleigh's symmetry), and over a column none absorbs more than 30 % of what it takes out of a beam
-// (Dubovik et al. 2002: 0.86 to 0.98; fresh smoke and towns reach 0.75).
+// Of a constituent of any name; "NAME" in a meaning stands for it. Bounds are those of particles
+// that exist: none of an ensemble scatters mostly backward (g >= 0, where lobes of small particles
+// end at Rayleigh's symmetry), and over a column none absorbs more than 30 % of what it takes out
+// of a beam (Dubovik et al. 2002: 0.86 to 0.98; fresh smoke and towns reach 0.75).
 constexpr std::array<Row, 14> kQuantities = {{
     {kScattering, "scattering", "1/m", 1e-9, 0.1,
      "scattering coefficient of NAME where its density is 1, at its wavelength"},

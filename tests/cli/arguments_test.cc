@@ -124,9 +124,9 @@ TEST(Parameters, RefuseUnknownNamesAndHalfValues) {
         "ground.albedo=1:nan", "ground.albedo=:1", "x=1:1"}) {
     EXPECT_THAT(refusal([&] { parse_priors("--prior", {text}); }), HasSubstr("--prior")) << text;
   }
-  for (const char* text : {"ground.albedo", "ground.albedo=1", "ground.albedo=0.5:0.5",
-                           "ground.albedo=1:0", "ground.albedo=0:nan", "x=0:1",
-                           "ground.albedo=0:1,ground.albedo=0:1"}) {
+  for (const char* text :
+       {"ground.albedo", "ground.albedo=1", "ground.albedo=0.5:0.5", "ground.albedo=1:0",
+        "ground.albedo=0:nan", "x=0:1", "ground.albedo=0:1,ground.albedo=0:1"}) {
     EXPECT_THAT(refusal([&] { parse_bounds("--bounds", {text}); }), HasSubstr("--bounds")) << text;
   }
 }
