@@ -85,17 +85,16 @@ std::string words(const std::vector<StandardSkyFit>& fits) {
     if (is_same_sky(fit.result.errors)) {
       ++count;
       const std::vector<Finding> found = implausible_findings(fit.result);
-      can += fmt::format("  type {} ({}): {:.3g} % with {}{}\n", fit.type, description_of(fit),
+      can += fmt::format("  {}: {:.3g} % with {}{}\n", description_of(fit),
                          fit.result.errors.rms_log, fit.kind,
                          found.empty() ? "" : ", but not plausible: " + findings_list(found));
       continue;
     }
     const ScanOutcome& worst = *std::ranges::max_element(
         fit.result.scans, {}, [](const ScanOutcome& scan) { return scan.errors.rms_log; });
-    cannot += fmt::format(
-        "  type {} ({}): {:.3g} % with {}; worst {:.3g} % under a sun at {:.4g} deg, {}\n",
-        fit.type, description_of(fit), fit.result.errors.rms_log, fit.kind, worst.errors.rms_log,
-        sun_deg(worst), suns_within(fit.result));
+    cannot += fmt::format("  {}: {:.3g} % with {}; worst {:.3g} % under a sun at {:.4g} deg, {}\n",
+                          description_of(fit), fit.result.errors.rms_log, fit.kind,
+                          worst.errors.rms_log, sun_deg(worst), suns_within(fit.result));
   }
   std::string text = fmt::format(
       "One horizontally uniform atmosphere for all suns can be {} of the {} standard skies within "

@@ -134,7 +134,7 @@ TEST_F(CommandsTest, AllStandardSkiesAreFittedIntoOneTableAndOneFigure) {
   // The sentences follow the numbers.
   const std::size_t cannot = text.find("It cannot be:");
   for (const json& sky : skies) {
-    const std::size_t at = text.find("  type " + sky.at("type").dump() + " (");
+    const std::size_t at = text.find("  CIE S 011 type " + sky.at("type").dump() + ":");
     EXPECT_EQ(at < cannot, sky.at("rms_log_percent_fitted").at("all").get<double>() <= 10)
         << sky.at("type");
   }
