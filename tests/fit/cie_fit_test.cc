@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                     StandardCase{7, 14.5}, StandardCase{8, 16}, StandardCase{9, 5.5},
                     StandardCase{10, 5.8}, StandardCase{11, 7}, StandardCase{12, 4.4},
                     StandardCase{13, 5.3}, StandardCase{14, 7.7}, StandardCase{15, 17.7}),
-    [](const auto& info) { return "type_" + std::to_string(info.param.type); });
+    [](const auto& row) { return "type_" + std::to_string(row.param.type); });
 
 }  // namespace
 }  // namespace skyfit::fit
