@@ -26,13 +26,18 @@ Spectrum read_spectrum(const CsvTable& table, std::string_view column) {
 
 SpectralData read_standard_spectral_data() {
   const CsvTable matching = embedded_table("cie_1931_xyz_5nm.csv");
-  return {.x_bar = read_spectrum(matching, "x_bar"),
-          .y_bar = read_spectrum(matching, "y_bar"),
-          .z_bar = read_spectrum(matching, "z_bar"),
-          .solar_irradiance = read_spectrum(embedded_table("solar_irradiance_astm_e490_5nm.csv"),
-                                            "irradiance_W_m2_nm"),
-          .ozone_cross_section = read_spectrum(embedded_table("ozone_cross_section_233K_10nm.csv"),
-                                               "cross_section_m2")};
+  return {
+      .x_bar = read_spectrum(matching, "x_bar"),
+      .y_bar = read_spectrum(matching, "y_bar"),
+      .z_bar = read_spectrum(matching, "z_bar"),
+      .solar_irradiance =
+          read_spectrum(embedded_table("solar_irradiance_astm_e490_5nm.csv"), "irradiance_W_m2_nm"),
+      .ozone_cross_section =
+          read_spectrum(embedded_table("ozone_cross_section_233K_10nm.csv"), "cross_section_m2"),
+      .oxygen_pair_cross_section =
+          read_spectrum(embedded_table("oxygen_pair_cross_section_273K.csv"), "cross_section_m5"),
+      .nitrogen_dioxide_cross_section = read_spectrum(
+          embedded_table("nitrogen_dioxide_cross_section_294K_5nm.csv"), "cross_section_m2")};
 }
 
 }  // namespace

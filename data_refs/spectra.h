@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The standard tabulated inputs: CIE 1931 colour matching functions, ASTM E490 solar spectrum,
-// ozone cross section (provenance in the CSV files beside this header, which are compiled in).
+// cross sections of ozone, nitrogen dioxide and pairs of oxygen molecules (provenance in the CSV
+// files beside this header, which are compiled in).
 #pragma once
 
 #include "model/atmosphere/atmosphere.h"

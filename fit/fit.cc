@@ -55,6 +55,8 @@ class Fit {
     schedule_ = schedule_of(as_stated.likelihood);
     const Eigen::VectorXd found = search(as_stated);
     result_.reference = without_sun(as_stated, as_stated.state(found));
+    result_.reference.notes.insert(result_.reference.notes.end(), as_stated.assumptions.begin(),
+                                   as_stated.assumptions.end());
     const Problem problem = make_problem(result_.reference, spectra_, model_, as_pointed(options_));
     const Eigen::VectorXd scaled = refine(problem, found);
     describe_problem(problem);

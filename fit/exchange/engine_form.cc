@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "model/atmosphere/derived.h"
 #include "model/atmosphere/profile.h"
@@ -13,14 +14,9 @@ namespace {
 
 using Constituents = std::vector<const Constituent<double>*>;
 
-const VerticalProfile<double>& profile_of(const Atmosphere<double>& atmosphere,
-                                          const Constituent<double>& c) {
-  return c.profile.type == ProfileType::kSameAs ? atmosphere.at(c.profile.of).profile : c.profile;
-}
-
 double depth(const Atmosphere<double>& atmosphere, const Constituent<double>& c,
              const SpectralData& spectra, double nm) {
-  return vertical_optical_depth(atmosphere, c, nm, spectra.ozone_cross_section.at_or_zero(nm));
+  return vertical_optical_depth(atmosphere, c, node_at(spectra, nm));
 }
 
 double albedo(const Constituent<double>& c, double nm) {
@@ -46,17 +42,17 @@ Depths depths_of(const Atmosphere<double>& atmosphere, const Constituents& list,
   return sum;
 }
 
-// Of the constituent of that profile with the largest optical depth; null: none has it.
-const VerticalProfile<double>* largest(const Atmosphere<double>& atmosphere,
-                                       const Constituents& list, const SpectralData& spectra,
-                                       ProfileType type) {
-  const VerticalProfile<double>* found = nullptr;
+// Of the constituent of that profile with the largest optical depth; nothing: none has it.
+std::optional<VerticalProfile<double>> largest(const Atmosphere<double>& atmosphere,
+                                               const Constituents& list,
+                                               const SpectralData& spectra, ProfileType type) {
+  std::optional<VerticalProfile<double>> found;
   double most = 0;
   for (const Constituent<double>* c : list) {
     const double tau = depth(atmosphere, *c, spectra, 550);
-    const VerticalProfile<double>& profile = profile_of(atmosphere, *c);
+    const VerticalProfile<double> profile = own_profile(atmosphere, *c);
     if (profile.type != type || tau < most) continue;
-    found = &profile;
+    found = profile;
     most = tau;
   }
   return found;
@@ -137,11 +133,11 @@ Atmosphere<double> engine_form(const Atmosphere<double>& atmosphere, const Spect
   engine.bottom_radius_m = atmosphere.bottom_radius_m;
   engine.top_radius_m = atmosphere.top_radius_m;
   engine.lobe = lobe;
-  if (const auto* p = largest(atmosphere, air, spectra, ProfileType::kExponential))
+  if (const auto p = largest(atmosphere, air, spectra, ProfileType::kExponential))
     engine.rayleigh_scale_height_m = p->scale_height_m;
-  if (const auto* p = largest(atmosphere, aerosols, spectra, ProfileType::kExponential))
+  if (const auto p = largest(atmosphere, aerosols, spectra, ProfileType::kExponential))
     engine.mie_scale_height_m = p->scale_height_m;
-  if (const auto* p = largest(atmosphere, absorbers, spectra, ProfileType::kTent)) {
+  if (const auto p = largest(atmosphere, absorbers, spectra, ProfileType::kTent)) {
     engine.tent_peak_m = p->peak_m;
     engine.tent_half_width_m = p->half_width_m;
   }

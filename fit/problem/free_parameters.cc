@@ -28,7 +28,7 @@ bool is_scale(const Parameter& id) {
 
 void move_to_bounds_wavelength(Constituent<double>& c) {
   constexpr double kBoundsWavelengthNm = 550;
-  if (c.amount_type == AmountType::kColumn || c.spectrum) return;
+  if (!is_at_wavelength(c.amount_type) || c.spectrum) return;
   c.amount *= std::pow(kBoundsWavelengthNm / c.wavelength_nm, -c.angstrom_exponent);
   c.wavelength_nm = kBoundsWavelengthNm;
 }
@@ -120,7 +120,6 @@ Atmosphere<double> start_atmosphere(const FitOptions& options) {
   } else if (options.lobes == 2) {
     atmosphere.at("mie").phase.type = PhaseType::kTwoLobe;
   }
-  if (options.site_pressure_hpa) set_site_pressure(atmosphere, *options.site_pressure_hpa);
   return atmosphere;
 }
 

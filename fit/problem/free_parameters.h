@@ -25,7 +25,7 @@ FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior);
 
 // The atmosphere before the fit: the start preset as given (coefficients moved to 550 nm along
 // their power laws, because the bounds are meant there), or the table's defaults with the phase
-// function that `lobes` asks for.
+// function that `lobes` asks for; without what problem.cc makes of it for measured skies.
 Atmosphere<double> start_atmosphere(const FitOptions& options);
 
 // Sets the fixed values. Throws std::invalid_argument for a value that is not physical, and for a

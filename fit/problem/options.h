@@ -7,8 +7,10 @@
 //   spectral radiance     linear  fixed     azimuth   the Angstrom exponent, of two wavelengths or
 //                                                     more
 //
-// Where the pointing is unknown the forward lobe g1 gets a prior. Where neither a preset nor a
-// pressure is given, the air has the standard pressure of the elevation that the scans state.
+// Where the pointing is unknown the forward lobe g1 gets a prior. Where no preset is given, the air
+// of a luminance or a spectral radiance scatters after Bodhaine et al. 1999 (dry_air.h) and has the
+// pressure that is given, or the standard pressure of the elevation that the scans state, or that
+// of the sea's level; its prior is 0.5 % of that.
 #pragma once
 
 #include <functional>

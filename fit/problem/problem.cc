@@ -128,13 +128,20 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
                                    bool several_wavelengths, bool pointing_is_unknown,
                                    const Atmosphere<double>& atmosphere) {
   FitOptions result = options;
-  const bool g1_is_free = options.free
-                              ? std::ranges::count(*options.free, Parameter::kMiePhaseG1) > 0
-                              : has_parameter(atmosphere, Parameter::kMiePhaseG1) &&
-                                    model.can_fit(Parameter::kMiePhaseG1) &&
-                                    !options.fix.contains(Parameter::kMiePhaseG1);
-  if (options.use_priors && pointing_is_unknown && g1_is_free)
+  const auto is_free = [&](const Parameter& id) {
+    return options.free
+               ? std::ranges::count(*options.free, id) > 0
+               : has_parameter(atmosphere, id) && model.can_fit(id) && !options.fix.contains(id);
+  };
+  if (options.use_priors && pointing_is_unknown && is_free(Parameter::kMiePhaseG1))
     result.priors.emplace(Parameter::kMiePhaseG1, kForwardLobePrior);
+  if (options.use_priors && is_free(Parameter::kRayleighPressure) &&
+      has_parameter(atmosphere, Parameter::kRayleighPressure)) {
+    const double pressure = get_parameter(atmosphere, Parameter::kRayleighPressure);
+    const Prior standard = *parameter_info(Parameter::kRayleighPressure).prior;
+    result.priors.emplace(Parameter::kRayleighPressure,
+                          Prior{pressure, pressure * standard.sigma / standard.mean});
+  }
   if (options.free || !several_wavelengths) return result;
   result.free.emplace();
   for (const Parameter& id : parameters_of(atmosphere)) {
@@ -194,13 +201,38 @@ void add_datasets(const refs::Reference& reference, const SpectralData& spectra,
   problem.all = dataset(reference, spectra, {true, 0, problem.likelihood.noise, 0});
 }
 
+// Stated, or without a preset that of the elevation.
+std::optional<double> site_pressure(const refs::Reference& reference, const FitOptions& options) {
+  if (options.site_pressure_hpa || options.start) return options.site_pressure_hpa;
+  if (const auto elevation = common_elevation(reference)) return standard_pressure_hpa(*elevation);
+  return {};
+}
+
+Atmosphere<double> with_gases_of_measured_skies(Atmosphere<double> atmosphere) {
+  atmosphere.at("rayleigh") = standard_air<double>();
+  atmosphere.constituents.push_back(standard_oxygen_pairs<double>());
+  atmosphere.constituents.push_back(standard_nitrogen_dioxide<double>());
+  return atmosphere;
+}
+
 Atmosphere<double> given_atmosphere(const refs::Reference& reference, const FitOptions& options) {
   Atmosphere<double> given = start_atmosphere(options);
-  if (const auto elevation = common_elevation(reference);
-      elevation && !options.start && !options.site_pressure_hpa)
-    set_site_pressure(given, standard_pressure_hpa(*elevation));
+  if (!options.start && reference.quantity != refs::Quantity::kRelativeLuminance)
+    given = with_gases_of_measured_skies(given);
+  if (const auto pressure = site_pressure(reference, options)) set_site_pressure(given, *pressure);
   if (options.ground) given.ground_spectrum = *options.ground;
   return given;
+}
+
+// What is assumed of a measured sky whose site does not state enough.
+std::vector<std::string> assumptions(const refs::Reference& reference, const FitOptions& options) {
+  if (options.start || reference.quantity == refs::Quantity::kRelativeLuminance ||
+      site_pressure(reference, options))
+    return {};
+  return {
+      fmt::format("the elevation of the site is not stated: its air has the pressure of the "
+                  "sea's level, {} hPa, by default (elevation_m, --site-pressure-hpa)",
+                  kStandardPressureHpa)};
 }
 
 // The start as the options say, with what is fixed; parameters that it lacks are left out.
@@ -269,6 +301,7 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
   Problem problem;
   problem.model = &model;
   problem.likelihood = likelihood_of(options, reference);
+  problem.assumptions = assumptions(reference, options);
   add_datasets(reference, spectra, options, problem);
   const Atmosphere<double> given = given_atmosphere(reference, options);
   const bool evaluate_only = options.free && options.free->empty();

@@ -25,7 +25,8 @@ struct Problem {
   SkyState start;  // the first of the starts
   std::vector<Unknown> unknowns;
   std::vector<Start> starts;
-  bool lobes_may_swap = false;  // exchanging them leaves the problem as it is
+  std::vector<std::string> assumptions;  // notes for the report, one line each
+  bool lobes_may_swap = false;           // exchanging them leaves the problem as it is
 
   int scans() const { return static_cast<int>(fitted.scans.size()); }
   int profiled_scales() const;  // of the fitted scans

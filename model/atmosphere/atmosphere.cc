@@ -30,9 +30,11 @@ constexpr double kMostExponent = 20;
 // Backward lobes narrower than that of the least g leave negative light behind when their peak is
 // cut off; nothing scatters so.
 constexpr double kLeastAsymmetry = -0.8, kMostAsymmetry = 0.999;
-constexpr double kLeastWavelength = 1, kMostWavelength = 1e6;  // nm
-constexpr double kMostColumn = 1e5;                            // DU
-constexpr double kMostPressure = 1e6;                          // hPa
+constexpr double kLeastWavelength = 1, kMostWavelength = 1e6;       // nm
+constexpr double kMostColumn = 1e5;                                 // DU
+constexpr double kMostPressure = 1e6;                               // hPa
+constexpr double kLeastTemperature = 100, kMostTemperature = 1000;  // K
+constexpr double kMostCo2 = 1e5;                                    // ppm: of air
 
 void validate_asymmetry(const std::string& path, double g) {
   expect(g >= kLeastAsymmetry && g <= kMostAsymmetry, path, g,
@@ -89,8 +91,20 @@ void validate(const Atmosphere<double>& atmosphere, const VerticalProfile<double
       const Constituent<double>* const other = atmosphere.find(profile.of);
       if (other == nullptr || other->profile.type == ProfileType::kSameAs)
         fail_text(path + ".of", profile.of, "the name of a constituent with a profile of its own");
+      return;
+    }
+    case ProfileType::kSquareOf: {
+      const Constituent<double>* const other = atmosphere.find(profile.of);
+      if (other == nullptr || other->profile.type != ProfileType::kExponential)
+        fail_text(path + ".of", profile.of,
+                  "the name of a constituent whose profile is exponential");
     }
   }
+}
+
+void validate_pressure(const std::string& path, double pressure_hpa) {
+  expect(pressure_hpa >= 0 && pressure_hpa <= kMostPressure, path, pressure_hpa,
+         fmt::format("a pressure from 0 to {} hPa", kMostPressure));
 }
 
 void validate_amount(const Constituent<double>& c, const std::string& path) {
@@ -98,6 +112,17 @@ void validate_amount(const Constituent<double>& c, const std::string& path) {
   if (c.amount_type == AmountType::kColumn) {
     return expect(c.amount >= 0 && c.amount <= kMostColumn, at, c.amount,
                   fmt::format("a column from 0 to {} DU", kMostColumn));
+  }
+  if (c.amount_type == AmountType::kAirPressure) {
+    expect(c.co2_ppm >= 0 && c.co2_ppm <= kMostCo2, path + ".rayleigh.co2_ppm", c.co2_ppm,
+           fmt::format("a share from 0 to {} ppm", kMostCo2));
+    return validate_pressure(at, c.amount);
+  }
+  if (c.amount_type == AmountType::kOxygenPairs) {
+    expect(c.temperature_k >= kLeastTemperature && c.temperature_k <= kMostTemperature,
+           path + ".oxygen_pairs.temperature_k", c.temperature_k,
+           fmt::format("a temperature from {} to {} K", kLeastTemperature, kMostTemperature));
+    return validate_pressure(at, c.amount);
   }
   if (c.amount_type == AmountType::kOpticalDepth) {
     expect(c.amount >= 0 && c.amount <= kMostDepth, at, c.amount,
@@ -119,7 +144,7 @@ void validate_amount(const Constituent<double>& c, const std::string& path) {
 void validate_albedo(const Constituent<double>& c, const std::string& path) {
   const double ssa = c.single_scattering_albedo;
   const bool scattering = c.amount_type == AmountType::kScattering;
-  expect(c.amount_type == AmountType::kColumn || (ssa <= 1 && (scattering ? ssa > 0 : ssa >= 0)),
+  expect(!is_at_wavelength(c.amount_type) || (ssa <= 1 && (scattering ? ssa > 0 : ssa >= 0)),
          path + ".single_scattering_albedo", ssa,
          scattering ? "a ratio > 0 and <= 1" : "a ratio from 0 to 1");
   if (!scattering || !c.albedo_spectrum) return;
@@ -162,6 +187,10 @@ std::string_view amount_path(AmountType type) {
       return "extinction_per_m.value";
     case AmountType::kOpticalDepth:
       return "optical_depth.value";
+    case AmountType::kAirPressure:
+      return "rayleigh.pressure_hpa";
+    case AmountType::kOxygenPairs:
+      return "oxygen_pairs.pressure_hpa";
     case AmountType::kColumn:
       break;
   }

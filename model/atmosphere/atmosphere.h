@@ -48,6 +48,16 @@ struct Atmosphere {
   }
 };
 
+// The profile of a constituent that may be that of another: never kSameAs or kSquareOf.
+template <class T>
+VerticalProfile<T> own_profile(const Atmosphere<T>& atmosphere, const Constituent<T>& c) {
+  if (c.profile.type != ProfileType::kSameAs && c.profile.type != ProfileType::kSquareOf)
+    return c.profile;
+  VerticalProfile<T> profile = atmosphere.at(c.profile.of).profile;
+  if (c.profile.type == ProfileType::kSquareOf) profile.scale_height_m *= T(0.5);
+  return profile;
+}
+
 // Throws std::invalid_argument with one line that names the preset path, the value and what was
 // expected, when a parameter is not finite, not physical (negative coefficient, albedo outside
 // 0..1, |g| >= 1, top <= bottom ...) or beyond what the solver can do, when names repeat or there

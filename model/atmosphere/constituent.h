@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/atmosphere/dry_air.h"
 #include "model/atmosphere/linear_profile.h"
 #include "model/atmosphere/spectrum_table.h"
 #include "model/atmosphere/tabulated_phase.h"
@@ -50,7 +51,8 @@ enum class ProfileType {
   kTent,         // 0 at peak - half_width, 1 at the peak, 0 at peak + half_width
   kLayer,        // 1 from base to top, with edges that are kLayerEdge of the thickness wide
   kTabulated,    // linear between heights, 0 above the last
-  kSameAs        // that of another constituent
+  kSameAs,       // that of another constituent
+  kSquareOf      // the square of that of another, which is exponential: of pairs of its molecules
 };
 
 // A layer's density rises from 0 to 1 linearly over this share of its thickness, centred at the
@@ -67,7 +69,7 @@ struct VerticalProfile {
   T base_m{0.0}, top_m{1000.0};               // kLayer
   double peak_m = 25e3, half_width_m = 15e3;  // kTent
   TabulatedProfile table = nullptr;           // kTabulated
-  std::string of{};                           // kSameAs: a constituent with a profile of its own
+  std::string of{};  // kSameAs, kSquareOf: a constituent with a profile of its own
   bool operator==(const VerticalProfile&) const = default;
 };
 
@@ -76,9 +78,21 @@ enum class AmountType {
   kScattering,    // scattering coefficient where the density is 1, 1/m, at `wavelength_nm`
   kExtinction,    // extinction coefficient there, 1/m
   kOpticalDepth,  // vertical optical depth (of extinction), a pure number
-  kColumn,        // vertical column of ozone in Dobson units; its absorption is that of the
+  kColumn,        // vertical column of the absorber in Dobson units; its absorption is that of the
                   // tabulated cross section of model/photometry/photometry.h
+  kAirPressure,   // pressure of dry air at the ground, hPa: its column scatters as in dry_air.h
+  kOxygenPairs,   // pressure of dry air at the ground, hPa: the pairs of its oxygen molecules
+                  // absorb (collision-induced), as many as dry_air.h says
 };
+
+// The gas of a column.
+enum class Absorber { kOzone, kNitrogenDioxide };
+
+// Whether the amount is stated at a wavelength and depends on it by an exponent or a table.
+constexpr bool is_at_wavelength(AmountType type) {
+  return type == AmountType::kScattering || type == AmountType::kExtinction ||
+         type == AmountType::kOpticalDepth;
+}
 
 inline constexpr double kStandardPressureHpa = 1013.25;
 
@@ -87,19 +101,30 @@ struct Constituent {
   std::string name;
   AmountType amount_type = AmountType::kScattering;
   T amount{};
-  double wavelength_nm = 550;  // of the amount; not for a column
+  double wavelength_nm = 550;  // of an amount that is_at_wavelength()
   // How coefficients depend on wavelength: (lambda / wavelength_nm)^-angstrom_exponent, or a table
   // over its value at wavelength_nm.
   T angstrom_exponent{};
   std::shared_ptr<const SpectrumTable> spectrum;
   // The coefficient is that of the standard pressure and goes as the pressure of the site.
   double site_pressure_hpa = kStandardPressureHpa;
+  Absorber absorber = Absorber::kOzone;                  // kColumn only
+  double temperature_k = 288.15;                         // kOxygenPairs only, at the ground
+  double co2_ppm = 400;                                  // kAirPressure only, by volume
   T single_scattering_albedo{1.0};                       // scattering / extinction; 0: an absorber
   std::shared_ptr<const SpectrumTable> albedo_spectrum;  // in its place
   VerticalProfile<T> profile;
   PhaseFunction<T> phase;  // of one that scatters
   bool operator==(const Constituent&) const = default;
 };
+
+// The phase function of air that states its pressure: Rayleigh's with the depolarisation of King's
+// factor at 550 nm, which the optical properties replace by that at their wavelength.
+template <class T>
+void set_king_depolarisation(Constituent<T>& c) {
+  c.phase.type = PhaseType::kRayleigh;
+  c.phase.depolarisation = king_depolarisation(550, c.co2_ppm);
+}
 
 // "rayleigh": dry air, 1.216e-5 / m at 550 nm with the exponent 4.08 and a scale height of 8 km.
 template <class T>
@@ -109,6 +134,17 @@ Constituent<T> standard_rayleigh() {
   c.amount = T(1.216e-5);
   c.angstrom_exponent = T(4.08);
   c.phase.type = PhaseType::kRayleigh;
+  return c;
+}
+
+// "rayleigh" of a measured sky: dry air of the standard pressure after Bodhaine et al. 1999.
+template <class T>
+Constituent<T> standard_air() {
+  Constituent<T> c = standard_rayleigh<T>();
+  c.amount_type = AmountType::kAirPressure;
+  c.amount = T(kStandardPressureHpa);
+  c.angstrom_exponent = T(0.0);
+  set_king_depolarisation(c);
   return c;
 }
 
@@ -136,10 +172,37 @@ Constituent<T> standard_ozone() {
   return c;
 }
 
+// "oxygen_pairs": the collision-induced absorption of O2-O2 in air of the standard pressure and
+// temperature, with the square of the density of the air.
+template <class T>
+Constituent<T> standard_oxygen_pairs() {
+  Constituent<T> c;
+  c.name = "oxygen_pairs";
+  c.amount_type = AmountType::kOxygenPairs;
+  c.amount = T(kStandardPressureHpa);
+  c.single_scattering_albedo = T(0.0);
+  c.profile.type = ProfileType::kSquareOf;
+  c.profile.of = "rayleigh";
+  return c;
+}
+
+// "nitrogen_dioxide": 0.2 DU (5.4e15 molecules per cm^2), half as much above clean places and more
+// above towns, in the tent of the ozone: most of it is in the stratosphere there.
+template <class T>
+Constituent<T> standard_nitrogen_dioxide() {
+  Constituent<T> c = standard_ozone<T>();
+  c.name = "nitrogen_dioxide";
+  c.absorber = Absorber::kNitrogenDioxide;
+  c.amount = T(0.2);
+  c.profile.type = ProfileType::kSameAs;
+  c.profile.of = "ozone";
+  return c;
+}
+
 // Whether any of its extinction is scattering.
 template <class T>
 bool scatters(const Constituent<T>& c) {
-  return c.amount_type != AmountType::kColumn &&
+  return c.amount_type != AmountType::kColumn && c.amount_type != AmountType::kOxygenPairs &&
          (c.albedo_spectrum || value_of(c.single_scattering_albedo) > 0);
 }
 

@@ -27,7 +27,7 @@ bool is_scatterer(const Constituent<double>& c, ScattererKind kind) {
 double depth_of(const Atmosphere<double>& atmosphere, ScattererKind kind) {
   double sum = 0;
   for (const Constituent<double>& c : atmosphere.constituents) {
-    if (is_scatterer(c, kind)) sum += vertical_optical_depth(atmosphere, c, kGreen, 0);
+    if (is_scatterer(c, kind)) sum += vertical_optical_depth(atmosphere, c, {kGreen, 0});
   }
   return sum;
 }
@@ -35,15 +35,9 @@ double depth_of(const Atmosphere<double>& atmosphere, ScattererKind kind) {
 }  // namespace
 
 double vertical_optical_depth(const Atmosphere<double>& atmosphere,
-                              const Constituent<double>& constituent, double wavelength_nm,
-                              double ozone_cross_section_m2) {
-  const VerticalProfile<double>& profile = constituent.profile.type == ProfileType::kSameAs
-                                               ? atmosphere.at(constituent.profile.of).profile
-                                               : constituent.profile;
-  const double column = Profile(profile).vertical_column().value;
-  return coefficients_at<0>(with_scalar<Dual<0>>(constituent), Dual<0>(column),
-                            {wavelength_nm, ozone_cross_section_m2})
-             .extinction.v *
+                              const Constituent<double>& constituent, const WavelengthNode& node) {
+  const double column = Profile(own_profile(atmosphere, constituent)).vertical_column().value;
+  return coefficients_at<0>(with_scalar<Dual<0>>(constituent), Dual<0>(column), node).extinction.v *
          column;
 }
 
@@ -96,7 +90,11 @@ double standard_pressure_hpa(double elevation_m) {
 
 void set_site_pressure(Atmosphere<double>& atmosphere, double pressure_hpa) {
   for (Constituent<double>& c : atmosphere.constituents) {
-    if (is_molecular(c)) c.site_pressure_hpa = pressure_hpa;
+    if (c.amount_type == AmountType::kAirPressure || c.amount_type == AmountType::kOxygenPairs) {
+      c.amount = pressure_hpa;
+    } else if (is_molecular(c)) {
+      c.site_pressure_hpa = pressure_hpa;
+    }
   }
 }
 

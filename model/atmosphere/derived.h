@@ -7,13 +7,14 @@
 #include <string_view>
 
 #include "model/atmosphere/atmosphere.h"
+#include "model/atmosphere/wavelength_node.h"
 
 namespace skyfit {
 
-// Vertical optical depth of extinction from h = 0 to infinity; of ozone with this cross section.
+// Vertical optical depth of extinction from h = 0 to infinity; of gases with the cross sections of
+// the node.
 double vertical_optical_depth(const Atmosphere<double>& atmosphere,
-                              const Constituent<double>& constituent, double wavelength_nm,
-                              double ozone_cross_section_m2);
+                              const Constituent<double>& constituent, const WavelengthNode& node);
 
 // Of all of them together at 550 nm.
 double aerosol_optical_depth(const Atmosphere<double>& atmosphere);
@@ -39,7 +40,7 @@ std::string_view aerosol_kind(const Atmosphere<double>& atmosphere);
 // Of the standard atmosphere (ISO 2533) at a height above the sea, metres, below 11 km.
 double standard_pressure_hpa(double elevation_m);
 
-// Of every constituent with Rayleigh's phase function.
+// Of every constituent with Rayleigh's phase function, and of the pairs of oxygen molecules.
 void set_site_pressure(Atmosphere<double>& atmosphere, double pressure_hpa);
 
 }  // namespace skyfit

@@ -27,7 +27,7 @@ VerticalProfile<double> raised(VerticalProfile<double> profile, double by) {
 }
 
 bool is_total(AmountType amount) {
-  return amount == AmountType::kOpticalDepth || amount == AmountType::kColumn;
+  return amount != AmountType::kScattering && amount != AmountType::kExtinction;
 }
 
 }  // namespace
@@ -42,15 +42,18 @@ Atmosphere<double> lowered_by(double depth_m, const Atmosphere<double>& atmosphe
   Atmosphere<double> lowered = atmosphere;
   lowered.bottom_radius_m -= depth_m;
   for (Constituent<double>& c : lowered.constituents) {
-    const bool is_same = c.profile.type == ProfileType::kSameAs;
-    const VerticalProfile<double> own = is_same ? atmosphere.at(c.profile.of).profile : c.profile;
+    const VerticalProfile<double> own = own_profile(atmosphere, c);
     const Profile before(own), after(raised(own, depth_m));
-    if (before.is_exponential()) {
+    if (c.amount_type == AmountType::kOxygenPairs && before.is_exponential()) {
+      c.amount *=
+          std::exp(0.5 * depth_m / before.scale_height());  // a pressure: they go as its square
+    } else if (before.is_exponential()) {
       c.amount *= std::exp(depth_m / before.scale_height());
     } else if (is_total(c.amount_type)) {
       c.amount *= after.vertical_column().value / before.vertical_column().value;
     }
-    if (!is_same) c.profile = raised(own, depth_m);
+    if (c.profile.type != ProfileType::kSameAs && c.profile.type != ProfileType::kSquareOf)
+      c.profile = raised(own, depth_m);
   }
   return lowered;
 }

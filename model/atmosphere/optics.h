@@ -103,7 +103,21 @@ Coefficients<N> coefficients_at(const Constituent<Dual<N>>& c, const Dual<N>& ve
                                 const WavelengthNode& node) {
   constexpr double kMoleculesPerDobson = 2.687e20;  // 1/m^2
   if (c.amount_type == AmountType::kColumn) {
-    return {c.amount * (kMoleculesPerDobson * node.ozone_cross_section_m2) / vertical_column, {}};
+    const double cross_section_m2 = c.absorber == Absorber::kOzone
+                                        ? node.ozone_cross_section_m2
+                                        : node.nitrogen_dioxide_cross_section_m2;
+    return {c.amount * (kMoleculesPerDobson * cross_section_m2) / vertical_column, {}};
+  }
+  if (c.amount_type == AmountType::kOxygenPairs) {
+    const double at_one_hpa =
+        oxygen_pair_column(1, c.temperature_k) * node.oxygen_pair_cross_section_m5;
+    return {c.amount * c.amount * at_one_hpa / vertical_column, {}};
+  }
+  if (c.amount_type == AmountType::kAirPressure) {
+    const double depth_per_hpa =
+        air_column_per_hpa(c.co2_ppm) * rayleigh_cross_section_m2(node.wavelength_nm, c.co2_ppm);
+    const Dual<N> scattering = c.amount * depth_per_hpa / vertical_column;
+    return {scattering, scattering};
   }
   Dual<N> amount = c.amount;
   if (c.amount_type == AmountType::kOpticalDepth) amount /= vertical_column;
@@ -132,8 +146,7 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
     const Constituent<Dual<N>>& c = a.constituents[i];
     if (shells.profile_of[i] == Shells::kNone) continue;
     const auto at = static_cast<std::size_t>(shells.profile_of[i]);
-    const auto& profile =
-        c.profile.type == ProfileType::kSameAs ? a.at(c.profile.of).profile : c.profile;
+    const VerticalProfile<Dual<N>> profile = own_profile(a, c);
     o.shape[at] = profile.type == ProfileType::kLayer
                       ? std::array{profile.base_m, profile.top_m}
                       : std::array{profile.scale_height_m, Dual<N>()};
@@ -144,9 +157,11 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
     }
     const Coefficients<N> k = coefficients_at(c, column, node);
     o.extinction[at] += k.extinction;
-    if (scatters(c))
-      o.scatterers.push_back(
-          {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}});
+    if (!scatters(c)) continue;
+    o.scatterers.push_back(
+        {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}});
+    if (c.amount_type == AmountType::kAirPressure)
+      o.scatterers.back().phase.depolarisation = king_depolarisation(node.wavelength_nm, c.co2_ppm);
   }
   o.scaled_extinction = o.polarised_extinction = o.extinction;
   o.ground_albedo = ground_albedo_at(a, node.wavelength_nm);

@@ -25,6 +25,7 @@ auto& parameter_field(A& a, const Parameter& parameter) {
     case Quantity::kExtinction:
     case Quantity::kOpticalDepth:
     case Quantity::kColumn:
+    case Quantity::kPressure:
       return c.amount;
     case Quantity::kAngstromExponent:
       return c.angstrom_exponent;
@@ -61,6 +62,9 @@ Constituent<T> with_scalar(const Constituent<double>& c) {
   s.angstrom_exponent = T(c.angstrom_exponent);
   s.spectrum = c.spectrum;
   s.site_pressure_hpa = c.site_pressure_hpa;
+  s.absorber = c.absorber;
+  s.temperature_k = c.temperature_k;
+  s.co2_ppm = c.co2_ppm;
   s.single_scattering_albedo = T(c.single_scattering_albedo);
   s.albedo_spectrum = c.albedo_spectrum;
   s.profile = {

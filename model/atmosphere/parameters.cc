@@ -26,7 +26,7 @@ struct Row {
 // that exist: none of an ensemble scatters mostly backward (g >= 0, where lobes of small particles
 // end at Rayleigh's symmetry), and over a column none absorbs more than 30 % of what it takes out
 // of a beam (Dubovik et al. 2002: 0.86 to 0.98; fresh smoke and towns reach 0.75).
-constexpr std::array<Row, 14> kQuantities = {{
+constexpr std::array<Row, 15> kQuantities = {{
     {kScattering, "scattering", "1/m", 1e-9, 0.1,
      "scattering coefficient of NAME where its density is 1, at its wavelength"},
     {kExtinction, "extinction", "1/m", 1e-9, 0.1,
@@ -34,6 +34,8 @@ constexpr std::array<Row, 14> kQuantities = {{
     {kOpticalDepth, "optical_depth", "1", 1e-5, 100.0,
      "vertical optical depth of NAME at its wavelength"},
     {kColumn, "column", "DU", 0.0, 600.0, "vertical column of NAME"},
+    {kPressure, "pressure", "hPa", 1.0, 2000.0,
+     "pressure at the ground that NAME's amount follows"},
     {kAngstromExponent, "angstrom_exponent", "1", -4.5, 4.5,
      "NAME's coefficients go as wavelength to the minus this"},
     {kSingleScatteringAlbedo, "single_scattering_albedo", "1", 0.7, 1.0,
@@ -65,16 +67,21 @@ struct StandardRow {
 // Priors hold what the shape of a sky's luminance cannot say; they are weak against what it can.
 // - Rayleigh scattering and scale height follow from the surface pressure and temperature: 5 %
 //   covers sites to about 500 m, 500 m of scale height covers -15 .. +20 C around the mean of the
-//   troposphere.
+//   troposphere. Where the pressure itself is the unknown, it is that of the site to 0.5 %: a
+//   barometer and the formulas of dry_air.h leave 0.1 % each open, gravity 0.3 %. Fits of measured
+//   skies take the share for the pressure that they know (fit/problem/options.h).
 // - The sky fixes the aerosol's optical depth, not its height: 1200 +- 500 m spans the mixed layers
 //   of a day.
 // - Single scattering albedo: 0.92 +- 0.05 spans urban, smoke and dust aerosols (AERONET: Dubovik
 //   et al. 2002, 0.86-0.97).
 // - Ground albedo: 0.15 +- 0.05 spans grass, soil, towns and water in visible light, without snow.
-constexpr std::array<StandardRow, 12> kStandard = {{
+constexpr std::array<StandardRow, 13> kStandard = {{
     {Parameter::kRayleighScattering, 0.5 * 1.216e-5, 2.0 * 1.216e-5,
      Prior{1.216e-5, 0.05 * 1.216e-5}, true,
      "scattering coefficient of air at h = 0 and its wavelength"},
+    {Parameter::kRayleighPressure, 200.0, 1100.0,
+     Prior{kStandardPressureHpa, 0.005 * kStandardPressureHpa}, true,
+     "pressure of the air at the ground, which its scattering follows"},
     {Parameter::kRayleighScaleHeight, 5000.0, 12000.0, Prior{8000.0, 500.0}, true,
      "height over which the density of air falls by e"},
     {Parameter::kMieScattering, 1e-7, 2e-3, std::nullopt, true,
@@ -107,6 +114,9 @@ bool states_amount(const Constituent<double>& c, Quantity quantity) {
       return quantity == kOpticalDepth;
     case AmountType::kColumn:
       return quantity == kColumn;
+    case AmountType::kAirPressure:
+    case AmountType::kOxygenPairs:
+      return quantity == kPressure;
   }
   return false;
 }
@@ -118,9 +128,10 @@ bool has_quantity(const Constituent<double>& c, Quantity quantity) {
     case kExtinction:
     case kOpticalDepth:
     case kColumn:
+    case kPressure:
       return states_amount(c, quantity);
     case kAngstromExponent:
-      return c.amount_type != AmountType::kColumn && !c.spectrum && phase != PhaseType::kRayleigh;
+      return is_at_wavelength(c.amount_type) && !c.spectrum && phase != PhaseType::kRayleigh;
     case kSingleScatteringAlbedo:
       return scatters(c) && !c.albedo_spectrum && phase != PhaseType::kRayleigh;
     case kScaleHeight:

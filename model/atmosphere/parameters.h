@@ -22,6 +22,7 @@ enum class Quantity {
   kExtinction,
   kOpticalDepth,
   kColumn,
+  kPressure,
   kAngstromExponent,
   kSingleScatteringAlbedo,
   kScaleHeight,
@@ -50,9 +51,9 @@ class Parameter {
   friend auto operator<=>(const Parameter&, const Parameter&) = default;
 
   // Those of the standard constituents.
-  static const Parameter kRayleighScattering, kRayleighScaleHeight, kMieScattering,
-      kMieAngstromExponent, kMieSingleScatteringAlbedo, kMieScaleHeight, kMiePhaseG, kMiePhaseG1,
-      kMiePhaseG2, kMiePhaseWeight, kOzoneColumn, kGroundAlbedo;
+  static const Parameter kRayleighScattering, kRayleighPressure, kRayleighScaleHeight,
+      kMieScattering, kMieAngstromExponent, kMieSingleScatteringAlbedo, kMieScaleHeight, kMiePhaseG,
+      kMiePhaseG1, kMiePhaseG2, kMiePhaseWeight, kOzoneColumn, kGroundAlbedo;
 
  private:
   std::array<char, 32> name_{};
@@ -62,6 +63,7 @@ class Parameter {
 inline constexpr std::string_view kGround = "ground";
 
 inline constexpr Parameter Parameter::kRayleighScattering{"rayleigh", Quantity::kScattering};
+inline constexpr Parameter Parameter::kRayleighPressure{"rayleigh", Quantity::kPressure};
 inline constexpr Parameter Parameter::kRayleighScaleHeight{"rayleigh", Quantity::kScaleHeight};
 inline constexpr Parameter Parameter::kMieScattering{"mie", Quantity::kScattering};
 inline constexpr Parameter Parameter::kMieAngstromExponent{"mie", Quantity::kAngstromExponent};

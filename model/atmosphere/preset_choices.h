@@ -29,12 +29,15 @@ inline constexpr std::array<Named<PhaseType>, 6> kPhaseTypes = {
      {"rayleigh", PhaseType::kRayleigh},
      {"tabulated-by-wavelength", PhaseType::kByWavelength}}};
 inline constexpr std::array<Named<PhaseType>, 2> kLobeTypes = {kPhaseTypes[0], kPhaseTypes[1]};
-inline constexpr std::array<Named<ProfileType>, 5> kProfileTypes = {
+inline constexpr std::array<Named<ProfileType>, 6> kProfileTypes = {
     {{"exponential", ProfileType::kExponential},
      {"tent", ProfileType::kTent},
      {"layer", ProfileType::kLayer},
      {"tabulated", ProfileType::kTabulated},
-     {"same-as", ProfileType::kSameAs}}};
+     {"same-as", ProfileType::kSameAs},
+     {"square-of", ProfileType::kSquareOf}}};
+inline constexpr std::array<Named<Absorber>, 2> kAbsorbers = {
+    {{"ozone", Absorber::kOzone}, {"nitrogen-dioxide", Absorber::kNitrogenDioxide}}};
 
 inline constexpr std::array<Named<StarSpectrum>, 3> kStarSpectra = {
     {{"solar", StarSpectrum::kSolar},

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/atmosphere/preset_constituents.h"
 
+#include <fmt/format.h>
+
+#include <initializer_list>
+
 #include "model/atmosphere/preset_choices.h"
 
 namespace skyfit {
@@ -12,12 +16,15 @@ struct AmountField {
   AmountType type;
   std::string_view name;
 };
-constexpr std::array<AmountField, 4> kAmounts = {{{AmountType::kScattering, "scattering_per_m"},
+constexpr std::array<AmountField, 6> kAmounts = {{{AmountType::kScattering, "scattering_per_m"},
                                                   {AmountType::kExtinction, "extinction_per_m"},
                                                   {AmountType::kOpticalDepth, "optical_depth"},
-                                                  {AmountType::kColumn, "column_du"}}};
+                                                  {AmountType::kColumn, "column_du"},
+                                                  {AmountType::kAirPressure, "rayleigh"},
+                                                  {AmountType::kOxygenPairs, "oxygen_pairs"}}};
 constexpr std::string_view kAmountNames =
-    "one of scattering_per_m, extinction_per_m, optical_depth, column_du";
+    "one of scattering_per_m, extinction_per_m, optical_depth, column_du, rayleigh, oxygen_pairs";
+constexpr std::string_view kBodhaine = "bodhaine-1999";
 
 std::string_view amount_name(AmountType type) {
   for (const AmountField& field : kAmounts) {
@@ -35,6 +42,23 @@ std::shared_ptr<const SpectrumTable> read_spectrum(const PresetReader& object,
   });
 }
 
+// What depends on a wavelength alone has no place beside an amount that does not.
+void refuse_beside(const PresetReader& object, std::string_view amount,
+                   std::initializer_list<std::string_view> fields) {
+  for (const std::string_view field : fields) {
+    if (object.has(field)) object.fail_value(field, fmt::format("none beside {}", amount));
+  }
+}
+
+// Dry air whose scattering and phase function follow from its pressure.
+void read_air(const PresetReader& air, Constituent<double>& c) {
+  air.expect_only({"kind", "pressure_hpa", "co2_ppm"});
+  if (air.text("kind") != kBodhaine) air.fail_value("kind", kBodhaine);
+  c.amount = air.number("pressure_hpa");
+  if (air.has("co2_ppm")) c.co2_ppm = air.number("co2_ppm");
+  set_king_depolarisation(c);
+}
+
 void read_amount(const PresetReader& object, const PresetTables& tables, Constituent<double>& c) {
   const AmountField* found = nullptr;
   for (const AmountField& field : kAmounts) {
@@ -44,13 +68,26 @@ void read_amount(const PresetReader& object, const PresetTables& tables, Constit
   }
   if (found == nullptr) object.fail_missing(kAmountNames);
   c.amount_type = found->type;
-  if (object.has("absorber") &&
-      (c.amount_type != AmountType::kColumn || object.text("absorber") != "ozone"))
-    object.fail_value("absorber", "ozone beside column_du, the only gas of known cross section");
+  if (object.has("absorber")) {
+    if (c.amount_type != AmountType::kColumn)
+      object.fail_value("absorber", "none but beside column_du, which it is the gas of");
+    c.absorber = read_choice(object, "absorber", kAbsorbers);
+  }
+  if (!is_at_wavelength(c.amount_type))
+    refuse_beside(object, found->name, {"single_scattering_albedo", "site_pressure_hpa"});
+  if (c.amount_type == AmountType::kAirPressure) {
+    refuse_beside(object, found->name, {"phase"});
+    return read_air(object.object(found->name), c);
+  }
+  if (c.amount_type == AmountType::kOxygenPairs) {
+    const PresetReader pairs = object.object(found->name);
+    pairs.expect_only({"pressure_hpa", "temperature_k"});
+    c.amount = pairs.number("pressure_hpa");
+    c.temperature_k = pairs.number("temperature_k");
+    c.single_scattering_albedo = 0;
+    return;
+  }
   if (c.amount_type == AmountType::kColumn) {
-    for (const char* const field : {"single_scattering_albedo", "site_pressure_hpa"}) {
-      if (object.has(field)) object.fail_value(field, "none beside column_du");
-    }
     c.amount = object.number(found->name);
     c.single_scattering_albedo = 0;
     return;
@@ -100,6 +137,7 @@ VerticalProfile<double> read_profile(const PresetReader& object, const PresetTab
       profile.table = tables.read<LinearProfile>(object, kProfileFormat);
       break;
     case ProfileType::kSameAs:
+    case ProfileType::kSquareOf:
       object.expect_only({"type", "of"});
       profile.of = object.text("of");
       break;
@@ -128,6 +166,10 @@ ordered_json spectrum_to_json(const SpectrumTable& spectrum, const TableFormat& 
 
 ordered_json amount_to_json(const Constituent<double>& c) {
   if (c.amount_type == AmountType::kColumn) return c.amount;
+  if (c.amount_type == AmountType::kAirPressure)
+    return {{"kind", kBodhaine}, {"pressure_hpa", c.amount}, {"co2_ppm", c.co2_ppm}};
+  if (c.amount_type == AmountType::kOxygenPairs)
+    return {{"pressure_hpa", c.amount}, {"temperature_k", c.temperature_k}};
   ordered_json law = {{"wavelength_nm", c.wavelength_nm}, {"value", c.amount}};
   if (c.spectrum) {
     law["spectrum"] = spectrum_to_json(*c.spectrum, kShapeFormat);
@@ -149,6 +191,7 @@ ordered_json to_json(const VerticalProfile<double>& profile) {
     case ProfileType::kTabulated:
       return table_to_json(profile.table->table(), kProfileFormat);
     case ProfileType::kSameAs:
+    case ProfileType::kSquareOf:
       return {{"type", type}, {"of", profile.of}};
   }
   throw std::invalid_argument("an enumerator without a name");
@@ -213,14 +256,15 @@ PhaseFunction<double> read_phase(const PresetReader& object, const PresetTables&
 
 Constituent<double> read_constituent(const PresetReader& object, const PresetTables& tables) {
   object.expect_only({"name", "note", "scattering_per_m", "extinction_per_m", "optical_depth",
-                      "column_du", "absorber", "site_pressure_hpa", "single_scattering_albedo",
-                      "profile", "phase"});
+                      "column_du", "rayleigh", "oxygen_pairs", "absorber", "site_pressure_hpa",
+                      "single_scattering_albedo", "profile", "phase"});
   Constituent<double> c;
   c.name = object.text("name");
   read_amount(object, tables, c);
   read_albedo(object, tables, c);
   if (object.has("site_pressure_hpa")) c.site_pressure_hpa = object.number("site_pressure_hpa");
   c.profile = read_profile(object.object("profile"), tables);
+  if (c.amount_type == AmountType::kAirPressure) return c;
   if (scatters(c)) {
     c.phase = read_phase(object.object("phase"), tables);
   } else if (object.has("phase")) {
@@ -233,16 +277,18 @@ ordered_json constituent_to_json(const Constituent<double>& c) {
   ordered_json object = {{"name", c.name},
                          {std::string(amount_name(c.amount_type)), amount_to_json(c)}};
   if (c.amount_type == AmountType::kColumn) {
-    object["absorber"] = "ozone";
+    object["absorber"] = name_of(c.absorber, kAbsorbers);
+  } else if (!is_at_wavelength(c.amount_type)) {
+    // It follows from the amount.
   } else if (c.albedo_spectrum) {
     object["single_scattering_albedo"] = spectrum_to_json(*c.albedo_spectrum, kAlbedoFormat);
   } else {
     object["single_scattering_albedo"] = c.single_scattering_albedo;
   }
-  if (c.amount_type != AmountType::kColumn && c.site_pressure_hpa != kStandardPressureHpa)
+  if (is_at_wavelength(c.amount_type) && c.site_pressure_hpa != kStandardPressureHpa)
     object["site_pressure_hpa"] = c.site_pressure_hpa;
   object["profile"] = to_json(c.profile);
-  if (scatters(c)) object["phase"] = to_json(c.phase);
+  if (is_at_wavelength(c.amount_type) && scatters(c)) object["phase"] = to_json(c.phase);
   return object;
 }
 

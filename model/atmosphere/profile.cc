@@ -95,7 +95,8 @@ Profile::Profile(const VerticalProfile<double>& profile) {
       table_ = profile.table;
       return;
     case ProfileType::kSameAs:
-      throw std::logic_error("Profile: one that is the same as another has no shape of its own");
+    case ProfileType::kSquareOf:
+      throw std::logic_error("Profile: one that is that of another has no shape of its own");
   }
 }
 

@@ -20,7 +20,7 @@ struct Density {
 
 class Profile {
  public:
-  // Of a type that is not kSameAs.
+  // Of a type that is not kSameAs or kSquareOf, see own_profile().
   explicit Profile(const VerticalProfile<double>& profile);
 
   // How many parameters the shape has: 1 of an exponential profile (the scale height), 2 of a layer

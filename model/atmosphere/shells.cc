@@ -43,7 +43,7 @@ Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Paramet
   const auto add = [&](std::size_t i) {
     if (shells.profile_of[i] != Shells::kNone) return;
     shells.profile_of[i] = static_cast<int>(shells.profiles.size());
-    shells.profiles.emplace_back(a.constituents[i].profile);
+    shells.profiles.emplace_back(own_profile(a, a.constituents[i]));
     shells.breaks.push_back(a.constituents[i].profile.type == ProfileType::kLayer);
     shells.layer_depth.push_back(0);
   };

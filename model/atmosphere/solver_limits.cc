@@ -27,11 +27,6 @@ constexpr double kThickPlanet = 0.03;
 // right.
 constexpr double kNarrowest = 0.98, kNarrowestOnThickPlanet = 0.95, kThinDepth = 0.3;
 
-const VerticalProfile<double>& profile_of(const Atmosphere<double>& a,
-                                          const Constituent<double>& c) {
-  return c.profile.type == ProfileType::kSameAs ? a.at(c.profile.of).profile : c.profile;
-}
-
 double highest_density(const VerticalProfile<double>& profile) {
   return profile.type == ProfileType::kTabulated ? std::ranges::max(profile.table->densities()) : 1;
 }
@@ -76,11 +71,10 @@ void validate_solver_limits(const Atmosphere<double>& a) {
   for (const double nm : kWavelengths) {
     double scattered = 0;
     for (const Constituent<double>& c : a.constituents) {
-      if (c.amount_type == AmountType::kColumn) continue;
-      const VerticalProfile<double>& profile = profile_of(a, c);
+      const VerticalProfile<double> profile = own_profile(a, c);
       const double column = Profile(profile).vertical_column().value;
       const Coefficients<0> k =
-          coefficients_at<0>(with_scalar<Dual<0>>(c), Dual<0>(column), {nm, 0});
+          coefficients_at<0>(with_scalar<Dual<0>>(c), Dual<0>(column), {nm, 0, 0, 0});
       const std::string path = c.name + "." + std::string(amount_path(c.amount_type));
       const double coefficient = k.extinction.v * highest_density(profile);
       expect(coefficient <= kMostCoefficient, path, c.amount,

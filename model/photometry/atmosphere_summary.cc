@@ -20,8 +20,7 @@ ConstituentSummary summary_of(const Atmosphere<double>& atmosphere, const Consti
   ConstituentSummary summary{c.name, {}, {}, {}};
   for (std::size_t k = 0; k < kSummaryWavelengths_nm.size(); ++k) {
     const double nm = kSummaryWavelengths_nm[k];
-    summary.optical_depth[k] =
-        vertical_optical_depth(atmosphere, c, nm, spectra.ozone_cross_section.at(nm));
+    summary.optical_depth[k] = vertical_optical_depth(atmosphere, c, node_at(spectra, nm));
   }
   if (scatters(c)) {
     summary.single_scattering_albedo =
@@ -71,8 +70,8 @@ std::vector<std::string> warnings_of(const Atmosphere<double>& atmosphere,
           fmt::format("{} has a single scattering albedo of {:.3g}: darker than "
                       "any aerosol but soot",
                       c.name, *s.single_scattering_albedo));
-    if (c.phase.type == PhaseType::kRayleigh && scatters(c) && !c.spectrum &&
-        std::abs(c.angstrom_exponent - 4) > 0.5)
+    if (c.phase.type == PhaseType::kRayleigh && scatters(c) && is_at_wavelength(c.amount_type) &&
+        !c.spectrum && std::abs(c.angstrom_exponent - 4) > 0.5)
       warnings.push_back(
           fmt::format("{} has Rayleigh's phase function and the exponent {:.3g}: "
                       "molecules have about 4",

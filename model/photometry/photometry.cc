@@ -58,15 +58,6 @@ constexpr std::array<ChosenNode, 6> kColor = {{{427.29, 0.792},
                                                {626.35, 1.038},
                                                {699.11, 0.0}}};
 
-std::vector<WavelengthNode> nodes_of(const SpectralData& data, std::span<const ChosenNode> chosen) {
-  std::vector<WavelengthNode> nodes;
-  for (const ChosenNode& node : chosen) {
-    nodes.push_back(
-        {node.wavelength_nm, node.ozone_share * data.ozone_cross_section.at(node.wavelength_nm)});
-  }
-  return nodes;
-}
-
 // docs/theory (10.3).
 // The weights with which the nodes reproduce the 5 nm sum of every polynomial in wavelength that
 // they determine.
@@ -83,13 +74,53 @@ std::vector<double> interpolatory_weights(const SpectralData& data, const Spectr
   return weights;
 }
 
+// docs/theory (10.5).
+// The cross sections at the nodes with which a weak absorption takes from the rule what it takes
+// from the 5 nm sum: their means under the part of the sum that falls to each node.
+std::vector<double> means_at_nodes(const Spectrum& cross_section, const SpectralData& data,
+                                   std::span<const Spectrum* const> matchings,
+                                   const std::vector<double>& nodes_nm) {
+  const std::vector<double> fine_nm = wavelengths_5nm();
+  std::vector<double> sum(nodes_nm.size()), weight(nodes_nm.size()), lagrange(nodes_nm.size());
+  for (const Spectrum* matching : matchings) {
+    const std::vector<double> fine_weights = photometric_weights(data, *matching);
+    for (std::size_t i = 0; i < fine_nm.size(); ++i) {
+      lagrange_weights(nodes_nm.data(), static_cast<int>(nodes_nm.size()), fine_nm[i],
+                       lagrange.data());
+      for (std::size_t k = 0; k < nodes_nm.size(); ++k) {
+        weight[k] += fine_weights[i] * lagrange[k];
+        sum[k] += fine_weights[i] * lagrange[k] * cross_section.at_or_zero(fine_nm[i]);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < nodes_nm.size(); ++k) sum[k] = std::max(sum[k] / weight[k], 0.0);
+  return sum;
+}
+
+std::vector<WavelengthNode> nodes_of(const SpectralData& data, std::span<const ChosenNode> chosen,
+                                     std::span<const Spectrum* const> matchings) {
+  std::vector<double> nm;
+  for (const ChosenNode& node : chosen) nm.push_back(node.wavelength_nm);
+  const std::vector<double> pairs =
+                                means_at_nodes(data.oxygen_pair_cross_section, data, matchings, nm),
+                            nitrogen_dioxide = means_at_nodes(data.nitrogen_dioxide_cross_section,
+                                                              data, matchings, nm);
+  std::vector<WavelengthNode> nodes;
+  for (std::size_t k = 0; k < nm.size(); ++k) {
+    nodes.push_back({nm[k], chosen[k].ozone_share * data.ozone_cross_section.at(nm[k]), pairs[k],
+                     nitrogen_dioxide[k]});
+  }
+  return nodes;
+}
+
 LuminanceRule luminance_of(const SpectralData& data, std::span<const ChosenNode> chosen) {
-  const std::vector<WavelengthNode> nodes = nodes_of(data, chosen);
+  const std::vector<WavelengthNode> nodes = nodes_of(data, chosen, std::array{&data.y_bar});
   return {nodes, interpolatory_weights(data, data.y_bar, nodes)};
 }
 
 XyzRule xyz_of(const SpectralData& data, std::span<const ChosenNode> chosen) {
-  const std::vector<WavelengthNode> nodes = nodes_of(data, chosen);
+  const std::vector<WavelengthNode> nodes =
+      nodes_of(data, chosen, std::array{&data.x_bar, &data.y_bar, &data.z_bar});
   return {nodes,
           {interpolatory_weights(data, data.x_bar, nodes),
            interpolatory_weights(data, data.y_bar, nodes),
@@ -149,10 +180,16 @@ SpectralData under(const SpectralData& data, const Star& star) {
   return result;
 }
 
+WavelengthNode node_at(const SpectralData& data, double wavelength_nm) {
+  return {wavelength_nm, data.ozone_cross_section.at(wavelength_nm),
+          data.oxygen_pair_cross_section.at_or_zero(wavelength_nm),
+          data.nitrogen_dioxide_cross_section.at_or_zero(wavelength_nm)};
+}
+
 std::vector<WavelengthNode> spectral_nodes(const SpectralData& data,
                                            const std::vector<double>& wavelengths_nm) {
   std::vector<WavelengthNode> nodes;
-  for (const double nm : wavelengths_nm) nodes.push_back({nm, data.ozone_cross_section.at(nm)});
+  for (const double nm : wavelengths_nm) nodes.push_back(node_at(data, nm));
   return nodes;
 }
 

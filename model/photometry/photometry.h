@@ -27,6 +27,9 @@ struct SpectralData {
   Spectrum x_bar, y_bar, z_bar;  // CIE 1931 2 deg colour matching functions
   Spectrum solar_irradiance;     // W m^-2 nm^-1 of the sun at 1 au, or of another star, see under()
   Spectrum ozone_cross_section;  // m^2 per molecule
+  // 0 beyond their tables. Of O2-O2 in m^5: times the squared number density of oxygen it is an
+  // extinction.
+  Spectrum oxygen_pair_cross_section{}, nitrogen_dioxide_cross_section{};
 };
 
 // The same under another star.
@@ -35,7 +38,11 @@ SpectralData under(const SpectralData& data, const Star& star);
 // Whether a sky model knows sun and ozone at the wavelength.
 bool has_spectra_at(const SpectralData& data, double wavelength_nm);
 
-// Nodes that read the tabulated ozone cross section as it is: for spectral radiances.
+// The cross sections of gases as they are tabulated. Throws std::out_of_range where
+// has_spectra_at() is false for want of ozone.
+WavelengthNode node_at(const SpectralData& data, double wavelength_nm);
+
+// Such nodes: for spectral radiances.
 std::vector<WavelengthNode> spectral_nodes(const SpectralData& data,
                                            const std::vector<double>& wavelengths_nm);
 
@@ -46,7 +53,7 @@ struct LuminanceRule {
   std::vector<double> weight;  // lm/W * W/m^2 = lx
 };
 
-// 4 nodes, within 0.11 % of the 5 nm sum for every sky of the reference model with suns to 92 deg,
+// 4 nodes, within 0.12 % of the 5 nm sum for every sky of the reference model with suns to 92 deg,
 // views to 90 deg, ozone to 500 DU, aerosol depth to 0.9, from the ground and from 10 km
 // (tests/model/rule_accuracy_test.cc). Exact for cubic polynomials in wavelength; all weights are
 // positive.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -85,9 +86,36 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
   if (m == 0) pack.append_ground_irradiance(lane, field.ground_irradiance);
 }
 
-// Steps of the iteration that couples the suns; a third changes twilight by less than 0.1 % down to
-// 92 deg, 1 % to 96.
-constexpr int kCouplings = 2;
+// Steps of the iteration that couples the suns: where it does not converge, by day, and in deep
+// twilight, where light comes from a node of the sun grid further with each step or two.
+constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 30;
+
+// Whether the coupling's iteration has led to a twilight: the mean radiance on the ground is above
+// 0 and falls from sun to sun, no level's is far above those of the sun before, and the first
+// coupled suns, which know their light from few steps, have kept theirs. It diverges where much
+// light is scattered high above the ground.
+bool has_converged(const DiffuseField& after_few, const DiffuseField& field,
+                   const HorizontalCoupling& coupling) {
+  constexpr int kKept = 2;
+  constexpr int kDark = 2;  // nodes beyond 105 deg
+  constexpr double kChange = 0.02, kRise = 2;
+  const auto mean = [&](const DiffuseField& f, int level, int sun) {
+    return f.moments[0][level * f.shape.level(0) + static_cast<std::size_t>(sun) * f.shape.slices];
+  };
+  double ground_before = std::numeric_limits<double>::infinity(), largest_before = ground_before;
+  for (int j = 0, checked = 0; j < field.shape.suns - kDark; ++j) {
+    if (!coupling.coupled[j]) continue;
+    const double ground = mean(field, 0, j);
+    double largest = 0;
+    for (int i = 0; i < field.shape.levels; ++i)
+      largest = std::max(largest, std::abs(mean(field, i, j)));
+    if (!(ground > 0 && ground < ground_before && largest < kRise * largest_before)) return false;
+    if (checked++ < kKept && std::abs(ground / mean(after_few, 0, j) - 1) > kChange) return false;
+    ground_before = ground;
+    largest_before = largest;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -103,6 +131,7 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
 HorizontalCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved,
                                 const Streams& streams, int first) {
   HorizontalCoupling c;
+  c.converges = first > 0;
   for (int i = 0; i < grid.size(); ++i) {
     if (solved[i] < 0) continue;
     c.coupled.push_back(i >= first);
@@ -167,9 +196,9 @@ std::vector<DiffuseField> solve_diffuse_fields(
       return FourierModes(streams, medium, polarised ? &*medium_of_polarised : nullptr, bases,
                           lane_modes);
     };
-    const auto unpack_all = [&](const FourierModes& pack, int p) {
+    const auto unpack_all = [&](const FourierModes& pack, int p, std::span<DiffuseField> to) {
       for (int k = 0; k < at_once * width && p * at_once + k / width < modes; ++k)
-        unpack(pack, k, p * at_once + k / width, fields[first + k % width]);
+        unpack(pack, k, p * at_once + k / width, to[k % width]);
     };
     const int count = (modes + at_once - 1) / at_once;
     const bool coupled = std::ranges::count(coupling.coupled, 1) > 0 && options.order == 0;
@@ -181,15 +210,28 @@ std::vector<DiffuseField> solve_diffuse_fields(
       if (coupled) {
         packs[p] = std::move(pack);
       } else {
-        unpack_all(pack, p);
+        unpack_all(pack, p, std::span(fields).subspan(first, width));
       }
     });
-    for (int k = 0; coupled && k < kCouplings; ++k) {
-      tbb::parallel_for(0, count, [&](int p) { packs[p]->prepare_coupling(coupling); });
-      tbb::parallel_for(0, count,
-                        [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });
+    const auto couple = [&](int steps) {
+      for (int k = 0; k < steps; ++k) {
+        tbb::parallel_for(0, count, [&](int p) { packs[p]->prepare_coupling(coupling); });
+        tbb::parallel_for(0, count,
+                          [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });
+      }
+      std::vector<DiffuseField> now(fields.begin() + first, fields.begin() + first + width);
+      tbb::parallel_for(0, count, [&](int p) { unpack_all(*packs[p], p, now); });
+      return now;
+    };
+    if (!coupled) continue;
+    std::vector<DiffuseField> result = couple(coupling.converges ? kCouplings : kFewCouplings);
+    if (options.deep_twilight && coupling.converges) {
+      std::vector<DiffuseField> more = couple(kTwilightCouplings - kCouplings);
+      for (int w = 0; w < width; ++w) {
+        if (has_converged(result[w], more[w], coupling)) result[w] = std::move(more[w]);
+      }
     }
-    if (coupled) tbb::parallel_for(0, count, [&](int p) { unpack_all(*packs[p], p); });
+    std::ranges::move(result, fields.begin() + first);
   }
   return fields;
 }

@@ -4,7 +4,7 @@
 // Azimuth is a Fourier series, zenith a set of streams (model/solver/streams.h), each mode is
 // solved directly (model/solver/fourier_modes.h). At first the sun turns with the local zenith, as
 // if the sky were the same everywhere on the planet; horizontal coupling then adds the light of
-// columns under another sun, which couples modes and suns, in two steps of an iteration, for the
+// columns under another sun, which couples modes and suns, in steps of an iteration, for the
 // suns for which it matters (docs/theory, chapter 7). The field's Legendre moments are the source
 // of multiple scattering; the caller integrates it along view rays at the local sun.
 #pragma once
@@ -46,6 +46,9 @@ struct DiffuseOptions {
   double tolerance = 3e-3;
   // 0: the whole field. k > 0: only the light that met air or ground k times (values only).
   int order = 0;
+  // Couples the suns in as many steps as a deep twilight takes, whose light all comes from far
+  // places; in two where that does not converge.
+  bool deep_twilight = false;
   bool polarised = true;  // with P of the light that air polarises
 };
 

@@ -6,9 +6,9 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +16,7 @@
 #include "model/atmosphere/derived.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/phase_moments.h"
+#include "model/numerics/angles.h"
 #include "model/shared/shared.h"
 #include "model/solver/single_scattering.h"
 #include "model/solver/sky_solution.h"
@@ -43,7 +44,7 @@ ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& at
     if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
     constexpr double kGreen = 550;  // nm
     const double cut = phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back();
-    return cut > kNarrow || cut * vertical_optical_depth(atmosphere, c, kGreen, 0) > kNarrowDepth;
+    return cut > kNarrow || cut * vertical_optical_depth(atmosphere, c, {kGreen, 0}) > kNarrowDepth;
   };
   if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
     options.streams *= 2;
@@ -133,24 +134,39 @@ ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<O
   return light;
 }
 
-// Light scattered more often, [point][wavelength][slice].
+// A ray along which the sun goes down further than this takes the fields of deep twilight. They are
+// solved apart from those of the other rays, so that a list of points gives what each gives alone.
+const double kDeepTwilight = std::cos(94 * kRadiansPerDegree);
+enum Fields : std::size_t { kDay, kTwilight };
+Fields fields_of(const SunRange& range) { return range.lowest < kDeepTwilight ? kTwilight : kDay; }
+
 template <int N>
-std::vector<double> multiple_scattering_of(const SkySolution<N>& solution, const ViewRays& rays,
-                                           const std::vector<SunAlongRay>& suns,
-                                           std::size_t slices_per_point, Stokes which) {
-  std::vector<double> light(suns.size() * slices_per_point, 0.0);
+struct Solutions {
+  std::array<std::optional<SkySolution<N>>, 2> of;  // by Fields; those that a point needs
+  std::vector<Fields> of_point;
+  const SkySolution<N>& at(std::size_t point) const { return *of[of_point[point]]; }
+};
+
+// Light scattered more often, added to light[point][wavelength][slice], of the points of one
+// solution.
+template <int N>
+void add_multiple_scattering(const Solutions<N>& solutions, Fields fields, const ViewRays& rays,
+                             const std::vector<SunAlongRay>& suns, std::size_t slices_per_point,
+                             Stokes which, std::vector<double>& light) {
   std::vector<PathWithSuns> bundles;
   for (const ViewPath& path : rays.paths) bundles.push_back({&path, {}});
-  for (std::size_t i = 0; i < suns.size(); ++i)
-    bundles[rays.path_of_point[i]].suns.push_back({&suns[i], &light[i * slices_per_point]});
-  const MultipleScattering<N> scattering = solution.multiple_scattering();
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    if (solutions.of_point[i] == fields)
+      bundles[rays.path_of_point[i]].suns.push_back({&suns[i], &light[i * slices_per_point]});
+  }
+  std::erase_if(bundles, [](const PathWithSuns& bundle) { return bundle.suns.empty(); });
+  const MultipleScattering<N> scattering = solutions.of[fields]->multiple_scattering();
   constexpr std::size_t kAtOnce = MultipleScattering<N>::kPathsAtOnce;
   tbb::parallel_for(std::size_t{0}, (bundles.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t i) {
     scattering.add(
         std::span(bundles).subspan(i * kAtOnce, std::min(kAtOnce, bundles.size() - i * kAtOnce)),
         which);
   });
-  return light;
 }
 
 // Interpolation over suns and levels rings where it is dark beside light, by less than a thousandth
@@ -198,7 +214,8 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
   const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
   std::vector<SunAlongRay> suns;
   suns.reserve(points.size());
-  std::vector<SunRange> needed;
+  std::array<std::vector<SunRange>, 2> needed;
+  Solutions<N> solutions{{}, std::vector<Fields>(points.size(), kDay)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
     suns.emplace_back(shells.bottom_radius, path.ray, points[i]);
@@ -208,7 +225,8 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
       const double mu_s = suns.back().mu_s(p);
       range = {std::min(range.lowest, mu_s), std::max(range.highest, mu_s)};
     }
-    needed.push_back(range);
+    solutions.of_point[i] = fields_of(range);
+    needed[solutions.of_point[i]].push_back(range);
   }
   std::vector<Optics<N>> optics;
   const auto seeded_atmosphere = seeded<N>(atmosphere, derivatives);
@@ -218,23 +236,33 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
   const bool first = options.order <= 1, further = options.order != 1;
   ByStokes<Dual<N>> single;
   for (const Stokes which : wanted) single[which].resize(points.size() * optics.size());
-  std::optional<SkySolution<N>> solution;
-  tbb::parallel_invoke(
-      [&] { solution.emplace(shells, levels, optics, derivatives.size(), needed, options); },
-      [&] {
-        if (first) single = single_scattering_of(shells, optics, rays, suns, wanted);
-      });
+  const auto solve_fields = [&](Fields fields) {
+    if (!needed[fields].empty())
+      solutions.of[fields].emplace(shells, levels, optics, derivatives.size(), needed[fields],
+                                   options, fields == kTwilight);
+  };
+  tbb::parallel_invoke([&] { solve_fields(kDay); }, [&] { solve_fields(kTwilight); },
+                       [&] {
+                         if (first)
+                           single = single_scattering_of(shells, optics, rays, suns, wanted);
+                       });
   std::vector<Dual<N>>& intensity = single[Stokes::kI];
   for (std::size_t cell = 0; cell < intensity.size(); ++cell) {
     const std::size_t point = cell / optics.size(), wave = cell % optics.size();
-    intensity[cell] += solution->ground(rays.paths[rays.path_of_point[point]], suns[point],
-                                        static_cast<int>(wave), first, further);
+    const ViewPath& path = rays.paths[rays.path_of_point[point]];
+    if (path.nodes.empty()) continue;
+    intensity[cell] +=
+        solutions.at(point).ground(path, suns[point], static_cast<int>(wave), first, further);
   }
   const std::size_t slices = 1 + derivatives.size();
   std::vector<SkyValues> result;
   for (const Stokes which : wanted) {
-    const std::vector<double> multiple =
-        multiple_scattering_of(*solution, rays, suns, optics.size() * slices, which);
+    std::vector<double> multiple(points.size() * optics.size() * slices, 0.0);
+    for (const Fields fields : {kDay, kTwilight}) {
+      if (solutions.of[fields])
+        add_multiple_scattering(solutions, fields, rays, suns, optics.size() * slices, which,
+                                multiple);
+    }
     result.push_back(sum_of(single[which], multiple, static_cast<int>(points.size()), optics.size(),
                             derivatives.size(), further));
   }

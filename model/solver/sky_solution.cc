@@ -11,8 +11,9 @@ namespace skyfit {
 template <int N>
 SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
                             const std::vector<Optics<N>>& optics, std::size_t derivatives,
-                            std::span<const SunRange> needed, const ReferenceOptions& options)
-    : shells_(shells), levels_(levels), solved_(grid_.size(), -1), optics_(optics) {
+                            std::span<const SunRange> needed, const ReferenceOptions& options,
+                            bool deep_twilight)
+    : shells_(shells), levels_(levels), grid_(shells), solved_(grid_.size(), -1), optics_(optics) {
   for (const SunRange& range : needed) {
     const SunStencil high = grid_.stencil(range.highest), low = grid_.stencil(range.lowest);
     const auto first = *std::ranges::min_element(high.index),
@@ -34,7 +35,7 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
   fields_ = solve_diffuse_fields<N>(
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
       sun_coupling(grid_, solved_, streams, first),
-      {options.moments, options.tolerance, std::max(options.order - 1, 0),
+      {options.moments, options.tolerance, std::max(options.order - 1, 0), deep_twilight,
        options.transfer == Transfer::kVector});
 }
 

@@ -50,6 +50,9 @@ struct HorizontalCoupling {
   std::vector<Sun> suns;      // of the solved suns
   std::vector<char> coupled;  // [sun]: whether light from neighbouring places is taken as theirs
   std::vector<double> step;   // [layer][ray]: psi of a layer, radians
+  // Whether more than two steps of the iteration are of use: not where all suns are coupled, on a
+  // planet whose atmosphere is thick against its radius, there they diverge.
+  bool converges = true;
 };
 
 class StreamLight {

@@ -9,9 +9,28 @@
 
 namespace skyfit {
 
-SunGrid::SunGrid() {
-  // Steps in degrees up to each end: the field changes fastest near the horizon and is dark below
-  // 108.
+namespace {
+constexpr double kDusk = 91 * kRadiansPerDegree;
+}  // namespace
+
+// docs/theory (7.6).
+double SunGrid::decay_rate(double zenith) const {
+  return zenith < kDusk ? 0 : fastest_ * (1 - std::exp((kDusk - zenith) / slow_));
+}
+double SunGrid::decay(double zenith) const {
+  if (zenith < kDusk) return 1;
+  const double x = zenith - kDusk;
+  return std::exp(-fastest_ * (x + slow_ * std::expm1(-x / slow_)));
+}
+
+SunGrid::SunGrid(const Shells& shells) {
+  constexpr double kEarth = 10 * kRadiansPerDegree;
+  const double extent =
+      std::max(kEarth, std::acos(shells.bottom_radius / (shells.bottom_radius + shells.top)));
+  fastest_ = 14 / extent;
+  slow_ = 0.6 * extent;
+  // Steps in degrees up to each end: the field changes fastest near the horizon and decays
+  // below the last node.
   struct Range {
     double end, step;
   };
@@ -34,7 +53,7 @@ void SunGrid::set_fours() {
       four.node[i] = first + i < 0 ? -zenith_[1] : zenith_[first + i];
     }
     for (int i = 0; i < 4; ++i) {
-      four.factor[i] = 1;
+      four.factor[i] = 1 / decay(four.node[i]);
       for (int k = 0; k < 4; ++k) {
         if (k != i) four.factor[i] /= four.node[i] - four.node[k];
       }
@@ -66,13 +85,15 @@ SunSlope SunGrid::slope(int i) const {
       sum += product;
     }
     s.even[k] = sum / denominator;
+    s.even[k] *= decay(x) / decay(node[k]);
+    if (s.index[k] == i) s.even[k] -= decay_rate(x);
     s.odd[k] = first + k < 0 ? -s.even[k] : s.even[k];
   }
   return s;
 }
 
 SunStencil SunGrid::stencil(double mu_s) const {
-  const double x = std::min(std::acos(std::clamp(mu_s, -1.0, 1.0)), zenith_.back());
+  const double asked = std::acos(std::clamp(mu_s, -1.0, 1.0)), x = std::min(asked, zenith_.back());
   const int above =
       static_cast<int>(std::upper_bound(zenith_.begin(), zenith_.end(), x) - zenith_.begin());
   // Up to 85 deg no node below 85 deg is asked for: suns below are dear, for they come with all
@@ -86,6 +107,7 @@ SunStencil SunGrid::stencil(double mu_s) const {
   s.index = four.index;
   s.even = {b * c * d * four.factor[0], a * c * d * four.factor[1], a * b * d * four.factor[2],
             a * b * c * four.factor[3]};
+  for (double& weight : s.even) weight *= decay(asked);
   s.odd = s.even;
   if (first < 0) s.odd[0] = -s.odd[0];
   return s;

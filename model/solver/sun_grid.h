@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "model/atmosphere/shells.h"
+
 namespace skyfit {
 
 // Through the zenith the field goes on at the opposite azimuth, where odd modes change sign.
@@ -22,18 +24,23 @@ struct SunSlope {
 
 class SunGrid {
  public:
-  SunGrid();
+  explicit SunGrid(const Shells& shells);
   int size() const { return static_cast<int>(zenith_.size()); }
   double mu(int i) const;
   double zenith(int i) const { return zenith_[i]; }  // radians
-  // Of the quartic through the node and its neighbours.
+  // Of the quartic through the node and its neighbours, of the field over the decay of twilight,
+  // docs/theory (7.6).
   SunSlope slope(int i) const;
-  // Lagrange's cubic in the zenith angle through the four nearest nodes; the last node's value
-  // below the grid.
+  // Lagrange's cubic in the zenith angle through the four nearest nodes, of the field over the
+  // decay of twilight, which goes on below the grid.
   SunStencil stencil(double mu_s) const;
 
  private:
   void set_fours();
+  double decay(double zenith) const;       // of the twilight, 1 by day
+  double decay_rate(double zenith) const;  // 1/rad
+
+  double fastest_, slow_;  // of the decay: its largest rate, 1/rad, and in what angle it gets there
 
   std::vector<double> zenith_;  // radians, ascending, from 0 to below the twilight
   int day_ = 0;                 // the node at 85 deg

@@ -35,16 +35,18 @@ ChebyshevRows chebyshev_rows() {
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
                              const std::vector<double>& heights, Transfer transfer)
-    : levels_(shells, kSourceOptions.levels) {
+    : suns_(shells), levels_(shells, kSourceOptions.levels) {
   std::vector<double> sun_mu;
   for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
   const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
-  const std::vector<DiffuseField> fields = solve_diffuse_fields<0>(
-      shells, optics, 1, levels_.heights(), sun_mu, streams,
-      sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
-      {.moments = kSourceOptions.moments, .polarised = transfer == Transfer::kVector});
+  const std::vector<DiffuseField> fields =
+      solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams,
+                              sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells)),
+                              {.moments = kSourceOptions.moments,
+                               .deep_twilight = true,
+                               .polarised = transfer == Transfer::kVector});
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
     const int blocks = scatterer.moments.size() <= kPowers ? 1 : kBlocks;

@@ -31,6 +31,7 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
     require_same(found != nullptr, x.name);
     const Constituent<double>& y = *found;
     require_same(x.amount_type == y.amount_type, x.name + ".amount");
+    require_same(x.absorber == y.absorber, x.name + ".absorber");
     require_same(same_table(x.spectrum, y.spectrum), x.name + ".spectrum");
     require_same(same_table(x.albedo_spectrum, y.albedo_spectrum),
                  x.name + ".single_scattering_albedo");
@@ -52,7 +53,7 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
 
 // The same with its amount stated at another wavelength.
 Constituent<double> stated_at(Constituent<double> c, double wavelength_nm) {
-  if (c.amount_type == AmountType::kColumn) return c;
+  if (!is_at_wavelength(c.amount_type)) return c;
   c.amount *= c.spectrum ? c.spectrum->at(wavelength_nm) / c.spectrum->at(c.wavelength_nm)
                          : std::pow(wavelength_nm / c.wavelength_nm, -c.angstrom_exponent);
   c.wavelength_nm = wavelength_nm;
@@ -81,6 +82,8 @@ Atmosphere<double> interpolated_atmosphere(const Atmosphere<double>& a, const At
     const Constituent<double> end = stated_at(b.at(c.name), c.wavelength_nm);
     c.amount = mix(c.amount, end.amount);
     c.angstrom_exponent = mix(c.angstrom_exponent, end.angstrom_exponent);
+    c.temperature_k = mix(c.temperature_k, end.temperature_k);
+    c.co2_ppm = mix(c.co2_ppm, end.co2_ppm);
     c.site_pressure_hpa = mix(c.site_pressure_hpa, end.site_pressure_hpa);
     c.single_scattering_albedo = mix(c.single_scattering_albedo, end.single_scattering_albedo);
     c.profile.scale_height_m = mix(c.profile.scale_height_m, end.profile.scale_height_m);

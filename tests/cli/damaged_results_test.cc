@@ -165,7 +165,9 @@ class DamagedMeasuredResults : public DamagedResults {
       refs::Reference scans =
           fit::synthetic_scans(sky, fit::true_atmosphere(1), fit::SyntheticScans{});
       for (refs::Scan& scan : scans.scans) scan.time_utc = kTime;
-      return fit::fit_atmosphere(scans, refs::standard_spectral_data(), sky, fit::FitOptions{});
+      fit::FitOptions options;
+      options.start = fit::power_law_air();
+      return fit::fit_atmosphere(scans, refs::standard_spectral_data(), sky, options);
     }();
     return fitted;
   }

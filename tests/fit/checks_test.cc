@@ -19,6 +19,7 @@ class ChecksTest : public testing::Test {
     how.noise = 0.02;
     how.azimuth_offset_deg = {5, 5};
     reference = synthetic_scans(model, true_atmosphere(1), how);
+    options.start = power_law_air();
     options.lobes = 1;
     options.use_priors = false;
     options.free = std::vector{Parameter::kMieScattering, Parameter::kMieAngstromExponent,

@@ -10,8 +10,12 @@
 
 #include "data_refs/spectra.h"
 #include "fit/problem/sky_values.h"
+#include "model/atmosphere/preset.h"
 
 namespace skyfit::fit {
+
+// The air that toy_sky.h knows, in the place of that of measured skies.
+inline Preset power_law_air() { return {"power law", {}, {}, {}}; }
 
 struct SyntheticScans {
   std::vector<double> sun_zenith_deg = {30, 60};

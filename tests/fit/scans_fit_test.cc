@@ -19,6 +19,7 @@ constexpr double kSolved = 2e-3;
 
 FitOptions determined() {
   FitOptions options;
+  options.start = power_law_air();
   options.lobes = 1;
   options.use_priors = false;
   options.free = std::vector{Parameter::kMieScattering, Parameter::kMieAngstromExponent,

@@ -24,6 +24,7 @@ refs::Reference luminances(const std::vector<double>& scales, double noise) {
 
 FitOptions determined() {
   FitOptions options;
+  options.start = power_law_air();
   options.lobes = 1;
   options.use_priors = false;
   options.pointing = Pointing::kStated;

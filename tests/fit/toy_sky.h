@@ -31,7 +31,8 @@ T toy_cornette_shanks(const T& g, double nu) {
 
 class ToySky : public SkyModel {
  public:
-  using Jet = ceres::Jet<double, kDerivativesAtOnce>;
+  static constexpr int kPlaces = 16;  // at least as many as standard_parameters()
+  using Jet = ceres::Jet<double, kPlaces>;
   mutable std::atomic<int> value_calls = 0, derivative_calls = 0;
 
   std::string_view name() const override { return "toy"; }

@@ -52,7 +52,7 @@ Profile profile_of(const Atmosphere<double>& a, const Constituent<double>& c) {
 double extinction(const Atmosphere<double>& a, const std::string& name, double height) {
   const Constituent<double>& c = a.at(name);
   const Profile profile = profile_of(a, c);
-  return vertical_optical_depth(a, c, kWavelength, kOzone) / profile.vertical_column().value *
+  return vertical_optical_depth(a, c, {kWavelength, kOzone}) / profile.vertical_column().value *
          profile.density(height).value;
 }
 

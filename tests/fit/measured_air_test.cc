@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The air of a measured sky has the pressure of its site, with a prior of half a percent, and the
+// gases that absorb; a fit that pulls the pressure away says so.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fit/fit.h"
+#include "fit/problem/problem.h"
+#include "fit/result/report.h"
+#include "model/atmosphere/derived.h"
+#include "model/registry.h"
+#include "tests/fit/scans.h"
+#include "tests/fit/toy_sky.h"
+
+namespace skyfit::fit {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+refs::Reference scans() { return synthetic_scans(ToySky(), Atmosphere<double>{}, {}); }
+
+Problem problem_of(const refs::Reference& reference, const FitOptions& options) {
+  static const ToySky model;
+  return make_problem(reference, refs::standard_spectral_data(), model, options);
+}
+
+const Unknown* unknown(const Problem& problem, const std::string& name) {
+  const auto found = std::ranges::find(problem.unknowns, name, &Unknown::name);
+  return found == problem.unknowns.end() ? nullptr : &*found;
+}
+
+void expect_pressure(const Problem& problem, double pressure_hpa) {
+  const Unknown* const air = unknown(problem, "rayleigh.pressure");
+  ASSERT_NE(air, nullptr);
+  ASSERT_TRUE(air->prior);
+  EXPECT_NEAR(air->prior->mean, pressure_hpa, 1e-9);
+  EXPECT_NEAR(air->prior->sigma, 0.005 * pressure_hpa, 1e-9);
+  const Atmosphere<double>& start = problem.start.atmosphere.front();
+  EXPECT_EQ(start.at("rayleigh").amount, start.at("oxygen_pairs").amount);
+  EXPECT_NE(start.find("nitrogen_dioxide"), nullptr);
+}
+
+TEST(MeasuredAir, HasThePressureOfItsSite) {
+  FitOptions options;
+  options.site_pressure_hpa = 719;
+  expect_pressure(problem_of(scans(), options), 719);
+  refs::Reference high = scans();
+  for (refs::Scan& scan : high.scans) scan.elevation_m = 1000;
+  const Problem problem = problem_of(high, {});
+  expect_pressure(problem, standard_pressure_hpa(1000));
+  EXPECT_THAT(problem.assumptions, IsEmpty());
+}
+
+TEST(MeasuredAir, OfASiteWithoutElevationIsThatOfTheSeaAndSaidToBe) {
+  const Problem problem = problem_of(scans(), {});
+  expect_pressure(problem, kStandardPressureHpa);
+  ASSERT_EQ(problem.assumptions.size(), 1u);
+  EXPECT_THAT(problem.assumptions.front(), HasSubstr("1013.25 hPa"));
+}
+
+TEST(MeasuredAir, IsNotThatOfRelativeLuminancesAndPresets) {
+  FitOptions options;
+  options.start = power_law_air();
+  EXPECT_EQ(unknown(problem_of(scans(), options), "rayleigh.pressure"), nullptr);
+  refs::Reference relative = scans();
+  relative.quantity = refs::Quantity::kRelativeLuminance;
+  for (refs::Sample& sample : relative.samples) sample.wavelength_nm = 0;
+  EXPECT_NE(unknown(problem_of(relative, {}), "rayleigh.scattering"), nullptr);
+}
+
+// Air of 950 hPa, noise of a thousandth, and a site that states 1000 hPa: the sky tells it well.
+TEST(MeasuredAir, ThatIsPulledFromItsPressureIsSaid) {
+  const auto model =
+      make_sky_model("reference", refs::standard_spectral_data(), 1, Transfer::kScalar);
+  Atmosphere<double> truth;
+  truth.at("rayleigh") = standard_air<double>();
+  truth.constituents.push_back(standard_oxygen_pairs<double>());
+  truth.constituents.push_back(standard_nitrogen_dioxide<double>());
+  SyntheticScans how;
+  how.sun_zenith_deg = {40, 60};
+  how.azimuths = 3;
+  how.wavelength_nm = {420, 600};
+  how.sun_distance_au = 1;
+  FitOptions options;
+  options.lobes = 1;
+  options.free = std::vector{Parameter::kRayleighPressure};
+  options.pointing = Pointing::kStated;
+  options.noise = NoiseModel{0.001, 0};
+  options.site_pressure_hpa = 1000;
+  const auto report = [&](double pressure_hpa) {
+    set_site_pressure(truth, pressure_hpa);
+    truth.at("oxygen_pairs").amount = 1000;
+    return full_report(fit_atmosphere(synthetic_scans(*model, truth, how),
+                                      refs::standard_spectral_data(), *model, options),
+                       {});
+  };
+  EXPECT_THAT(report(950), HasSubstr("rayleigh.pressure is -"));
+  EXPECT_THAT(report(1000), Not(HasSubstr("rayleigh.pressure is ")));
+}
+
+}  // namespace
+}  // namespace skyfit::fit
