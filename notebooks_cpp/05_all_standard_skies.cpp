@@ -67,8 +67,8 @@ void run_notebook(notebook::Page& page) {
   // ## Fifteen fits
   //
   // One fit for each type, of nine suns together, in the vertical plane of the sun, with a free
-  // luminance scale per sun. The light is taken without polarisation here, which under a cloud
-  // changes nothing and makes the notebook three times faster.
+  // luminance scale per sun. The light is taken without polarisation here, which
+  // under a cloud changes nothing and saves a quarter of the time.
 
   // %%
   page.cell();
