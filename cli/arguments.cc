@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "model/base/text.h"
@@ -51,6 +52,26 @@ std::pair<Parameter, std::string_view> named(std::string_view option, std::strin
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) throw UsageError(option, text, form);
   return {parse_parameters(option, trim(text.substr(0, equals))).front(), text.substr(equals + 1)};
+}
+
+// `name=first:second`, each text one or several separated by commas. `add` says whether the name is
+// new, or nothing where the numbers do not go together.
+void parse_pairs(std::string_view option, const std::vector<std::string>& texts,
+                 std::string_view form,
+                 const std::function<std::optional<bool>(const Parameter&, double, double)>& add) {
+  for (const std::string& text : texts) {
+    for (const std::string_view item : split(text, ',')) {
+      const auto [parameter, rest] = named(option, item, form);
+      const std::size_t colon = rest.find(':');
+      if (colon == std::string_view::npos) throw UsageError(option, item, form);
+      const auto first = finite_number(rest.substr(0, colon));
+      const auto second = finite_number(rest.substr(colon + 1));
+      if (!first || !second) throw UsageError(option, item, form);
+      const std::optional<bool> is_new = add(parameter, *first, *second);
+      if (!is_new) throw UsageError(option, item, form);
+      if (!*is_new) throw UsageError(option, item, "expected each name once");
+    }
+  }
 }
 
 }  // namespace
@@ -175,22 +196,26 @@ std::map<Parameter, double> parse_fixed(std::string_view option,
 
 std::map<Parameter, Prior> parse_priors(std::string_view option,
                                         const std::vector<std::string>& texts) {
-  constexpr std::string_view form = "expected name=mean:sigma with finite numbers, sigma > 0";
   std::map<Parameter, Prior> priors;
-  for (const std::string& text : texts) {
-    for (const std::string_view item : split(text, ',')) {
-      const auto [parameter, rest] = named(option, item, form);
-      const std::size_t colon = rest.find(':');
-      if (colon == std::string_view::npos) throw UsageError(option, item, form);
-      const auto mean = finite_number(rest.substr(0, colon));
-      const auto sigma = finite_number(rest.substr(colon + 1));
-      if (!mean || !sigma || !(*sigma > 0)) throw UsageError(option, item, form);
-      if (!priors.emplace(parameter, Prior{*mean, *sigma}).second) {
-        throw UsageError(option, item, "expected each name once");
-      }
-    }
-  }
+  parse_pairs(option, texts, "expected name=mean:sigma with finite numbers, sigma > 0",
+              [&](const Parameter& parameter, double mean, double sigma) {
+                return sigma > 0
+                           ? std::optional(priors.emplace(parameter, Prior{mean, sigma}).second)
+                           : std::nullopt;
+              });
   return priors;
+}
+
+std::map<Parameter, Bounds> parse_bounds(std::string_view option,
+                                         const std::vector<std::string>& texts) {
+  std::map<Parameter, Bounds> bounds;
+  parse_pairs(option, texts, "expected name=lower:upper with finite numbers, lower < upper",
+              [&](const Parameter& parameter, double lower, double upper) {
+                return lower < upper
+                           ? std::optional(bounds.emplace(parameter, Bounds{lower, upper}).second)
+                           : std::nullopt;
+              });
+  return bounds;
 }
 
 double radians(double degrees) { return degrees * kRadiansPerDegree; }

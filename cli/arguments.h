@@ -78,6 +78,10 @@ std::map<Parameter, double> parse_fixed(std::string_view option,
 std::map<Parameter, Prior> parse_priors(std::string_view option,
                                         const std::vector<std::string>& texts);
 
+// `name=lower:upper`, each text one or several separated by commas.
+std::map<Parameter, Bounds> parse_bounds(std::string_view option,
+                                         const std::vector<std::string>& texts);
+
 double radians(double degrees);
 double degrees(double radians);
 

@@ -2,6 +2,7 @@
 // `skyfit fit`: fits an atmosphere to a reference and leaves preset, reports, samples and figures
 // in a directory. `skyfit report`: prints the report of such a directory again.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
+#include "fit/standard_sky.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
 
@@ -36,12 +38,15 @@ FinishedFit fit_with_progress(const refs::Reference& reference, const SkyModel& 
 }
 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
+  if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
   refs::Reference reference = load_references(arguments.reference, arguments.sun_zenith,
                                               arguments.sampling, arguments.import, command);
   const auto model = make_sky_model(arguments.model, refs::standard_spectral_data(),
                                     arguments.threads, transfer_for(reference, arguments.scalar));
-  const fit::FitOptions options = fit_options(arguments, *model, command);
+  fit::FitOptions options = fit_options(arguments, *model, command);
+  if (const std::optional<int> type = fit::standard_sky_type(arguments.reference))
+    options = fit::with_standard_sky(options, fit::standard_sky_kind(*type, *model), *model);
   const fit::CheckOptions checks = check_options(arguments);
   if (!arguments.keep_absorption_bands) refs::mask_absorption_bands(reference);
   const FinishedFit finished = fit_with_progress(reference, *model, options, checks);
@@ -54,6 +59,16 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   print(arguments.json ? json_text(fit::report_json(finished.result, finished.checks))
                        : fit::brief_report(finished.result) + "\n");
   figures.expect_all(arguments.out);
+}
+
+std::string standard_sky_list() {
+  std::string text =
+      "Standard skies (cie:1 to cie:15) are fitted, unless --preset says otherwise, within bounds\n"
+      "of what exists in place of priors, with Rayleigh scattering fixed, as\n";
+  for (const fit::StandardSkyKind& kind : fit::standard_sky_kinds())
+    text +=
+        fmt::format("  {:<18}{}: types {}\n", kind.name, kind.meaning, fmt::join(kind.types, ", "));
+  return text;
 }
 
 std::string parameter_list() {
@@ -72,8 +87,10 @@ void add_fit_command(CLI::App& app) {
   const auto options = std::make_shared<FitArguments>();
   CLI::App* const command = app.add_subcommand("fit", "Fits an atmosphere to a reference.");
   command
-      ->add_option("--reference", options->reference,
-                   "Shipped reference (skyfit references) or measured skies, fitted jointly")
+      ->add_option(
+          "--reference", options->reference,
+          "Shipped reference (skyfit references) or measured skies, fitted jointly; cie:all\n"
+          "fits each of the standard skies and leaves one table and one figure of all")
       ->required()
       ->type_name("NAME|FILE,FILE");
   add_fit_options(*command, *options);
@@ -96,9 +113,10 @@ void add_fit_command(CLI::App& app) {
       "luminance with --link log --scale profiled --pointing stated, an absolute luminance or a\n"
       "spectral radiance with --link linear --scale fixed --pointing azimuth.\n"
       "\n" +
-      parameter_list() +
+      standard_sky_list() + "\n" + parameter_list() +
       "\nExamples:\n"
       "  skyfit fit --reference cie:12 --out fitted\n"
+      "  skyfit fit --reference cie:all --out skies\n"
       "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted\n"
       "  skyfit fit --reference 0930.csv,1030.csv --exclude-sample 0 --per-scan mie.scattering "
       "--out day");

@@ -101,6 +101,9 @@ void add_problem_options(CLI::App& command, FitArguments& options) {
   command.add_option("--fix", options.fix, "Hold parameters at a value")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  command.add_option("--bounds", options.bounds, "Bounds of a free parameter, in place of its own")
+      ->type_name("NAME=LOWER:UPPER")
+      ->allow_extra_args(false);
   command.add_option("--prior", options.prior, "Gaussian prior, which replaces the default one")
       ->type_name("NAME=MEAN:SIGMA")
       ->allow_extra_args(false);
@@ -216,6 +219,7 @@ fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model
     result.free = parse_parameters("--free", arguments.free);
   }
   result.fix = parse_fixed("--fix", arguments.fix);
+  result.bounds = parse_bounds("--bounds", arguments.bounds);
   std::vector<std::string> priors = arguments.prior;
   result.instrument_priors = take_instrument_priors(priors);
   result.priors = parse_priors("--prior", priors);

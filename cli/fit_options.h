@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/inputs.h"
@@ -18,7 +19,7 @@ struct FitArguments {
   bool scalar = false;
   std::string free, preset, site_pressure, out, exclude_sun = "3";
   std::string per_scan, link, scale, pointing, noise, loss, ground, hold_out;
-  std::vector<std::string> fix, prior, profiles;
+  std::vector<std::string> fix, bounds, prior, profiles;
   ImportArguments import;
   int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads(), bootstrap = 0, seed = 1;
@@ -31,5 +32,10 @@ void add_fit_options(CLI::App& command, FitArguments& arguments);
 fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model,
                             const CLI::App& command);
 fit::CheckOptions check_options(const FitArguments& arguments);
+
+// `skyfit fit --reference cie:all`: all standard skies, each by itself, with one table and one
+// figure of all (cli/fit_standard_skies.cc).
+inline constexpr std::string_view kAllStandardSkies = "cie:all";
+void run_standard_skies(const FitArguments& arguments, const CLI::App& command);
 
 }  // namespace skyfit::cli

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "model/atmosphere/derived.h"
@@ -54,6 +55,14 @@ bool is_free(const FitOptions& options, const Parameter& id) {
   return std::find(options.free->begin(), options.free->end(), id) != options.free->end();
 }
 
+void require_free(const FitOptions& options, const Atmosphere<double>& atmosphere,
+                  const Parameter& id, std::string_view option, std::string_view what) {
+  require_parameter_of(atmosphere, id, option);
+  if (is_free(options, id)) return;
+  throw std::invalid_argument(
+      fmt::format("fit.{}: {}: must be free to have {}", option, id.name(), what));
+}
+
 void check_names(const FitOptions& options, const SkyModel& model,
                  const Atmosphere<double>& atmosphere) {
   for (const Parameter id : options.free.value_or(std::vector<Parameter>{})) {
@@ -67,13 +76,10 @@ void check_names(const FitOptions& options, const SkyModel& model,
           fmt::format("fit.free: {}: also fixed, must be one of the two", id.name()));
     }
   }
-  for (const auto& [id, prior] : options.priors) {
-    require_parameter_of(atmosphere, id, "prior");
-    if (!is_free(options, id)) {
-      throw std::invalid_argument(
-          fmt::format("fit.prior: {}: must be free to have a prior", id.name()));
-    }
-  }
+  for (const auto& [id, prior] : options.priors)
+    require_free(options, atmosphere, id, "prior", "a prior");
+  for (const auto& [id, bounds] : options.bounds)
+    require_free(options, atmosphere, id, "bounds", "bounds");
 }
 
 void check_start(const FreeParameter& parameter, double start) {
@@ -132,9 +138,11 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
   return result;
 }
 
+bool is_logarithmic(const Parameter& id, double lower) { return is_scale(id) && lower > 0; }
+
 FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior) {
   const ParameterInfo info = parameter_info(id);
-  return {{info.lower, info.upper, is_scale(id) && info.lower > 0, prior}, id};
+  return {{info.lower, info.upper, is_logarithmic(id, info.lower), prior}, id};
 }
 
 void check_lobes(const FitOptions& options, const SkyModel& model) {
@@ -150,7 +158,12 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
   std::vector<FreeParameter> result;
   for (const Parameter& id : parameters_of(atmosphere)) {
     if (!model.can_fit(id) || !is_free(options, id)) continue;
-    const FreeParameter parameter = free_parameter(id, prior_of(options, id));
+    FreeParameter parameter = free_parameter(id, prior_of(options, id));
+    if (const auto given = options.bounds.find(id); given != options.bounds.end()) {
+      std::tie(parameter.lower, parameter.upper) =
+          std::pair(given->second.lower, given->second.upper);
+      parameter.logarithmic = is_logarithmic(id, parameter.lower);
+    }
     check_start(parameter, get_parameter(atmosphere, id));
     result.push_back(parameter);
   }

@@ -16,6 +16,10 @@ struct FreeParameter : Variable {
   Parameter id;
 };
 
+// Whether the solver sees the logarithm of the parameter: of coefficients, optical depths and scale
+// heights with a lower bound above 0.
+bool is_logarithmic(const Parameter& id, double lower);
+
 // With the bounds of the table.
 FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior);
 
@@ -38,8 +42,8 @@ void check_lobes(const FitOptions& options, const SkyModel& model);
 
 // Of those that the model can fit. Throws std::invalid_argument when options
 // name a parameter that the atmosphere does not have or the model cannot fit, or contradict
-// each other, when a prior's parameter is not free, and when
-// the value of a free parameter is outside its bounds.
+// each other, when the parameter of a prior or of bounds is not free, and when the value of a free
+// parameter is outside its bounds.
 std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, const SkyModel& model,
                                                   const Atmosphere<double>& atmosphere);
 

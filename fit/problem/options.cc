@@ -25,6 +25,14 @@ void require_prior(std::string_view name, const Prior& prior) {
                   prior.mean, prior.sigma));
 }
 
+void require_bounds(std::string_view name, const Bounds& bounds) {
+  if (std::isfinite(bounds.lower) && std::isfinite(bounds.upper) && bounds.lower < bounds.upper)
+    return;
+  throw std::invalid_argument(
+      fmt::format("fit.bounds: {} = {:.9g}:{:.9g}: must be finite, the lower below the upper one",
+                  name, bounds.lower, bounds.upper));
+}
+
 void require_noise(const NoiseModel& noise) {
   require(std::isfinite(noise.relative) && noise.relative >= 0, "noise_relative", noise.relative,
           ">= 0");
@@ -63,6 +71,7 @@ void validate(const FitOptions& options) {
   for (const auto& [id, prior] : options.priors) require_prior(id.name(), prior);
   for (const auto& [id, prior] : options.instrument_priors)
     require_prior(instrument_info(id).name, prior);
+  for (const auto& [id, bounds] : options.bounds) require_bounds(id.name(), bounds);
   for (const auto& [id, value] : options.fix) {
     require(std::isfinite(value), fmt::format("fix.{}", id.name()), value, "finite");
   }

@@ -40,6 +40,7 @@ struct FitOptions {
   // Exactly these; none: the start is evaluated, with the instrument's unknowns fitted.
   std::optional<std::vector<Parameter>> free;
   std::map<Parameter, double> fix;
+  std::map<Parameter, Bounds> bounds;  // of free ones, in the place of the table's
   std::map<Parameter, Prior> priors;  // in the place of the table's, or besides
   bool use_priors = true;             // false drops those of the tables
   std::set<Parameter> per_scan;       // of the free ones: one unknown per scan

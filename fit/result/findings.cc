@@ -16,7 +16,7 @@ std::vector<Finding> findings(const Atmosphere<double>& atmosphere) {
       {"turbidity", "turbidity", (air + aerosol) / air, 1.3, 8,
        "Preetham et al. 1999: 2 very clear, 3 clear, 6 warm and moist"},
       {"ground albedo at 550 nm", "ground_albedo_550nm", atmosphere.ground_albedo, 0.03, 0.4,
-       "grass 0.05 to 0.12, soil and sand to 0.4; snow, far above, to 0.98"},
+       "grass 0.05 to 0.12, soil and sand to 0.4; snow, far above, to 0.99"},
   };
   if (const Constituent<double>* const main = main_aerosol(atmosphere)) {
     // Between the optical depths and the turbidity, and before the ground.
@@ -29,6 +29,15 @@ std::vector<Finding> findings(const Atmosphere<double>& atmosphere) {
           main->single_scattering_albedo, 0.82, 1, "Dubovik et al. 2002: 0.83 smoke to 0.98"},
          {"mean cosine of the phase function", "aerosol_mean_cosine", mean_cosine(main->phase),
           0.55, 0.8, "Andrews et al. 2006: 0.55 to 0.72; dust and sea salt to 0.8"}});
+  }
+  if (const Constituent<double>* const cloud = main_cloud(atmosphere)) {
+    found.insert(found.end() - 1,
+                 {{"cloud optical depth at 550 nm", "cloud_optical_depth_550nm",
+                   cloud_optical_depth(atmosphere), 0.1, 100,
+                   "Rossow & Schiffer 1999: thin cirrus below 3.6, deep convection above 23"},
+                  {"mean cosine of the cloud's phase function", "cloud_mean_cosine",
+                   mean_cosine(cloud->phase), 0.75, 0.88,
+                   "Hu & Stamnes 1993: water droplets 0.85 to 0.87; ice crystals from 0.75"}});
   }
   return found;
 }

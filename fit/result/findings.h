@@ -20,8 +20,9 @@ struct Finding {
 };
 
 // Aerosol optical depth, Angstrom exponent, turbidity, single scattering albedo, mean cosine of
-// the scattering angle (not g of Cornette & Shanks), ground albedo. Turbidity is (tau_air +
-// tau_aerosol) / tau_air at 550 nm (Preetham et al. 1999, with vertical optical depths).
+// the scattering angle (not g of Cornette & Shanks), of a cloud optical depth and mean cosine,
+// ground albedo. Turbidity is (tau_air + tau_aerosol) / tau_air at 550 nm (Preetham et al. 1999,
+// with vertical optical depths).
 std::vector<Finding> findings(const Atmosphere<double>& atmosphere);
 
 }  // namespace skyfit::fit

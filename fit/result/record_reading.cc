@@ -106,11 +106,11 @@ Unknown unknown_from(const PresetReader& row, std::size_t scans) {
   }
   const double unit = unknown.unit_value();
   const Parameter* parameter = std::get_if<Parameter>(&unknown.what);
-  unknown.logarithmic = parameter != nullptr
-                            ? free_parameter(*parameter, {}).logarithmic
-                            : std::get<Instrument>(unknown.what) == Instrument::kScale;
   unknown.lower = row.number("lower") * unit;
   unknown.upper = row.number("upper") * unit;
+  unknown.logarithmic = parameter != nullptr
+                            ? is_logarithmic(*parameter, unknown.lower)
+                            : std::get<Instrument>(unknown.what) == Instrument::kScale;
   if (!row.is_null("prior")) {
     const PresetReader prior = row.object("prior");
     unknown.prior = Prior{prior.number("mean") * unit, prior.number("sigma") * unit};

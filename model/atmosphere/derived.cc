@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/atmosphere/derived.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/atmosphere/optics.h"
@@ -13,13 +14,20 @@ namespace {
 
 constexpr double kGreen = 550;  // nm
 
+enum class ScattererKind { kMolecules, kAerosol, kCloud };
+
 bool is_molecular(const Constituent<double>& c) { return c.phase.type == PhaseType::kRayleigh; }
 
-double depth_of_scatterers(const Atmosphere<double>& atmosphere, bool molecular) {
+bool is_scatterer(const Constituent<double>& c, ScattererKind kind) {
+  if (!scatters(c)) return false;
+  if (is_molecular(c)) return kind == ScattererKind::kMolecules;
+  return kind == (c.name.starts_with("cloud") ? ScattererKind::kCloud : ScattererKind::kAerosol);
+}
+
+double depth_of(const Atmosphere<double>& atmosphere, ScattererKind kind) {
   double sum = 0;
   for (const Constituent<double>& c : atmosphere.constituents) {
-    if (scatters(c) && is_molecular(c) == molecular)
-      sum += vertical_optical_depth(atmosphere, c, {kGreen, 0});
+    if (is_scatterer(c, kind)) sum += vertical_optical_depth(atmosphere, c, {kGreen, 0});
   }
   return sum;
 }
@@ -34,21 +42,32 @@ double vertical_optical_depth(const Atmosphere<double>& atmosphere,
 }
 
 double aerosol_optical_depth(const Atmosphere<double>& atmosphere) {
-  return depth_of_scatterers(atmosphere, false);
+  return depth_of(atmosphere, ScattererKind::kAerosol);
 }
 
 double rayleigh_optical_depth(const Atmosphere<double>& atmosphere) {
-  return depth_of_scatterers(atmosphere, true);
+  return depth_of(atmosphere, ScattererKind::kMolecules);
+}
+
+double cloud_optical_depth(const Atmosphere<double>& atmosphere) {
+  return depth_of(atmosphere, ScattererKind::kCloud);
 }
 
 const Constituent<double>* main_aerosol(const Atmosphere<double>& atmosphere) {
   const Constituent<double>* first = nullptr;
   for (const Constituent<double>& c : atmosphere.constituents) {
-    if (!scatters(c) || is_molecular(c)) continue;
+    if (!is_scatterer(c, ScattererKind::kAerosol)) continue;
     if (c.name == "mie") return &c;
     if (first == nullptr) first = &c;
   }
   return first;
+}
+
+const Constituent<double>* main_cloud(const Atmosphere<double>& atmosphere) {
+  const auto found = std::ranges::find_if(
+      atmosphere.constituents,
+      [](const Constituent<double>& c) { return is_scatterer(c, ScattererKind::kCloud); });
+  return found == atmosphere.constituents.end() ? nullptr : &*found;
 }
 
 double mean_cosine(const PhaseFunction<double>& phase) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quantities of the literature that follow from an atmosphere's constituents. Aerosol: whatever
-// scatters with another phase function than Rayleigh's.
+// Quantities of the literature that follow from an atmosphere's constituents. A cloud is what scatters
+// and has a name that begins with "cloud"; aerosol is whatever else scatters with another phase
+// function than Rayleigh's.
 #pragma once
 
 #include <string_view>
@@ -17,10 +18,14 @@ double vertical_optical_depth(const Atmosphere<double>& atmosphere,
 
 // Of all of them together at 550 nm.
 double aerosol_optical_depth(const Atmosphere<double>& atmosphere);
+double cloud_optical_depth(const Atmosphere<double>& atmosphere);
 double rayleigh_optical_depth(const Atmosphere<double>& atmosphere);
 
 // The aerosol that reports speak of where they speak of one: "mie", or the first; null: none.
 const Constituent<double>* main_aerosol(const Atmosphere<double>& atmosphere);
+
+// The first cloud; null: none.
+const Constituent<double>* main_cloud(const Atmosphere<double>& atmosphere);
 
 // Mean cosine of the scattering angle of a phase function at 550 nm. That of Cornette & Shanks
 // 1992, eq. 9, is not g: <cos> = g 3 (4 + g^2) / (5 (2 + g^2)).

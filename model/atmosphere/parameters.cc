@@ -22,7 +22,10 @@ struct Row {
   std::string_view meaning;
 };
 
-// Of a constituent of any name; "NAME" in a meaning stands for it.
+// Of a constituent of any name; "NAME" in a meaning stands for it. Bounds are those of particles
+// that exist: none of an ensemble scatters mostly backward (g >= 0, where lobes of small particles
+// end at Rayleigh's symmetry), and over a column none absorbs more than 30 % of what it takes out
+// of a beam (Dubovik et al. 2002: 0.86 to 0.98; fresh smoke and towns reach 0.75).
 constexpr std::array<Row, 15> kQuantities = {{
     {kScattering, "scattering", "1/m", 1e-9, 0.1,
      "scattering coefficient of NAME where its density is 1, at its wavelength"},
@@ -35,15 +38,15 @@ constexpr std::array<Row, 15> kQuantities = {{
      "pressure at the ground that NAME's amount follows"},
     {kAngstromExponent, "angstrom_exponent", "1", -4.5, 4.5,
      "NAME's coefficients go as wavelength to the minus this"},
-    {kSingleScatteringAlbedo, "single_scattering_albedo", "1", 0.6, 1.0,
+    {kSingleScatteringAlbedo, "single_scattering_albedo", "1", 0.7, 1.0,
      "scattering over extinction of NAME"},
     {kScaleHeight, "scale_height", "m", 100.0, 20000.0,
      "height over which the density of NAME falls by e"},
     {kBase, "base_m", "m", 1.0, 20000.0, "height at which the layer of NAME begins"},
     {kTop, "top_m", "m", 100.0, 30000.0, "height at which the layer of NAME ends"},
-    {kPhaseG, "phase.g", "1", -0.6, 0.98, "asymmetry parameter of NAME's one lobe"},
-    {kPhaseG1, "phase.g1", "1", -0.6, 0.98, "asymmetry parameter of NAME's narrower lobe"},
-    {kPhaseG2, "phase.g2", "1", -0.6, 0.98, "asymmetry parameter of NAME's wider lobe"},
+    {kPhaseG, "phase.g", "1", 0.0, 0.98, "asymmetry parameter of NAME's one lobe"},
+    {kPhaseG1, "phase.g1", "1", 0.0, 0.98, "asymmetry parameter of NAME's narrower lobe"},
+    {kPhaseG2, "phase.g2", "1", 0.0, 0.98, "asymmetry parameter of NAME's wider lobe"},
     {kPhaseWeight, "phase.weight", "1", 0.0, 1.0, "share of NAME's lobe g1"},
     {kAlbedo, "albedo", "1", 0.0, 1.0, "Lambertian albedo of the ground"},
 }};
@@ -85,15 +88,15 @@ constexpr std::array<StandardRow, 13> kStandard = {{
      "scattering coefficient of aerosol at h = 0 and its wavelength"},
     {Parameter::kMieAngstromExponent, -0.5, 2.5, std::nullopt, false,
      "aerosol scattering goes as wavelength to the minus this"},
-    {Parameter::kMieSingleScatteringAlbedo, 0.6, 1.0, Prior{0.92, 0.05}, true,
+    {Parameter::kMieSingleScatteringAlbedo, 0.7, 1.0, Prior{0.92, 0.05}, true,
      "scattering over extinction of aerosol"},
     {Parameter::kMieScaleHeight, 300.0, 5000.0, Prior{1200.0, 500.0}, true,
      "height over which the density of aerosol falls by e"},
-    {Parameter::kMiePhaseG, -0.6, 0.98, std::nullopt, true,
+    {Parameter::kMiePhaseG, 0.0, 0.98, std::nullopt, true,
      "asymmetry parameter of a phase function of one lobe"},
-    {Parameter::kMiePhaseG1, -0.6, 0.98, std::nullopt, true,
+    {Parameter::kMiePhaseG1, 0.0, 0.98, std::nullopt, true,
      "asymmetry parameter of the narrower of two lobes"},
-    {Parameter::kMiePhaseG2, -0.6, 0.98, std::nullopt, true,
+    {Parameter::kMiePhaseG2, 0.0, 0.98, std::nullopt, true,
      "asymmetry parameter of the wider of two lobes"},
     {Parameter::kMiePhaseWeight, 0.0, 1.0, std::nullopt, true, "share of the lobe g1"},
     {Parameter::kOzoneColumn, 0.0, 600.0, std::nullopt, false, "vertical column of ozone"},

@@ -82,6 +82,11 @@ struct Prior {
   double mean, sigma;  // in the parameter's unit
 };
 
+// Between which a fit varies a parameter.
+struct Bounds {
+  double lower, upper;  // in the parameter's unit
+};
+
 struct ParameterInfo {
   std::string name;       // e.g. "mie.phase.g1"
   std::string_view unit;  // "1/m", "m", "DU" or "1" for a pure number

@@ -105,6 +105,10 @@ TEST(Parameters, AreReadByName) {
   ASSERT_EQ(priors.size(), 1u);
   EXPECT_EQ(priors.at(Parameter::kGroundAlbedo).mean, 0.2);
   EXPECT_EQ(priors.at(Parameter::kGroundAlbedo).sigma, 0.05);
+  const auto bounds = parse_bounds("--bounds", {"mie.phase.g2=-0.6:0.5,ground.albedo=0.1:0.3"});
+  ASSERT_EQ(bounds.size(), 2u);
+  EXPECT_EQ(bounds.at(Parameter::kMiePhaseG2).lower, -0.6);
+  EXPECT_EQ(bounds.at(Parameter::kMiePhaseG2).upper, 0.5);
 }
 
 TEST(Parameters, RefuseUnknownNamesAndHalfValues) {
@@ -119,6 +123,11 @@ TEST(Parameters, RefuseUnknownNamesAndHalfValues) {
        {"ground.albedo", "ground.albedo=1", "ground.albedo=1:0", "ground.albedo=1:-1",
         "ground.albedo=1:nan", "ground.albedo=:1", "x=1:1"}) {
     EXPECT_THAT(refusal([&] { parse_priors("--prior", {text}); }), HasSubstr("--prior")) << text;
+  }
+  for (const char* text :
+       {"ground.albedo", "ground.albedo=1", "ground.albedo=0.5:0.5", "ground.albedo=1:0",
+        "ground.albedo=0:nan", "x=0:1", "ground.albedo=0:1,ground.albedo=0:1"}) {
+    EXPECT_THAT(refusal([&] { parse_bounds("--bounds", {text}); }), HasSubstr("--bounds")) << text;
   }
 }
 

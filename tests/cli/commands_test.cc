@@ -112,6 +112,39 @@ TEST_F(CommandsTest, ModelsFitWhatTheyHave) {
   }
 }
 
+TEST_F(CommandsTest, AllStandardSkiesAreFittedIntoOneTableAndOneFigure) {
+  const std::vector<std::string> fit = {
+      "fit",   "--reference", "cie:all", "--model",          "nielsen", "--out",
+      "skies", "--starts",    "1",       "--sun-zenith-deg", "20,50"};
+  const std::string text = output(fit);
+  EXPECT_THAT(text, HasSubstr("of the 15 standard skies within 10 %"));
+  EXPECT_EQ(read("skies/standard_skies.txt"), text);
+  EXPECT_THAT(files(),
+              ::testing::IsSupersetOf({"skies/standard_skies.svg", "skies/standard_skies.png",
+                                       "skies/cie-1.json", "skies/cie-15.json"}));
+  EXPECT_THAT(output({"check", "skies/cie-12.json"}), HasSubstr("valid preset"));
+  const std::vector<std::string> rows = lines(read("skies/standard_skies.csv"));
+  ASSERT_EQ(rows.size(), 16u);
+  EXPECT_THAT(rows[0], ::testing::StartsWith("type,fitted_with,rms_log_percent,"
+                                             "rms_log_percent_sun_20,rms_log_percent_sun_50,"));
+  for (std::size_t row = 1; row < rows.size(); ++row)
+    EXPECT_EQ(std::ranges::count(rows[row], ','), std::ranges::count(rows[0], ',')) << rows[row];
+  const json skies = json::parse(read("skies/standard_skies.json"));
+  ASSERT_EQ(skies.size(), 15u);
+  // The sentences follow the numbers.
+  const std::size_t cannot = text.find("It cannot be:");
+  for (const json& sky : skies) {
+    const std::size_t at = text.find("  CIE S 011 type " + sky.at("type").dump() + ":");
+    EXPECT_EQ(at < cannot, sky.at("rms_log_percent_fitted").at("all").get<double>() <= 10)
+        << sky.at("type");
+  }
+  std::vector<std::string> with_profile = fit;
+  with_profile.insert(with_profile.end(), {"--force", "--profile", "ground.albedo"});
+  const Outcome refused = run(with_profile);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("expected one sky, such as cie:12, with --profile"));
+}
+
 TEST_F(CommandsTest, VersionIsTheProjects) {
   EXPECT_EQ(output({"--version"}), std::string("skyfit ") + kVersion + "\n");
 }

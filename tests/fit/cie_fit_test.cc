@@ -10,6 +10,7 @@
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "fit/fit.h"
+#include "fit/standard_sky.h"
 #include "model/registry.h"
 
 namespace skyfit::fit {
@@ -64,6 +65,37 @@ INSTANTIATE_TEST_SUITE_P(Skies, CieFitTest,
                                          Case{"cie:12", refs::Sampling::kTregenza, 2, 5.0},
                                          Case{"cie:12", refs::Sampling::kPrincipalPlane, 1, 9.0},
                                          Case{"cie:13", refs::Sampling::kPrincipalPlane, 2, 6.0}));
+
+// Principal plane, suns from 0 to 80 deg, within the bounds of fit/standard_sky.cc. 4 and 7 were
+// hoped to reach 12 and 14 %: the one needs droplets that scatter more forward than Mie theory has
+// them, the other fails under the sun at 80 deg alone.
+struct StandardCase {
+  int type;
+  double largest_rms_percent;
+};
+
+class StandardSkyFitTest : public testing::TestWithParam<StandardCase> {};
+
+TEST_P(StandardSkyFitTest, ReachesTheDocumentedMisfit) {
+  const auto [type, largest] = GetParam();
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  const refs::Reference reference = refs::load_reference("cie:" + std::to_string(type), nine_suns(),
+                                                         refs::Sampling::kPrincipalPlane);
+  const Result result =
+      fit_atmosphere(reference, refs::standard_spectral_data(), *model,
+                     with_standard_sky({}, standard_sky_kind(type, *model), *model));
+  EXPECT_TRUE(result.converged);
+  EXPECT_LE(result.errors.rms_log, largest);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Types, StandardSkyFitTest,
+    testing::Values(StandardCase{1, 7}, StandardCase{2, 18}, StandardCase{3, 2.5},
+                    StandardCase{4, 12.5}, StandardCase{5, 2}, StandardCase{6, 14},
+                    StandardCase{7, 14.5}, StandardCase{8, 16}, StandardCase{9, 5.5},
+                    StandardCase{10, 5.8}, StandardCase{11, 7}, StandardCase{12, 4.4},
+                    StandardCase{13, 5.3}, StandardCase{14, 7.7}, StandardCase{15, 17.7}),
+    [](const auto& row) { return "type_" + std::to_string(row.param.type); });
 
 }  // namespace
 }  // namespace skyfit::fit

@@ -88,6 +88,25 @@ TEST(OptionsTest, ContradictionsAreRefused) {
               HasSubstr("fit.scale = fixed: must be profiled for a relative luminance"));
 }
 
+TEST(OptionsTest, BoundsAreThoseOfFreeParametersAndHoldTheFit) {
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                o.bounds[Parameter::kOzoneColumn] = {200, 400};
+              }),
+              HasSubstr("fit.bounds: ozone.column: must be free to have bounds"));
+  EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
+                o.bounds[Parameter::kGroundAlbedo] = {0.3, 0.3};
+              }),
+              HasSubstr("fit.bounds: ground.albedo = 0.3:0.3: must be finite, the lower below"));
+  FitOptions options;
+  options.lobes = 1;
+  options.starts = 1;
+  options.bounds[Parameter::kMiePhaseG] = {0.65, 0.8};  // the truth is 0.6
+  const Result result = fit_atmosphere(synthetic_reference(true_atmosphere(1), 0.02),
+                                       refs::standard_spectral_data(), ToySky(), options);
+  EXPECT_NEAR(result.unknown("mie.phase.g").fitted, 0.65, 1e-6);
+  EXPECT_TRUE(result.unknown("mie.phase.g").at_bound);
+}
+
 TEST(OptionsTest, ValuesAreChecked) {
   EXPECT_THAT(
       message([](FitOptions& o, refs::Reference&) { o.fix[Parameter::kMieScattering] = -1; }),
