@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <stdexcept>
 
@@ -59,45 +61,91 @@ std::vector<double> riccati_neumann(double x, int terms) {
   return eta;
 }
 
+// Wiscombe 1980.
+int terms_of(double x) { return static_cast<int>(x + 4.05 * std::cbrt(x) + 2) + 1; }
+
 double norm_slope(Complex value, Complex slope) {
   return 2 * (value.real() * slope.real() + value.imag() * slope.imag());
 }
 
-// S1 and S2 of all angles, real and imaginary parts.
+// S1 + S2 and S1 - S2 at some cosines mu and at -mu; real and imaginary parts.
+constexpr int kLanes = 8;
 struct Amplitudes {
-  explicit Amplitudes(std::size_t count)
-      : real_1(count), imaginary_1(count), real_2(count), imaginary_2(count) {}
-  std::vector<double> real_1, imaginary_1, real_2, imaginary_2;
+  using Lanes = std::array<double, kLanes>;
+  Lanes sum_real{}, sum_imaginary{}, difference_real{}, difference_imaginary{};
+  Lanes back_sum_real{}, back_sum_imaginary{}, back_difference_real{}, back_difference_imaginary{};
+
+  Complex first(std::size_t i, bool back) const {
+    return 0.5 * (sum(i, back) + difference(i, back));
+  }
+  Complex second(std::size_t i, bool back) const {
+    return 0.5 * (sum(i, back) - difference(i, back));
+  }
+
+ private:
+  Complex sum(std::size_t i, bool back) const {
+    return back ? Complex(back_sum_real[i], back_sum_imaginary[i])
+                : Complex(sum_real[i], sum_imaginary[i]);
+  }
+  Complex difference(std::size_t i, bool back) const {
+    return back ? Complex(back_difference_real[i], back_difference_imaginary[i])
+                : Complex(difference_real[i], difference_imaginary[i]);
+  }
 };
 
+// With pi_n(-mu) = (-1)^(n+1) pi_n(mu) and tau_n(-mu) = (-1)^n tau_n(mu); `a` and `b` hold real and
+// imaginary parts after each other.
 SKYFIT_CLONES
-void add_term(std::size_t count, const double* pi, const double* tau, double a_real,
-              double a_imaginary, double b_real, double b_imaginary, double* real_1,
-              double* imaginary_1, double* real_2, double* imaginary_2) {
-  for (std::size_t i = 0; i < count; ++i) {
-    real_1[i] += a_real * pi[i] + b_real * tau[i];
-    imaginary_1[i] += a_imaginary * pi[i] + b_imaginary * tau[i];
-    real_2[i] += a_real * tau[i] + b_real * pi[i];
-    imaginary_2[i] += a_imaginary * tau[i] + b_imaginary * pi[i];
+void add_terms(std::size_t terms, const double* a, const double* b, const double* cosines,
+               Amplitudes& s) {
+  Amplitudes::Lanes mu, before, here, sr, si, dr, di, bsr, bsi, bdr, bdi;
+  for (int i = 0; i < kLanes; ++i) {
+    mu[i] = cosines[i];
+    before[i] = 0;
+    here[i] = 1;
+    sr[i] = si[i] = dr[i] = di[i] = bsr[i] = bsi[i] = bdr[i] = bdi[i] = 0;
   }
+  double sign = 1;
+  for (std::size_t k = 0; k < terms; ++k) {
+    const double n = static_cast<double>(k) + 1, weight = (2 * n + 1) / (n * (n + 1));
+    const double sum_r = weight * (a[2 * k] + b[2 * k]),
+                 sum_i = weight * (a[2 * k + 1] + b[2 * k + 1]);
+    const double difference_r = weight * (a[2 * k] - b[2 * k]),
+                 difference_i = weight * (a[2 * k + 1] - b[2 * k + 1]);
+    const double turned_sum_r = sign * sum_r, turned_sum_i = sign * sum_i;
+    const double turned_difference_r = sign * difference_r,
+                 turned_difference_i = sign * difference_i;
+    const double up = (2 * n + 1) / n, down = (n + 1) / n;
+    for (int i = 0; i < kLanes; ++i) {
+      const double tau = n * mu[i] * here[i] - (n + 1) * before[i];
+      const double more = here[i] + tau, less = here[i] - tau;
+      sr[i] += sum_r * more;
+      si[i] += sum_i * more;
+      dr[i] += difference_r * less;
+      di[i] += difference_i * less;
+      bsr[i] += turned_sum_r * less;
+      bsi[i] += turned_sum_i * less;
+      bdr[i] += turned_difference_r * more;
+      bdi[i] += turned_difference_i * more;
+      const double next = up * mu[i] * here[i] - down * before[i];
+      before[i] = here[i];
+      here[i] = next;
+    }
+    sign = -sign;
+  }
+  s = {sr, si, dr, di, bsr, bsi, bdr, bdi};
 }
 
 Amplitudes amplitudes(const std::vector<Complex>& a, const std::vector<Complex>& b,
-                      const MieAngles& angles) {
-  Amplitudes s(angles.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const int n = static_cast<int>(i) + 1;
-    const double weight = (2.0 * n + 1) / (n * (n + 1.0));
-    add_term(angles.size(), angles.pi(n), angles.tau(n), weight * a[i].real(), weight * a[i].imag(),
-             weight * b[i].real(), weight * b[i].imag(), s.real_1.data(), s.imaginary_1.data(),
-             s.real_2.data(), s.imaginary_2.data());
-  }
+                      const double* cosines) {
+  Amplitudes s;
+  // std::complex is an array of two numbers.
+  add_terms(a.size(), reinterpret_cast<const double*>(a.data()),
+            reinterpret_cast<const double*>(b.data()), cosines, s);
   return s;
 }
 
 }  // namespace
-
-int mie_terms(double x) { return static_cast<int>(x + 4.05 * std::cbrt(x) + 2) + 1; }
 
 MieCoefficients mie_coefficients(double x, Complex index, bool by_index) {
   if (!(x > 0 && x <= kLargestSizeParameter)) {
@@ -109,7 +157,7 @@ MieCoefficients mie_coefficients(double x, Complex index, bool by_index) {
         "refractive index = {} + {} i: expected a real part > 0 and an imaginary part >= 0",
         index.real(), index.imag()));
   }
-  const int terms = mie_terms(x);
+  const int terms = terms_of(x);
   const Complex z = index * x;
   const std::vector<Complex> d = logarithmic_derivatives(z, terms);
   const std::vector<double> psi = riccati_bessel(x, terms), eta = riccati_neumann(x, terms);
@@ -164,47 +212,35 @@ double mie_asymmetry(double x, const MieCoefficients& c) {
   return 4 / (x * x) * sum / mie_efficiencies(x, c).scattering;
 }
 
-MieAngles::MieAngles(std::vector<double> cosines, int terms)
-    : cosines_(std::move(cosines)), terms_(terms) {
-  const std::size_t count = size();
-  pi_.resize(count * static_cast<std::size_t>(terms));
-  tau_.resize(pi_.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const double mu = cosines_[i];
-    double before = 0, here = 1;
-    for (int n = 1; n <= terms; ++n) {
-      const std::size_t at = static_cast<std::size_t>(n - 1) * count + i;
-      pi_[at] = here;
-      tau_[at] = n * mu * here - (n + 1) * before;
-      const double next = ((2 * n + 1) * mu * here - (n + 1) * before) / n;
-      before = here;
-      here = next;
-    }
-  }
-}
-
-std::vector<MieMatrix> mie_matrix(double x, const MieCoefficients& c, const MieAngles& angles) {
-  const std::size_t count = angles.size();
+std::vector<MieMatrix> mie_matrix(double x, const MieCoefficients& c,
+                                  const std::vector<double>& forward_cosines) {
+  const std::size_t count = forward_cosines.size();
   const double unit = 1 / (2 * std::numbers::pi * x * x);
-  const Amplitudes s = amplitudes(c.a, c.b, angles);
-  std::vector<MieMatrix> result(c.a_by_index.empty() ? 1 : 3);
-  for (MieMatrix& each : result)
-    each = {std::vector<double>(count), std::vector<double>(count), std::vector<double>(count)};
-  const Amplitudes by_n =
-      c.a_by_index.empty() ? Amplitudes(0) : amplitudes(c.a_by_index, c.b_by_index, angles);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Complex s1(s.real_1[i], s.imaginary_1[i]), s2(s.real_2[i], s.imaginary_2[i]);
-    result[0].m11[i] = unit * (std::norm(s1) + std::norm(s2));
-    result[0].m12[i] = unit * (std::norm(s2) - std::norm(s1));
-    result[0].m33[i] = 2 * unit * (s1 * std::conj(s2)).real();
-    for (std::size_t part = 1; part < result.size(); ++part) {
-      const Complex turn = part == 1 ? Complex(1, 0) : Complex(0, 1);
-      const Complex d1 = turn * Complex(by_n.real_1[i], by_n.imaginary_1[i]),
-                    d2 = turn * Complex(by_n.real_2[i], by_n.imaginary_2[i]);
-      const double slope_1 = norm_slope(s1, d1), slope_2 = norm_slope(s2, d2);
-      result[part].m11[i] = unit * (slope_1 + slope_2);
-      result[part].m12[i] = unit * (slope_2 - slope_1);
-      result[part].m33[i] = 2 * unit * (d1 * std::conj(s2) + s1 * std::conj(d2)).real();
+  const bool by_index = !c.a_by_index.empty();
+  const std::vector<double> zeros(2 * count);
+  std::vector<MieMatrix> result(by_index ? 3 : 1, MieMatrix{zeros, zeros, zeros});
+  for (std::size_t begin = 0; begin < count; begin += kLanes) {
+    const std::size_t lanes = std::min<std::size_t>(kLanes, count - begin);
+    Amplitudes::Lanes mu{};
+    std::copy_n(forward_cosines.begin() + static_cast<std::ptrdiff_t>(begin), lanes, mu.begin());
+    const Amplitudes s = amplitudes(c.a, c.b, mu.data());
+    const Amplitudes slope =
+        by_index ? amplitudes(c.a_by_index, c.b_by_index, mu.data()) : Amplitudes{};
+    for (std::size_t i = 0; i < 2 * lanes; ++i) {
+      const bool back = i >= lanes;
+      const std::size_t lane = back ? i - lanes : i, at = begin + lane + (back ? count : 0);
+      const Complex s1 = s.first(lane, back), s2 = s.second(lane, back);
+      result[0].m11[at] = unit * (std::norm(s1) + std::norm(s2));
+      result[0].m12[at] = unit * (std::norm(s2) - std::norm(s1));
+      result[0].m33[at] = 2 * unit * (s1 * std::conj(s2)).real();
+      for (std::size_t part = 1; part < result.size(); ++part) {
+        const Complex turn = part == 1 ? Complex(1, 0) : Complex(0, 1);
+        const Complex d1 = turn * slope.first(lane, back), d2 = turn * slope.second(lane, back);
+        const double slope_1 = norm_slope(s1, d1), slope_2 = norm_slope(s2, d2);
+        result[part].m11[at] = unit * (slope_1 + slope_2);
+        result[part].m12[at] = unit * (slope_2 - slope_1);
+        result[part].m33[at] = 2 * unit * (d1 * std::conj(s2) + s1 * std::conj(d2)).real();
+      }
     }
   }
   return result;

@@ -33,25 +33,6 @@ MieEfficiencies mie_efficiencies(double x, const MieCoefficients& c);
 // Mean cosine of the scattering angle, from the coefficients alone.
 double mie_asymmetry(double x, const MieCoefficients& c);
 
-// The functions pi_n and tau_n of the scattering angles, n = 1 .. terms.
-class MieAngles {
- public:
-  MieAngles(std::vector<double> cosines, int terms);
-
-  std::size_t size() const { return cosines_.size(); }
-  int terms() const { return terms_; }
-  // Of all angles.
-  const double* pi(int n) const { return pi_.data() + (n - 1) * size(); }
-  const double* tau(int n) const { return tau_.data() + (n - 1) * size(); }
-
- private:
-  std::vector<double> cosines_, pi_, tau_;
-  int terms_;
-};
-
-// How many terms a sphere of that size needs.
-int mie_terms(double x);
-
 // The scattering matrix at each angle, per unit of pi radius^2 and steradian: its integral over the
 // sphere is the scattering efficiency.
 //   m11 = (|S1|^2 + |S2|^2) / (2 pi x^2), m12 = (|S2|^2 - |S1|^2) / (2 pi x^2),
@@ -59,7 +40,9 @@ int mie_terms(double x);
 struct MieMatrix {
   std::vector<double> m11, m12, m33;
 };
-// [0], and with derivatives of the coefficients [1] and [2], by n and by k.
-std::vector<MieMatrix> mie_matrix(double x, const MieCoefficients& c, const MieAngles& angles);
+// At the angles whose cosines are given, >= 0, followed by those at 180 deg less each of them, in
+// the same order. [0], and with derivatives of the coefficients [1] and [2], by n and by k.
+std::vector<MieMatrix> mie_matrix(double x, const MieCoefficients& c,
+                                  const std::vector<double>& forward_cosines);
 
 }  // namespace skyfit

@@ -97,16 +97,23 @@ TEST(Mie, OfLargeSpheresTendsToTwo) {
 TEST(Mie, MatrixHasItsMoments) {
   for (const double x : {0.1, 3.0, 40.0}) {
     for (const Complex m : {Complex(1.33, 0), Complex(1.5, 0.05)}) {
-      const GaussRule rule = gauss_legendre(2 * mie_terms(x) + 2);
-      std::vector<double> cosines;
-      for (const double node : rule.node) cosines.push_back(2 * node - 1);
       const MieCoefficients c = mie_coefficients(x, m, false);
-      const MieMatrix matrix = mie_matrix(x, c, MieAngles(cosines, mie_terms(x))).front();
+      const GaussRule rule = gauss_legendre(2 * static_cast<int>(c.a.size()) + 2);
+      std::vector<double> cosines;
+      std::vector<double> weights;
+      for (std::size_t k = rule.node.size() / 2; k < rule.node.size(); ++k) {
+        cosines.push_back(2 * rule.node[k] - 1);
+        weights.push_back(4 * std::numbers::pi * rule.weight[k]);
+      }
+      const MieMatrix matrix = mie_matrix(x, c, cosines).front();
       double sum = 0, first = 0;
-      for (std::size_t i = 0; i < cosines.size(); ++i) {
-        const double weight = 4 * std::numbers::pi * rule.weight[i];
+      ASSERT_EQ(matrix.m11.size(), 2 * cosines.size());
+      for (std::size_t i = 0; i < matrix.m11.size(); ++i) {
+        const std::size_t half = i % cosines.size();
+        const double weight = weights[half],
+                     cosine = i < cosines.size() ? cosines[half] : -cosines[half];
         sum += weight * matrix.m11[i];
-        first += weight * matrix.m11[i] * cosines[i];
+        first += weight * matrix.m11[i] * cosine;
         const double rest = matrix.m11[i] * matrix.m11[i] - matrix.m12[i] * matrix.m12[i] -
                             matrix.m33[i] * matrix.m33[i];
         EXPECT_GE(rest, -1e-12 * matrix.m11[i] * matrix.m11[i]);  // m34^2
@@ -121,11 +128,11 @@ TEST(Mie, MatrixHasItsMoments) {
 // m11 and m12 of a small sphere are those of a dipole: 1 + cos^2 and -sin^2.
 TEST(Mie, MatrixOfSmallSpheresIsRayleighs) {
   constexpr double kX = 1e-3;
-  const std::vector<double> cosines = {-1, -0.4, 0, 0.7, 1};
+  const std::vector<double> cosines = {0, 0.4, 1};
   const MieCoefficients c = mie_coefficients(kX, {1.5, 0}, false);
-  const MieMatrix matrix = mie_matrix(kX, c, MieAngles(cosines, mie_terms(kX))).front();
-  for (std::size_t i = 0; i < cosines.size(); ++i) {
-    const double mu = cosines[i], unit = matrix.m11[4] / 2;
+  const MieMatrix matrix = mie_matrix(kX, c, cosines).front();
+  for (std::size_t i = 0; i < matrix.m11.size(); ++i) {
+    const double mu = i < 3 ? cosines[i] : -cosines[i - 3], unit = matrix.m11[2] / 2;
     constexpr double kNextOrder = 1e-5;
     EXPECT_NEAR(matrix.m11[i] / unit, 1 + mu * mu, kNextOrder);
     EXPECT_NEAR(matrix.m12[i] / unit, mu * mu - 1, kNextOrder);
@@ -134,19 +141,18 @@ TEST(Mie, MatrixOfSmallSpheresIsRayleighs) {
 }
 
 TEST(Mie, DerivativesByTheIndexAreExact) {
-  const std::vector<double> cosines = {-1, -0.6, 0.1, 0.8, 1};
+  const std::vector<double> cosines = {0.1, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.9, 0.99, 1};
   for (const double x : {0.2, 5.0, 60.0}) {
-    const MieAngles angles(cosines, mie_terms(x));
     for (const Complex m : {Complex(1.4, 0.001), Complex(1.75, 0.44)}) {
       const auto efficiencies = [&](Complex index) {
         return mie_efficiencies(x, mie_coefficients(x, index, false));
       };
       const auto matrix = [&](Complex index) {
-        return mie_matrix(x, mie_coefficients(x, index, false), angles).front();
+        return mie_matrix(x, mie_coefficients(x, index, false), cosines).front();
       };
       const MieCoefficients c = mie_coefficients(x, m, true);
       const MieEfficiencies q = mie_efficiencies(x, c);
-      const std::vector<MieMatrix> exact = mie_matrix(x, c, angles);
+      const std::vector<MieMatrix> exact = mie_matrix(x, c, cosines);
       constexpr double kStep = 1e-6;
       for (const int part : {0, 1}) {
         const Complex step = kStep * (part == 0 ? Complex(1, 0) : Complex(0, 1));
@@ -160,7 +166,7 @@ TEST(Mie, DerivativesByTheIndexAreExact) {
         expect_slope(q.scattering_by_index[part], more.scattering, less.scattering, q.scattering);
         const MieMatrix above = matrix(m + step), below = matrix(m - step);
         const auto at = static_cast<std::size_t>(part) + 1;
-        for (std::size_t i = 0; i < cosines.size(); ++i) {
+        for (std::size_t i = 0; i < exact[0].m11.size(); ++i) {
           const double scale = exact[0].m11[i];
           expect_slope(exact[at].m11[i], above.m11[i], below.m11[i], scale);
           expect_slope(exact[at].m12[i], above.m12[i], below.m12[i], scale);
