@@ -43,6 +43,12 @@ double narrowest_lobe(const PhaseFunction<double>& phase) {
       return std::max(phase.g1, phase.g2);
     case PhaseType::kTabulated:
       return of_table(*phase.table);
+    case PhaseType::kSizeDistribution: {
+      constexpr double kGreen = 550;  // nm
+      const double last =
+          optics_at(phase.particles, kGreen)->moment(TabulatedPhase::kLastMoment)[0];
+      return std::pow(std::max(last, 0.0), 1.0 / TabulatedPhase::kLastMoment);
+    }
     case PhaseType::kByWavelength: {
       double g = 0;
       for (const auto& table : phase.by_wavelength->phases()) g = std::max(g, of_table(*table));

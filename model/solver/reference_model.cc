@@ -93,11 +93,9 @@ using ByStokes = std::map<Stokes, std::vector<T>>;
 template <int N>
 Dual<N> phase_of(const Scatterer<N>& scatterer, const SunAlongRay& sun, Stokes which) {
   if (which == Stokes::kI) return phase_value(scatterer.phase, sun.nu());
-  if (!polarises(scatterer)) return {};
   const SunAlongRay::Azimuth turn = sun.twice_the_turn();
-  return Dual<N>(
-      Shared<double>{}.rayleigh_polarising_phase(scatterer.phase.depolarisation, sun.nu()) *
-      (which == Stokes::kQ ? turn.cosine : turn.sine));
+  return polarising_phase_value(scatterer.phase, sun.nu()) *
+         (which == Stokes::kQ ? turn.cosine : turn.sine);
 }
 
 // Light scattered once, [point][wavelength].
