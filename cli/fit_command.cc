@@ -108,23 +108,41 @@ void add_fit_command(CLI::App& app) {
 void add_report_command(CLI::App& app) {
   struct Arguments {
     std::string directory;
+    std::vector<std::string> out;
     bool json = false;
+    int threads = default_threads();
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command =
-      app.add_subcommand("report", "Prints the report of a finished fit again.");
+  CLI::App* const command = app.add_subcommand(
+      "report", "Prints the report of a finished fit again, or writes it as a page.");
   command->add_option("directory", arguments->directory, "What skyfit fit left")
       ->required()
       ->type_name("DIR");
-  command->add_flag("--json", arguments->json, "Print report.json");
+  CLI::Option* const json = command->add_flag("--json", arguments->json, "Print report.json");
+  command
+      ->add_option("--out", arguments->out,
+                   "Write one page for a browser, with figures and the preset; needs no network")
+      ->type_name("FILE.html")
+      ->expected(1)
+      ->excludes(json);
+  add_threads_option(*command, arguments->threads);
   command->footer(
       "The report is made anew from preset.json, whose record holds the fit, and the checks in\n"
       "report.json.\n"
       "\n"
-      "Example:\n"
-      "  skyfit report fitted");
+      "Examples:\n"
+      "  skyfit report fitted\n"
+      "  skyfit report fitted --out report.html");
   command->callback([arguments] {
+    if (!arguments->out.empty()) require_output_files(arguments->out, {".html"});
     const FinishedFit finished = read_fit(arguments->directory);
+    if (!arguments->out.empty()) {
+      write_file(arguments->out.front(),
+                 fit::html_report(
+                     finished.result, finished.checks,
+                     report_figures(arguments->directory, finished.result, arguments->threads)));
+      return;
+    }
     print(arguments->json ? json_text(fit::report_json(finished.result, finished.checks))
                           : fit::full_report(finished.result, finished.checks));
   });

@@ -12,7 +12,9 @@
 #include "fit/result/record.h"
 #include "model/base/input_file.h"
 #include "model/base/preset_reader.h"
+#include "model/base/temporary_directory.h"
 #include "model/base/whole_file.h"
+#include "model/registry.h"
 #include "render/plot/comparison.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/results.h"
@@ -21,7 +23,8 @@ namespace skyfit::cli {
 namespace {
 
 constexpr const char *kPresetFile = "preset.json", *kReportFile = "report.json",
-                     *kReportTextFile = "report.txt", *kSamplesFile = "samples.csv";
+                     *kReportTextFile = "report.txt", *kReportPage = "report.html",
+                     *kSamplesFile = "samples.csv";
 constexpr const char* kFigureExtensions[] = {".svg", ".png"};
 constexpr std::string_view kComparison = "comparison";
 
@@ -73,6 +76,11 @@ bool shows_planes(const std::vector<plot::Sample>& samples, std::size_t scans) {
          3 * scans;
 }
 
+bool shows_comparison(const fit::Result& result, const std::vector<plot::Sample>& samples) {
+  return !has_absolute_values(result) || (result.reference.quantity == refs::Quantity::kLuminance &&
+                                          shows_planes(samples, result.scans.size()));
+}
+
 void draw_comparison(const std::filesystem::path& directory, const plot::FitOutcome& outcome,
                      const SkyModel& model, Figures& figures) {
   const auto model_named = [&](std::string_view, Transfer) -> const SkyModel& { return model; };
@@ -97,7 +105,8 @@ void draw_measured(const std::filesystem::path& directory, const plot::MeasuredO
 }  // namespace
 
 std::vector<std::string> fit_files() {
-  std::vector<std::string> files = {kPresetFile, kReportFile, kReportTextFile, kSamplesFile};
+  std::vector<std::string> files = {kPresetFile, kReportFile, kReportTextFile, kReportPage,
+                                    kSamplesFile};
   const auto add = [&](std::string_view figure) {
     for (const std::string& file : files_of(figure)) files.push_back(file);
   };
@@ -118,8 +127,7 @@ void write_fit(const std::filesystem::path& directory, const FinishedFit& finish
   write_file(directory / kReportTextFile, fit::full_report(result, finished.checks));
   const std::vector<plot::Sample> samples = samples_of(result);
   write_file(directory / kSamplesFile, plot::samples_to_csv(samples));
-  const bool luminances = result.reference.quantity == refs::Quantity::kLuminance;
-  if (!has_absolute_values(result) || (luminances && shows_planes(samples, result.scans.size())))
+  if (shows_comparison(result, samples))
     draw_comparison(directory, {directory.string(), result.preset, samples}, model, figures);
   if (has_absolute_values(result))
     draw_measured(directory, measured_outcome(result, samples), figures);
@@ -163,6 +171,33 @@ plot::MeasuredOutcome read_measured_outcome(const std::filesystem::path& directo
                                             kPresetFile));
   }
   return outcome;
+}
+
+std::vector<fit::ReportFigure> report_figures(const std::filesystem::path& directory,
+                                              const fit::Result& result, int threads) {
+  const TemporaryDirectory drawn;
+  const std::filesystem::path file = drawn.path() / "figure.svg";
+  std::vector<fit::ReportFigure> figures;
+  const auto add = [&](std::string_view title) {
+    figures.push_back({std::string(title), read_file(file, "a figure")});
+  };
+  const plot::FitOutcome outcome = plot::read_fit_outcome(directory);
+  if (shows_comparison(result, outcome.samples)) {
+    const SpectralData spectra = refs::spectral_data_of(outcome.preset.atmosphere);
+    const auto model = make_sky_model(result.model_name, spectra, threads, result.transfer);
+    const auto model_named = [&](std::string_view, Transfer) -> const SkyModel& { return *model; };
+    plot::write_comparison(plot::comparison_of({&outcome, 1}, spectra, model_named), {file});
+    add("Reference, fit and start in the sun's vertical plane, and maps of the residual over the "
+        "sky");
+  }
+  if (!has_absolute_values(result)) return figures;
+  const plot::MeasuredOutcome measured = read_measured_outcome(directory);
+  for (const plot::MeasuredFigure& figure : plot::measured_figures()) {
+    if (!figure.can_draw(measured)) continue;
+    plot::write_figure(plot::draw(figure, {&measured, 1}), {file});
+    add(figure.meaning);
+  }
+  return figures;
 }
 
 }  // namespace skyfit::cli

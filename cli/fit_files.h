@@ -8,6 +8,7 @@
 
 #include "cli/output.h"
 #include "fit/result/report.h"
+#include "fit/result/report_html.h"
 #include "model/sky_model.h"
 #include "render/plot/measured_result.h"
 
@@ -35,5 +36,9 @@ bool has_absolute_values(const fit::Result& result);
 plot::MeasuredOutcome measured_outcome(const fit::Result& result,
                                        std::vector<plot::Sample> samples);
 plot::MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory);
+
+// The figures of a directory that was read, drawn anew: of a stranger's only numbers are taken.
+std::vector<fit::ReportFigure> report_figures(const std::filesystem::path& directory,
+                                              const fit::Result& result, int threads);
 
 }  // namespace skyfit::cli

@@ -147,18 +147,20 @@ void run_notebook(notebook::Page& page) {
   // ## One fit of all four
   //
   // The aerosol's amount is free for every scan, everything else of the air is shared; every scan
-  // has an azimuth offset of its own. The ground is grass of unknown brightness. On the command
-  // line:
+  // has an azimuth offset of its own. The ground is grass of unknown brightness. The fit starts
+  // from the preset of the truth; without it the air would be dry air of the site's pressure, with
+  // the absorption of O2-O2 and nitrogen dioxide, which this truth has not. On the command line:
   //
   //     skyfit fit --reference 0800.csv,0900.csv,1000.csv,1100.csv
-  //       --per-scan mie.scattering --ground grass --fix mie.scale_height=1200 --out day
+  //       --preset earth-clear --per-scan mie.scattering --ground grass --fix mie.scale_height=1200
+  //       --out day
 
   // %%
   page.cell();
   const auto day = page.scratch("day");
-  skyfit_command({"fit", "--reference", files, "--per-scan", "mie.scattering", "--ground", "grass",
-                  "--fix", "mie.scale_height=1200", "--noise", "0.02", "--hold-out", "5", "--out",
-                  day.string()});
+  skyfit_command({"fit", "--reference", files, "--preset", "earth-clear", "--per-scan",
+                  "mie.scattering", "--ground", "grass", "--fix", "mie.scale_height=1200",
+                  "--noise", "0.02", "--hold-out", "5", "--out", day.string()});
   const nlohmann::json report = read_json(day / "report.json");
   std::cout << fmt::format(
       "luminance error {:.2f} %, spectral error {:.2f} %, chi^2 per degree of "

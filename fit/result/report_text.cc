@@ -7,6 +7,7 @@
 #include "fit/result/findings.h"
 #include "fit/result/record.h"
 #include "fit/result/report.h"
+#include "fit/result/report_words.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -14,8 +15,18 @@ namespace {
 
 constexpr Eigen::Index kFullMatrix = 11;  // unknowns whose correlations fit 100 columns
 
-std::string number(double value, int digits = 5) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("-");
+// What a pull may stand for.
+std::string pull_reason(const Unknown& unknown) {
+  const auto is = [&](const Parameter& id) {
+    return unknown.what == std::variant<Parameter, Instrument>(id);
+  };
+  if (is(Parameter::kMieSingleScatteringAlbedo))
+    return "; an unknown calibration (--scale) may be what it stands for";
+  if (is(Parameter::kRayleighPressure))
+    return "; the air weighs what the site's pressure says (--site-pressure-hpa, elevation_m), so "
+           "that\nit stands for something else: the calibration (--scale), an absorber, the "
+           "aerosol";
+  return "";
 }
 
 std::string trimmed(std::string line) {
@@ -25,17 +36,6 @@ std::string trimmed(std::string line) {
 
 bool relative(const Result& result) {
   return result.reference.quantity == refs::Quantity::kRelativeLuminance;
-}
-
-std::string likelihood_text(const Result& result) {
-  const Likelihood& likelihood = result.likelihood;
-  std::string text = fmt::format("{} residuals, scale {}, pointing {}", link_name(likelihood.link),
-                                 scale_name(likelihood.scale), pointing_name(result.pointing));
-  if (likelihood.noise_is_known) text += ", noise known";
-  if (likelihood.loss != Loss::kNone)
-    text += fmt::format(", {} loss of {:.3g} sigmas", loss_name(likelihood.loss),
-                        likelihood.loss_width);
-  return text;
 }
 
 std::string header(const Result& result) {
@@ -64,18 +64,11 @@ std::string reference_remarks(const Result& result) {
   return text.empty() ? text : text + "\n";
 }
 
-std::string scan_name(const Result& result, std::size_t scan) {
-  const ScanInfo& info = result.scans[scan].info;
-  const std::string name = info.name.substr(info.name.rfind('/') + 1);
-  return fmt::format("[{}] {}, sun {:.4g} deg", scan + 1, name.substr(0, 24),
-                     info.sun_zenith * kDegreesPerRadian);
-}
-
 std::string errors_text(const Result& result) {
   constexpr std::string_view kRow = "{:<44}{:>12}{:>12}{:>12}{:>12}\n";
   const auto row = [&](std::string_view name, const Errors& errors) {
-    return fmt::format(kRow, name, number(errors.rms_log, 4), number(errors.luminance, 4),
-                       number(errors.spectral, 4), number(errors.mean_bias, 3));
+    return fmt::format(kRow, name, number_text(errors.rms_log, 4), number_text(errors.luminance, 4),
+                       number_text(errors.spectral, 4), number_text(errors.mean_bias, 3));
   };
   std::string text =
       fmt::format(kRow, "Errors, percent", "RMS of log", "luminance", "spectral", "mean bias");
@@ -83,16 +76,12 @@ std::string errors_text(const Result& result) {
   text += row("all scans, fitted", result.errors);
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     text += row(scan_name(result, s), result.scans[s].errors);
-  return text +
-         "RMS of log: root mean square of ln(model / value) with a free scale per scan; luminance: "
-         "of\nmodel / value - 1 over the directions; spectral: |model - value| over |value|, "
-         "2-norms "
-         "over all\nsamples of 400 to 700 nm.\n\n";
+  return text + errors_meaning() + "\n";
 }
 
 std::string rms_text(const Result& result) {
   const auto row = [](std::string_view name, double start, double fitted) {
-    return fmt::format("{:<52}{:>12}{:>12}\n", name, number(start), number(fitted));
+    return fmt::format("{:<52}{:>12}{:>12}\n", name, number_text(start), number_text(fitted));
   };
   const RmsSummary &start = result.start_rms, &fitted = result.rms;
   return fmt::format("{:<52}{:>12}{:>12}\n", "RMS of log ratio, percent", "start", "fitted") +
@@ -110,52 +99,22 @@ std::string scales_text(const Result& result) {
                   "RMS start", "RMS fitted", "scale");
   for (std::size_t s = 0; s < result.scans.size(); ++s) {
     const ScanOutcome& scan = result.scans[s];
-    text += fmt::format("{:<44}{:>14}{:>14}{:>18}\n", scan_name(result, s),
-                        number(scan.start_errors.rms_log, 4), number(scan.errors.rms_log, 4),
-                        number(scan.instrument[static_cast<std::size_t>(Instrument::kScale)]));
+    text +=
+        fmt::format("{:<44}{:>14}{:>14}{:>18}\n", scan_name(result, s),
+                    number_text(scan.start_errors.rms_log, 4), number_text(scan.errors.rms_log, 4),
+                    number_text(scan.instrument[static_cast<std::size_t>(Instrument::kScale)]));
   }
   return text + "\n";
-}
-
-std::string remark(const UnknownRow& row) {
-  if (row.at_bound) {
-    const double value = row.fitted * row.unknown.unit_value();
-    const bool lower = value - row.unknown.lower < row.unknown.upper - value;
-    return fmt::format("at {} bound", lower ? "lower" : "upper");
-  }
-  return row.identifiable ? "" : "not identifiable";
 }
 
 std::string fixed_text(const Result& result) {
   std::string text;
   for (const FixedRow& row : result.fixed) {
     text += fmt::format("{:<28} {:<4}{:>9}{:>11}{:>10} fixed\n", row.parameter.name(),
-                        parameter_info(row.parameter).unit, number(row.start, 4), number(row.value),
-                        "-");
+                        parameter_info(row.parameter).unit, number_text(row.start, 4),
+                        number_text(row.value), "-");
   }
   return text;
-}
-
-std::string sigma_text(const Result& result) {
-  std::string text;
-  if (result.likelihood.noise_is_known) {
-    text = fmt::format(
-        "One sigma is from the known noise ({:.3g} % root mean square) and the priors; chi^2 per "
-        "degree of\nfreedom = {:.4g} (well above 1: the misfit is larger than the noise).\n",
-        result.sigma_percent, result.chi_square_per_dof);
-  } else {
-    text = fmt::format(
-        "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "
-        "assumed.\nCorrelated as the residuals are, {} samples count as {:.3g} independent ones. "
-        "chi^2 per degree of\nfreedom under the assumed noise: {:.4g}.\n",
-        result.sigma_percent, result.sigma_factor, result.samples, result.effective_samples,
-        result.chi_square_per_dof);
-  }
-  return text +
-         "\"not identifiable\": the data say less about the unknown than its prior (without one: "
-         "than its\nbounds). An unknown at a bound has no sigma; the sigmas of the others hold for "
-         "it at "
-         "that\nbound.\n";
 }
 
 std::string unknowns_text(const Result& result) {
@@ -163,46 +122,16 @@ std::string unknowns_text(const Result& result) {
   std::string text = trimmed(fmt::format(kRow, "unknown ([scan])", "unit", "start", "fitted",
                                          "one sigma", "prior", "remark"));
   for (const UnknownRow& row : result.unknowns) {
-    const std::optional<Prior>& prior = row.unknown.prior;
-    const double unit = row.unknown.unit_value();
-    text += trimmed(fmt::format(
-        kRow, row.unknown.name(), row.unknown.unit(), number(row.start, 4), number(row.fitted),
-        number(row.sigma, 3),
-        prior ? fmt::format("{:.4g}+-{:.3g}", prior->mean / unit, prior->sigma / unit) : "none",
-        remark(row)));
+    text += trimmed(fmt::format(kRow, row.unknown.name(), row.unknown.unit(),
+                                number_text(row.start, 4), number_text(row.fitted),
+                                number_text(row.sigma, 3), prior_text(row), remark_text(row)));
   }
   return text + fixed_text(result) + "\n" + sigma_text(result) + "\n";
 }
 
-// What a pull may stand for.
-std::string pull_reason(const Unknown& unknown) {
-  const auto is = [&](const Parameter& id) {
-    return unknown.what == std::variant<Parameter, Instrument>(id);
-  };
-  if (is(Parameter::kMieSingleScatteringAlbedo))
-    return "; an unknown calibration (--scale) may be what it stands for";
-  if (is(Parameter::kRayleighPressure))
-    return "; the air weighs what the site's pressure says (--site-pressure-hpa, elevation_m), so "
-           "that\nit stands for something else: the calibration (--scale), an absorber, the "
-           "aerosol";
-  return "";
-}
-
-// A prior that the misfit overrides: the unknown is neither known nor at its prior. The pressure of
-// the air is known better than a sky can tell it, so that it is said whatever the sky tells.
-std::string pulled_text(const Result& result) {
-  constexpr double kPulled = 2;  // prior sigmas
+std::string pulled_text(const std::vector<std::string>& sentences) {
   std::string text;
-  for (const UnknownRow& row : result.unknowns) {
-    const std::optional<Prior>& prior = row.unknown.prior;
-    const bool is_air =
-        row.unknown.what == std::variant<Parameter, Instrument>(Parameter::kRayleighPressure);
-    if (!prior || (row.identifiable && !is_air)) continue;
-    const double pull = (row.fitted * row.unknown.unit_value() - prior->mean) / prior->sigma;
-    if (std::abs(pull) < kPulled) continue;
-    text += fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there{}.\n",
-                        row.unknown.name(), pull, pull_reason(row.unknown));
-  }
+  for (const std::string& sentence : sentences) text += sentence + "\n";
   return text.empty() ? text : text + "\n";
 }
 
@@ -246,8 +175,8 @@ std::string starts_text(const Result& result) {
   for (std::size_t i = 0; i < result.starts.size(); ++i) {
     const StartSummary& start = result.starts[i];
     text += fmt::format("{:>3}  {:<50}{:>14} in {:>3} iterations{}\n", i + 1, start.name,
-                        std::isfinite(start.cost) ? number(start.cost) : "failed", start.iterations,
-                        start.best ? "  best" : "");
+                        std::isfinite(start.cost) ? number_text(start.cost) : "failed",
+                        start.iterations, start.best ? "  best" : "");
   }
   return text + "\n";
 }
@@ -257,7 +186,7 @@ std::string findings_text(const Result& result) {
       fmt::format("{:<42}{:>12}  {}\n", "Physics found", "value", "plausible, source");
   for (const Finding& finding : findings(result.preset.atmosphere)) {
     text += fmt::format("{:<42}{:>12}  {:.3g}..{:.3g}{}\n    {}\n", finding.name,
-                        number(finding.value, 4), finding.lower, finding.upper,
+                        number_text(finding.value, 4), finding.lower, finding.upper,
                         finding.plausible() ? "" : " NO", finding.source);
   }
   return text + "\n";
@@ -266,12 +195,12 @@ std::string findings_text(const Result& result) {
 std::string profiles_text(const std::vector<Profile>& profiles) {
   std::string text;
   for (const Profile& profile : profiles) {
-    text +=
-        fmt::format("Profile likelihood of {}, {}: 68 % {} .. {}, 95 % {} .. {}\n", profile.name,
-                    profile.unit, number(profile.percent68.lower), number(profile.percent68.upper),
-                    number(profile.percent95.lower), number(profile.percent95.upper));
+    text += fmt::format("Profile likelihood of {}, {}: 68 % {} .. {}, 95 % {} .. {}\n",
+                        profile.name, profile.unit, number_text(profile.percent68.lower),
+                        number_text(profile.percent68.upper), number_text(profile.percent95.lower),
+                        number_text(profile.percent95.upper));
     for (std::size_t i = 0; i < profile.value.size(); ++i)
-      text += fmt::format("  {:>12}  chi^2 + {:.4g}\n", number(profile.value[i]),
+      text += fmt::format("  {:>12}  chi^2 + {:.4g}\n", number_text(profile.value[i]),
                           profile.chi_square[i]);
     text += "\n";
   }
@@ -287,8 +216,8 @@ std::string bootstrap_text(const Result& result, const Bootstrap& bootstrap) {
       "sigma", "sigma of covariance");
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     text += fmt::format("{:<32}{:>12}{:>12}{:>22}\n", result.unknowns[u].unknown.name(),
-                        number(bootstrap.mean[u]), number(bootstrap.sigma[u], 3),
-                        number(result.unknowns[u].sigma, 3));
+                        number_text(bootstrap.mean[u]), number_text(bootstrap.sigma[u], 3),
+                        number_text(result.unknowns[u].sigma, 3));
   }
   return text + "\n";
 }
@@ -299,9 +228,10 @@ std::string hold_out_text(const std::vector<HoldOut>& hold_outs) {
   std::string text = fmt::format(kRow, "Errors of what was left out, percent", "RMS log",
                                  "luminance", "spectral", "own: RMS", "luminance", "spectral");
   const auto row = [&](std::string_view name, const Errors& predicted, const Errors& pointed) {
-    return fmt::format(kRow, name, number(predicted.rms_log, 4), number(predicted.luminance, 4),
-                       number(predicted.spectral, 4), number(pointed.rms_log, 4),
-                       number(pointed.luminance, 4), number(pointed.spectral, 4));
+    return fmt::format(kRow, name, number_text(predicted.rms_log, 4),
+                       number_text(predicted.luminance, 4), number_text(predicted.spectral, 4),
+                       number_text(pointed.rms_log, 4), number_text(pointed.luminance, 4),
+                       number_text(pointed.spectral, 4));
   };
   Errors predicted, pointed;
   const auto add = [&](Errors& sum, const Errors& errors) {
@@ -316,9 +246,7 @@ std::string hold_out_text(const std::vector<HoldOut>& hold_outs) {
     add(predicted, held.predicted);
     add(pointed, held.pointed);
   }
-  return text + row("mean", predicted, pointed) +
-         "A scan left out is predicted with the mean instrument of the others (a profiled scale is "
-         "its own),\nthen with its own pointing fitted.\n\n";
+  return text + row("mean", predicted, pointed) + hold_outs_meaning() + "\n";
 }
 
 std::string downweighted_text(const Result& result) {
@@ -328,6 +256,96 @@ std::string downweighted_text(const Result& result) {
 }
 
 }  // namespace
+
+std::string number_text(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("-");
+}
+
+std::string likelihood_text(const Result& result) {
+  const Likelihood& likelihood = result.likelihood;
+  std::string text = fmt::format("{} residuals, scale {}, pointing {}", link_name(likelihood.link),
+                                 scale_name(likelihood.scale), pointing_name(result.pointing));
+  if (likelihood.noise_is_known) text += ", noise known";
+  if (likelihood.loss != Loss::kNone)
+    text += fmt::format(", {} loss of {:.3g} sigmas", loss_name(likelihood.loss),
+                        likelihood.loss_width);
+  return text;
+}
+
+std::string scan_name(const Result& result, std::size_t scan) {
+  const ScanInfo& info = result.scans[scan].info;
+  const std::string name = info.name.substr(info.name.rfind('/') + 1);
+  return fmt::format("[{}] {}, sun {:.4g} deg", scan + 1, name.substr(0, 24),
+                     info.sun_zenith * kDegreesPerRadian);
+}
+
+std::string errors_meaning() {
+  return "RMS of log: root mean square of ln(model / value) with a free scale per scan; luminance: "
+         "of\nmodel / value - 1 over the directions; spectral: |model - value| over |value|, "
+         "2-norms "
+         "over all\nsamples of 400 to 700 nm.\n";
+}
+
+std::string hold_outs_meaning() {
+  return "A scan left out is predicted with the mean instrument of the others (a profiled scale is "
+         "its own),\nthen with its own pointing fitted.\n";
+}
+
+std::string remark_text(const UnknownRow& row) {
+  if (row.at_bound) {
+    const double value = row.fitted * row.unknown.unit_value();
+    const bool lower = value - row.unknown.lower < row.unknown.upper - value;
+    return fmt::format("at {} bound", lower ? "lower" : "upper");
+  }
+  return row.identifiable ? "" : "not identifiable";
+}
+
+std::string prior_text(const UnknownRow& row) {
+  const std::optional<Prior>& prior = row.unknown.prior;
+  const double unit = row.unknown.unit_value();
+  return prior ? fmt::format("{:.4g}+-{:.3g}", prior->mean / unit, prior->sigma / unit) : "none";
+}
+
+std::string sigma_text(const Result& result) {
+  std::string text;
+  if (result.likelihood.noise_is_known) {
+    text = fmt::format(
+        "One sigma is from the known noise ({:.3g} % root mean square) and the priors; chi^2 per "
+        "degree of\nfreedom = {:.4g} (well above 1: the misfit is larger than the noise).\n",
+        result.sigma_percent, result.chi_square_per_dof);
+  } else {
+    text = fmt::format(
+        "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "
+        "assumed.\nCorrelated as the residuals are, {} samples count as {:.3g} independent ones. "
+        "chi^2 per degree of\nfreedom under the assumed noise: {:.4g}.\n",
+        result.sigma_percent, result.sigma_factor, result.samples, result.effective_samples,
+        result.chi_square_per_dof);
+  }
+  return text +
+         "\"not identifiable\": the data say less about the unknown than its prior (without one: "
+         "than its\nbounds). An unknown at a bound has no sigma; the sigmas of the others hold for "
+         "it at "
+         "that\nbound.\n";
+}
+
+// A prior that the misfit overrides: the unknown is neither known nor at its prior. The pressure of
+// the air is known better than a sky can tell it, so that it is said whatever the sky tells.
+std::vector<std::string> pulled_priors(const Result& result) {
+  constexpr double kPulled = 2;  // prior sigmas
+  std::vector<std::string> sentences;
+  for (const UnknownRow& row : result.unknowns) {
+    const std::optional<Prior>& prior = row.unknown.prior;
+    const bool is_air =
+        row.unknown.what == std::variant<Parameter, Instrument>(Parameter::kRayleighPressure);
+    if (!prior || (row.identifiable && !is_air)) continue;
+    const double pull = (row.fitted * row.unknown.unit_value() - prior->mean) / prior->sigma;
+    if (std::abs(pull) < kPulled) continue;
+    sentences.push_back(
+        fmt::format("{} is {:+.2g} prior sigmas from its prior: the misfit pulls it there{}.",
+                    row.unknown.name(), pull, pull_reason(row.unknown)));
+  }
+  return sentences;
+}
 
 std::string brief_report(const Result& result) {
   const auto open = std::ranges::count_if(result.unknowns,
@@ -347,7 +365,7 @@ std::string brief_report(const Result& result) {
 
 std::string full_report(const Result& result, const Checks& checks) {
   return header(result) + reference_remarks(result) + errors_text(result) + rms_text(result) +
-         scales_text(result) + unknowns_text(result) + pulled_text(result) +
+         scales_text(result) + unknowns_text(result) + pulled_text(pulled_priors(result)) +
          downweighted_text(result) + correlation_text(result) + findings_text(result) +
          starts_text(result) + profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +

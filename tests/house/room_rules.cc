@@ -109,8 +109,9 @@ std::span<const RoomRule> room_rules() {
        kMath + std::vector<std::string>{"OpenImageIO"},
        kMathLibraries + std::vector<std::string>{"OpenImageIO::"}},
       {"fit", kModelRooms + std::vector<std::string>{"model", "data_refs"},
-       kMath + std::vector<std::string>{"ceres", "glog"},
-       kMathLibraries + std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::"}},
+       kMath + std::vector<std::string>{"ceres", "glog", "pugixml.hpp"},
+       kMathLibraries +
+           std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::", "pugixml::"}},
       {"render", kModelRooms + std::vector<std::string>{"model"},
        kMath + std::vector<std::string>{"glm", "glad", "GL", "EGL", "KHR", "OpenImageIO", "OpenEXR",
                                         "Imath", "Imf*", "tiny_obj_loader.h"},

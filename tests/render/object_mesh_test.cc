@@ -123,6 +123,18 @@ TEST_F(ObjFiles, MaterialsHaveTheirColors) {
   for (const double value : of_face(2)) EXPECT_NEAR(value, 1, 1e-6);  // no more than all light
 }
 
+TEST_F(ObjFiles, ABackslashJoinsALineToTheNext) {
+  const std::string vertices = "v 0 0 \\\n0\nv 1 0 0\r\nv 0 1 0\n";
+  EXPECT_EQ(read(vertices + "f 1 \\\r\n2 \\\n3\n").indices.size(), 3);
+  EXPECT_EQ(read(vertices + "f 1 2 3\\").indices.size(), 3);
+  try {  // lines count as those of the file
+    read(vertices + "f 1 \\\n2 3\nf 1 2 x\n");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("mesh.obj:7: "));
+  }
+}
+
 TEST_F(ObjFiles, TrianglesWithoutAreaAreLeftOut) {
   const ObjectMesh mesh = read("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
   EXPECT_EQ(mesh.indices.size(), 3);

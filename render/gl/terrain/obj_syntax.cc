@@ -7,9 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "model/base/text.h"
 
@@ -31,14 +31,13 @@ class Checker {
  public:
   explicit Checker(const std::filesystem::path& file) : file_(file) {}
 
-  MaterialUses check() {
-    std::ifstream in(file_);
-    std::string text;
-    while (std::getline(in, text)) {
+  MaterialUses check(std::string_view text) {
+    while (!text.empty()) {
       ++line_;
-      check_line(text);
+      const std::string_view line = text.substr(0, text.find('\n'));
+      check_line(line);
+      text.remove_prefix(std::min(line.size() + 1, text.size()));
     }
-    if (!in.eof()) fail_file("cannot be read");
     if (triangles_ == 0) fail_file("no faces");
     vertices_.expect_enough(*this);
     normals_.expect_enough(*this);
@@ -132,6 +131,29 @@ class Checker {
 
 }  // namespace
 
-MaterialUses check_obj(const std::filesystem::path& file) { return Checker(file).check(); }
+std::string with_joined_lines(std::string_view obj) {
+  std::string text;
+  text.reserve(obj.size() + 1);
+  std::size_t joined = 0;
+  while (!obj.empty()) {
+    std::string_view line = obj.substr(0, obj.find('\n'));
+    obj.remove_prefix(std::min(line.size() + 1, obj.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const bool goes_on = line.ends_with('\\');
+    if (goes_on) line.remove_suffix(1);
+    text += line;
+    if (goes_on) {
+      text += ' ';
+      ++joined;
+    } else {
+      text.append(1 + std::exchange(joined, 0), '\n');
+    }
+  }
+  return text;
+}
+
+MaterialUses check_obj(const std::filesystem::path& file, std::string_view text) {
+  return Checker(file).check(text);
+}
 
 }  // namespace skyfit

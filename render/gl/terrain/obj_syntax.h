@@ -6,15 +6,21 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace skyfit {
 
 // Materials that the faces ask for, and the line of the first that does.
 using MaterialUses = std::map<std::string, int>;
 
-// Throws std::runtime_error `file:line: what was found and what was expected`: a vertex or normal
-// that is not three finite numbers, a face of less than three corners or of an index that is not in
-// the file; `file: ...`: unreadable, no faces, more than 50 million triangles.
-MaterialUses check_obj(const std::filesystem::path& file);
+// The text with each line that ends in a backslash joined to the next. Empty lines after the joined
+// one keep the numbers of those that follow.
+std::string with_joined_lines(std::string_view obj);
+
+// `text` is the file's with joined lines. Throws std::runtime_error `file:line: what was found and
+// what was expected`: a vertex or normal that is not three finite numbers, a face of less than three
+// corners or of an index that is not in the file; `file: ...`: no faces, more than 50 million
+// triangles.
+MaterialUses check_obj(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace skyfit

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <glm/glm.hpp>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "model/base/text.h"
 #include "render/gl/terrain/color_reflectance.h"
@@ -51,12 +51,12 @@ class MaterialFiles : public tinyobj::MaterialReader {
 };
 
 ObjFile parsed(const fs::path& file, NamedFiles named) {
-  require_regular_file(file, "a mesh", kMostMeshBytes);
-  const MaterialUses uses = check_obj(file);
+  std::string joined = with_joined_lines(read_file(file, "a mesh", kMostMeshBytes));
+  const MaterialUses uses = check_obj(file, joined);
   ObjFile obj;
   std::string warning, error;
   MaterialFiles material_files(file, named);
-  std::ifstream text(file);
+  std::istringstream text(std::move(joined));
   if (!tinyobj::LoadObj(&obj.elements, &obj.shapes, &obj.materials, &warning, &error, &text,
                         &material_files, true, false)) {
     throw std::runtime_error(

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sentences and cells that the reports as text and as a page share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/result/result.h"
+
+namespace skyfit::fit {
+
+// "-" where there is none.
+std::string number_text(double value, int digits = 5);
+// Link, scale, pointing, noise and loss.
+std::string likelihood_text(const Result& result);
+// "[2] 1030.csv, sun 45.1 deg"; `scan` from 0.
+std::string scan_name(const Result& result, std::size_t scan);
+// "at lower bound", "not identifiable" or nothing.
+std::string remark_text(const UnknownRow& row);
+std::string prior_text(const UnknownRow& row);
+// What one sigma is made of; lines of at most 100 columns.
+std::string sigma_text(const Result& result);
+// What "RMS of log", "luminance", "spectral" and "own" errors are.
+std::string errors_meaning();
+std::string hold_outs_meaning();
+// A sentence for each prior that the misfit overrides; the same lines.
+std::vector<std::string> pulled_priors(const Result& result);
+
+}  // namespace skyfit::fit
