@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "model/atmosphere/derived.h"
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/profile.h"
 
 namespace skyfit::fit {
@@ -21,7 +23,7 @@ double depth(const Atmosphere<double>& atmosphere, const Constituent<double>& c,
 
 double albedo(const Constituent<double>& c, double nm) {
   if (!scatters(c)) return 0;
-  return c.albedo_spectrum ? c.albedo_spectrum->at(nm) : c.single_scattering_albedo;
+  return single_scattering_albedo_at(with_scalar<Dual<0>>(c), nm).v;
 }
 
 // Optical depths of scattering and of extinction at red, green and blue.
@@ -112,8 +114,7 @@ Rgb coefficients(const Constituent<double>& c) {
   Rgb values;
   for (std::size_t k = 0; k < 3; ++k) {
     const double nm = kEngineWavelengths_nm[k];
-    values[k] = c.amount * (c.spectrum ? c.spectrum->at(nm) / c.spectrum->at(c.wavelength_nm)
-                                       : std::pow(nm / c.wavelength_nm, -c.angstrom_exponent));
+    values[k] = c.amount * relative_coefficient_at(with_scalar<Dual<0>>(c), nm).v;
   }
   return values;
 }

@@ -20,6 +20,8 @@ bool is_scale(const Parameter& id) {
     case Quantity::kExtinction:
     case Quantity::kOpticalDepth:
     case Quantity::kScaleHeight:
+    case Quantity::kVolume:
+    case Quantity::kRadius:
       return true;
     default:
       return false;
@@ -28,7 +30,9 @@ bool is_scale(const Parameter& id) {
 
 void move_to_bounds_wavelength(Constituent<double>& c) {
   constexpr double kBoundsWavelengthNm = 550;
-  if (!is_at_wavelength(c.amount_type) || c.spectrum) return;
+  if (!is_at_wavelength(c.amount_type) || c.spectrum ||
+      c.phase.type == PhaseType::kSizeDistribution)
+    return;
   c.amount *= std::pow(kBoundsWavelengthNm / c.wavelength_nm, -c.angstrom_exponent);
   c.wavelength_nm = kBoundsWavelengthNm;
 }

@@ -21,12 +21,12 @@ std::vector<Finding> findings(const Atmosphere<double>& atmosphere) {
   if (const Constituent<double>* const main = main_aerosol(atmosphere)) {
     // Between the optical depths and the turbidity, and before the ground.
     found.insert(found.begin() + 2, {"Angstrom exponent of the scattering", "angstrom_exponent",
-                                     main->angstrom_exponent, 0, 2.3,
+                                     angstrom_exponent(*main), 0, 2.3,
                                      "Dubovik et al. 2002: dust 0.1, urban and smoke to 2.3"});
     found.insert(
         found.end() - 1,
         {{"single scattering albedo at 550 nm", "single_scattering_albedo",
-          main->single_scattering_albedo, 0.82, 1, "Dubovik et al. 2002: 0.83 smoke to 0.98"},
+          single_scattering_albedo(*main), 0.82, 1, "Dubovik et al. 2002: 0.83 smoke to 0.98"},
          {"mean cosine of the phase function", "aerosol_mean_cosine", mean_cosine(main->phase),
           0.55, 0.8, "Andrews et al. 2006: 0.55 to 0.72; dust and sea salt to 0.8"}});
   }

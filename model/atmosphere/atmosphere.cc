@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "model/atmosphere/mie.h"
 #include "model/atmosphere/validation.h"
 
 namespace skyfit {
@@ -32,6 +34,7 @@ constexpr double kMostExponent = 20;
 constexpr double kLeastAsymmetry = -0.8, kMostAsymmetry = 0.999;
 constexpr double kLeastWavelength = 1, kMostWavelength = 1e6;       // nm
 constexpr double kMostColumn = 1e5;                                 // DU
+constexpr double kMostVolume = 1e5;                                 // um^3/um^2
 constexpr double kMostPressure = 1e6;                               // hPa
 constexpr double kLeastTemperature = 100, kMostTemperature = 1000;  // K
 constexpr double kMostCo2 = 1e5;                                    // ppm: of air
@@ -39,6 +42,27 @@ constexpr double kMostCo2 = 1e5;                                    // ppm: of a
 void validate_asymmetry(const std::string& path, double g) {
   expect(g >= kLeastAsymmetry && g <= kMostAsymmetry, path, g,
          fmt::format("an asymmetry from {} to {}", kLeastAsymmetry, kMostAsymmetry));
+}
+
+void validate(const SizeDistribution<double>& particles, const std::string& path) {
+  constexpr double kLeastRadius_um = 1e-3, kMostRadius_um = 200, kLeastWidth = 0.05, kMostWidth = 2;
+  constexpr double kShortest = 300;  // nm, at which the largest ones must be within Mie's reach
+  if (particles.tables == nullptr) fail_text(path + ".type", "size-distribution", "tables");
+  const double radius = particles.radius_um, width = particles.width;
+  expect(radius >= kLeastRadius_um && radius <= kMostRadius_um, path + ".median_radius_um", radius,
+         fmt::format("a radius from {} to {} um", kLeastRadius_um, kMostRadius_um));
+  expect(width >= kLeastWidth && width <= kMostWidth, path + ".width", width,
+         fmt::format("a width from {} to {}", kLeastWidth, kMostWidth));
+  const double largest = kLargestSizeParameter * 1e-3 * kShortest / (2 * std::numbers::pi);
+  expect(largest_radius_um(radius, width) <= largest, path + ".median_radius_um", radius,
+         fmt::format("at most {:.4g} um beside a width of {}: spheres up to {:.4g} um can be "
+                     "computed",
+                     radius * largest / largest_radius_um(radius, width), width, largest));
+  if (particles.index_spectrum) return;
+  expect(particles.index_real >= kLeastReal && particles.index_real <= kMostIndex,
+         path + ".refractive_index.real", particles.index_real, kRealIndex);
+  expect(particles.index_imaginary >= 0 && particles.index_imaginary <= kMostIndex,
+         path + ".refractive_index.imaginary", particles.index_imaginary, kImaginaryIndex);
 }
 
 void validate(const PhaseFunction<double>& phase, const std::string& path) {
@@ -57,6 +81,8 @@ void validate(const PhaseFunction<double>& phase, const std::string& path) {
     case PhaseType::kTabulated:
       if (phase.table == nullptr) fail_text(path + ".type", "tabulated", "a table");
       return;
+    case PhaseType::kSizeDistribution:
+      return validate(phase.particles, path);
     case PhaseType::kByWavelength:
       if (phase.by_wavelength == nullptr)
         fail_text(path + ".type", "tabulated-by-wavelength", "tables");
@@ -112,6 +138,13 @@ void validate_amount(const Constituent<double>& c, const std::string& path) {
   if (c.amount_type == AmountType::kColumn) {
     return expect(c.amount >= 0 && c.amount <= kMostColumn, at, c.amount,
                   fmt::format("a column from 0 to {} DU", kMostColumn));
+  }
+  if (c.amount_type == AmountType::kVolume) {
+    if (c.phase.type != PhaseType::kSizeDistribution)
+      fail_text(path + ".phase.type", phase_kind(c.phase.type),
+                "size-distribution beside a volume");
+    return expect(c.amount >= 0 && c.amount <= kMostVolume, at, c.amount,
+                  fmt::format("a volume from 0 to {} um^3/um^2", kMostVolume));
   }
   if (c.amount_type == AmountType::kAirPressure) {
     expect(c.co2_ppm >= 0 && c.co2_ppm <= kMostCo2, path + ".rayleigh.co2_ppm", c.co2_ppm,
@@ -191,6 +224,8 @@ std::string_view amount_path(AmountType type) {
       return "rayleigh.pressure_hpa";
     case AmountType::kOxygenPairs:
       return "oxygen_pairs.pressure_hpa";
+    case AmountType::kVolume:
+      return "volume_um3_per_um2";
     case AmountType::kColumn:
       break;
   }
@@ -208,6 +243,8 @@ std::string_view phase_kind(PhaseType type) {
     case PhaseType::kTabulated:
     case PhaseType::kByWavelength:
       return "a tabulated phase function";
+    case PhaseType::kSizeDistribution:
+      return "particles of a size distribution";
     case PhaseType::kRayleigh:
       return "Rayleigh's phase function";
     default:

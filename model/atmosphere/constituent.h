@@ -12,6 +12,7 @@
 
 #include "model/atmosphere/dry_air.h"
 #include "model/atmosphere/linear_profile.h"
+#include "model/atmosphere/size_distribution.h"
 #include "model/atmosphere/spectrum_table.h"
 #include "model/atmosphere/tabulated_phase.h"
 #include "model/numerics/dual.h"
@@ -26,6 +27,7 @@ enum class PhaseType {
   kTabulated = 3,
   kRayleigh = 4,
   kByWavelength = 5,
+  kSizeDistribution = 6,
 };
 
 // All forms integrate to 1 over the sphere, g > 0 scatters forward. kTwoLobe: weight P(g1) +
@@ -40,10 +42,18 @@ struct PhaseFunction {
                                                 // right angle; 0.0279 for dry air
   std::shared_ptr<const TabulatedPhase> table = nullptr;         // kTabulated only
   std::shared_ptr<const SpectralPhase> by_wavelength = nullptr;  // kByWavelength only
+  SizeDistribution<T> particles{};                               // kSizeDistribution only,
+  std::shared_ptr<const ParticleOptics> optics = nullptr;  // at one wavelength, see phase_at()
   bool operator==(const PhaseFunction&) const = default;
 };
 
-// "one lobe", "two lobes", "a tabulated phase function" or "Rayleigh's phase function".
+// Whether it is another at another wavelength.
+constexpr bool depends_on_wavelength(PhaseType type) {
+  return type == PhaseType::kByWavelength || type == PhaseType::kSizeDistribution;
+}
+
+// "one lobe", "two lobes", "a tabulated phase function", "particles of a size distribution" or
+// "Rayleigh's phase function".
 std::string_view phase_kind(PhaseType type);
 
 enum class ProfileType {
@@ -83,6 +93,7 @@ enum class AmountType {
   kAirPressure,   // pressure of dry air at the ground, hPa: its column scatters as in dry_air.h
   kOxygenPairs,   // pressure of dry air at the ground, hPa: the pairs of its oxygen molecules
                   // absorb (collision-induced), as many as dry_air.h says
+  kVolume,        // volume of the particles above an area, um^3/um^2; they have a size distribution
 };
 
 // The gas of a column.
@@ -103,7 +114,8 @@ struct Constituent {
   T amount{};
   double wavelength_nm = 550;  // of an amount that is_at_wavelength()
   // How coefficients depend on wavelength: (lambda / wavelength_nm)^-angstrom_exponent, or a table
-  // over its value at wavelength_nm.
+  // over its value at wavelength_nm; neither of particles with a size distribution, whose
+  // coefficients and single scattering albedo follow from it.
   T angstrom_exponent{};
   std::shared_ptr<const SpectrumTable> spectrum;
   // The coefficient is that of the standard pressure and goes as the pressure of the site.

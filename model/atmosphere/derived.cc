@@ -74,6 +74,19 @@ double mean_cosine(const PhaseFunction<double>& phase) {
   return phase_moments(phase_at(phase, kGreen), 2)[1];
 }
 
+double single_scattering_albedo(const Constituent<double>& constituent) {
+  return single_scattering_albedo_at(with_scalar<Dual<0>>(constituent), kGreen).v;
+}
+
+double angstrom_exponent(const Constituent<double>& constituent) {
+  if (constituent.phase.type != PhaseType::kSizeDistribution) return constituent.angstrom_exponent;
+  constexpr double kBlue = 440, kRed = 675;  // nm
+  const SizeDistribution<double>& particles = constituent.phase.particles;
+  return std::log(optics_at(particles, kBlue)->scattering[0] /
+                  optics_at(particles, kRed)->scattering[0]) /
+         std::log(kRed / kBlue);
+}
+
 double aerosol_mean_cosine(const Atmosphere<double>& atmosphere) {
   const Constituent<double>* const aerosol = main_aerosol(atmosphere);
   return aerosol == nullptr ? 0 : mean_cosine(aerosol->phase);

@@ -31,6 +31,13 @@ const Constituent<double>* main_cloud(const Atmosphere<double>& atmosphere);
 // 1992, eq. 9, is not g: <cos> = g 3 (4 + g^2) / (5 (2 + g^2)).
 double mean_cosine(const PhaseFunction<double>& phase);
 
+// Of a constituent that scatters, at 550 nm.
+double single_scattering_albedo(const Constituent<double>& constituent);
+
+// As it is stated; of particles with a size distribution that of their scattering from 440 to 675
+// nm.
+double angstrom_exponent(const Constituent<double>& constituent);
+
 // Of the main aerosol; 0 where there is none.
 double aerosol_mean_cosine(const Atmosphere<double>& atmosphere);
 

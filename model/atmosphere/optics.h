@@ -25,11 +25,12 @@ struct Scatterer {
   std::size_t profile;           // of the shells
   Dual<N> scattering;            // true, where the density is 1, 1/m: for single scattering
   Dual<N> scaled_scattering;     // delta-M-scaled
-  PhaseFunction<Dual<N>> phase;  // true; never kByWavelength
+  PhaseFunction<Dual<N>> phase;  // true, at the wavelength
   std::vector<Dual<N>> moments;  // of the delta-M-scaled phase function; further ones are 0
 };
 
-// Whether it has Rayleigh's phase matrix; the light of the others counts as unpolarised.
+// Whether it has Rayleigh's phase matrix; polarised light that the others scatter stays as it is in
+// part, docs/theory (13.8), and becomes unpolarised otherwise.
 template <int N>
 bool polarises(const Scatterer<N>& s) {
   return s.phase.type == PhaseType::kRayleigh;
@@ -98,6 +99,38 @@ template <int N>
 struct Coefficients {
   Dual<N> extinction, scattering;
 };
+// Of particles with a size distribution, per volume, 1/um.
+template <int N>
+Coefficients<N> of_particles(const SizeDistribution<Dual<N>>& particles, double wavelength_nm) {
+  const std::shared_ptr<const ParticleOptics> optics = optics_at(particles, wavelength_nm);
+  const Dual<N> scattering = with_slopes(optics->scattering, particles);
+  return {particles.absorbs ? with_slopes(optics->extinction, particles) : scattering, scattering};
+}
+
+// Of one that scatters: its single scattering albedo.
+template <int N>
+Dual<N> single_scattering_albedo_at(const Constituent<Dual<N>>& c, double wavelength_nm) {
+  if (c.phase.type == PhaseType::kSizeDistribution) {
+    const Coefficients<N> k = of_particles(c.phase.particles, wavelength_nm);
+    return k.scattering / k.extinction;
+  }
+  return c.albedo_spectrum ? Dual<N>(c.albedo_spectrum->at(wavelength_nm))
+                           : c.single_scattering_albedo;
+}
+
+// Of an amount that is_at_wavelength(): its coefficient at a wavelength over that at its own.
+template <int N>
+Dual<N> relative_coefficient_at(const Constituent<Dual<N>>& c, double wavelength_nm) {
+  if (c.phase.type == PhaseType::kSizeDistribution) {
+    const Coefficients<N> here = of_particles(c.phase.particles, wavelength_nm),
+                          stated = of_particles(c.phase.particles, c.wavelength_nm);
+    return c.amount_type == AmountType::kScattering ? here.scattering / stated.scattering
+                                                    : here.extinction / stated.extinction;
+  }
+  if (c.spectrum) return Dual<N>(c.spectrum->at(wavelength_nm) / c.spectrum->at(c.wavelength_nm));
+  return exp(c.angstrom_exponent * -std::log(wavelength_nm / c.wavelength_nm));
+}
+
 template <int N>
 Coefficients<N> coefficients_at(const Constituent<Dual<N>>& c, const Dual<N>& vertical_column,
                                 const WavelengthNode& node) {
@@ -119,16 +152,15 @@ Coefficients<N> coefficients_at(const Constituent<Dual<N>>& c, const Dual<N>& ve
     const Dual<N> scattering = c.amount * depth_per_hpa / vertical_column;
     return {scattering, scattering};
   }
-  Dual<N> amount = c.amount;
-  if (c.amount_type == AmountType::kOpticalDepth) amount /= vertical_column;
-  if (c.spectrum) {
-    amount *= Dual<N>(c.spectrum->at(node.wavelength_nm) / c.spectrum->at(c.wavelength_nm));
-  } else {
-    amount *= exp(c.angstrom_exponent * -std::log(node.wavelength_nm / c.wavelength_nm));
+  if (c.amount_type == AmountType::kVolume) {
+    const Coefficients<N> k = of_particles(c.phase.particles, node.wavelength_nm);
+    const Dual<N> per_length = c.amount / vertical_column;
+    return {per_length * k.extinction, per_length * k.scattering};
   }
+  Dual<N> amount = c.amount * relative_coefficient_at(c, node.wavelength_nm);
+  if (c.amount_type == AmountType::kOpticalDepth) amount /= vertical_column;
   amount = amount * (c.site_pressure_hpa / kStandardPressureHpa);
-  const Dual<N> albedo = c.albedo_spectrum ? Dual<N>(c.albedo_spectrum->at(node.wavelength_nm))
-                                           : c.single_scattering_albedo;
+  const Dual<N> albedo = single_scattering_albedo_at(c, node.wavelength_nm);
   if (c.amount_type == AmountType::kScattering) return {amount / albedo, amount};
   return {amount, amount * albedo};
 }
@@ -169,10 +201,12 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
 }
 
 // docs/theory (13.8).
-// The share of the scattering that goes forward with its polarisation, from the moments chi_1 and
-// chi_2: the mean of (1 + nu)^2 / 4.
+// The share of the scattering that goes forward with its polarisation: of particles by their
+// scattering matrix, of others from the moments chi_1 and chi_2, the mean of (1 + nu)^2 / 4.
 template <int N>
-Dual<N> kept_polarisation(const std::vector<Dual<N>>& chi) {
+Dual<N> kept_polarisation(const PhaseFunction<Dual<N>>& phase, const std::vector<Dual<N>>& chi) {
+  if (phase.type == PhaseType::kSizeDistribution)
+    return with_slopes(phase.optics->kept_polarisation, phase.particles);
   return Dual<N>(1.0 / 3) + chi[1] * 0.5 + chi[2] * (1.0 / 6);
 }
 
@@ -184,7 +218,7 @@ Optics<N> optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a, const Wa
   for (Scatterer<N>& s : o.scatterers) {
     s.moments = phase_moments(s.phase, moment_count + 1);
     if (!polarises(s))
-      o.polarised_extinction[s.profile] -= s.scattering * kept_polarisation(s.moments);
+      o.polarised_extinction[s.profile] -= s.scattering * kept_polarisation(s.phase, s.moments);
     if (static_cast<int>(s.moments.size()) <= moment_count) continue;  // the rest is 0
     const Dual<N> cut = s.moments.back();
     s.moments.pop_back();

@@ -26,6 +26,7 @@ auto& parameter_field(A& a, const Parameter& parameter) {
     case Quantity::kOpticalDepth:
     case Quantity::kColumn:
     case Quantity::kPressure:
+    case Quantity::kVolume:
       return c.amount;
     case Quantity::kAngstromExponent:
       return c.angstrom_exponent;
@@ -45,6 +46,14 @@ auto& parameter_field(A& a, const Parameter& parameter) {
       return c.phase.g2;
     case Quantity::kPhaseWeight:
       return c.phase.weight;
+    case Quantity::kRadius:
+      return c.phase.particles.radius_um;
+    case Quantity::kWidth:
+      return c.phase.particles.width;
+    case Quantity::kIndexReal:
+      return c.phase.particles.index_real;
+    case Quantity::kIndexImaginary:
+      return c.phase.particles.index_imaginary;
     case Quantity::kAlbedo:
       break;
   }
@@ -70,9 +79,11 @@ Constituent<T> with_scalar(const Constituent<double>& c) {
   s.profile = {
       c.profile.type,   T(c.profile.scale_height_m), T(c.profile.base_m), T(c.profile.top_m),
       c.profile.peak_m, c.profile.half_width_m,      c.profile.table,     c.profile.of};
-  s.phase = {c.phase.type,           T(c.phase.g),      T(c.phase.g1),
-             T(c.phase.g2),          T(c.phase.weight), c.phase.lobe,
-             c.phase.depolarisation, c.phase.table,     c.phase.by_wavelength};
+  s.phase = {c.phase.type,           T(c.phase.g),
+             T(c.phase.g1),          T(c.phase.g2),
+             T(c.phase.weight),      c.phase.lobe,
+             c.phase.depolarisation, c.phase.table,
+             c.phase.by_wavelength,  with_scalar<T>(c.phase.particles)};
   return s;
 }
 

@@ -26,7 +26,7 @@ struct Row {
 // that exist: none of an ensemble scatters mostly backward (g >= 0, where lobes of small particles
 // end at Rayleigh's symmetry), and over a column none absorbs more than 30 % of what it takes out
 // of a beam (Dubovik et al. 2002: 0.86 to 0.98; fresh smoke and towns reach 0.75).
-constexpr std::array<Row, 15> kQuantities = {{
+constexpr std::array<Row, 20> kQuantities = {{
     {kScattering, "scattering", "1/m", 1e-9, 0.1,
      "scattering coefficient of NAME where its density is 1, at its wavelength"},
     {kExtinction, "extinction", "1/m", 1e-9, 0.1,
@@ -36,6 +36,8 @@ constexpr std::array<Row, 15> kQuantities = {{
     {kColumn, "column", "DU", 0.0, 600.0, "vertical column of NAME"},
     {kPressure, "pressure", "hPa", 1.0, 2000.0,
      "pressure at the ground that NAME's amount follows"},
+    {kVolume, "volume", "um", 1e-6, 100.0,
+     "volume of the particles of NAME above an area, um^3/um^2"},
     {kAngstromExponent, "angstrom_exponent", "1", -4.5, 4.5,
      "NAME's coefficients go as wavelength to the minus this"},
     {kSingleScatteringAlbedo, "single_scattering_albedo", "1", 0.7, 1.0,
@@ -48,6 +50,11 @@ constexpr std::array<Row, 15> kQuantities = {{
     {kPhaseG1, "phase.g1", "1", 0.0, 0.98, "asymmetry parameter of NAME's narrower lobe"},
     {kPhaseG2, "phase.g2", "1", 0.0, 0.98, "asymmetry parameter of NAME's wider lobe"},
     {kPhaseWeight, "phase.weight", "1", 0.0, 1.0, "share of NAME's lobe g1"},
+    {kRadius, "radius", "um", 0.01, 30.0, "median radius of the volume of NAME's particles"},
+    {kWidth, "width", "1", 0.15, 1.0, "standard deviation of the logarithm of NAME's radii"},
+    {kIndexReal, "index.real", "1", 1.3, 2.0, "real part of the refractive index of NAME"},
+    {kIndexImaginary, "index.imaginary", "1", 0.0, 0.8,
+     "imaginary part of the refractive index of NAME, which absorbs"},
     {kAlbedo, "albedo", "1", 0.0, 1.0, "Lambertian albedo of the ground"},
 }};
 
@@ -117,23 +124,28 @@ bool states_amount(const Constituent<double>& c, Quantity quantity) {
     case AmountType::kAirPressure:
     case AmountType::kOxygenPairs:
       return quantity == kPressure;
+    case AmountType::kVolume:
+      return quantity == kVolume;
   }
   return false;
 }
 
 bool has_quantity(const Constituent<double>& c, Quantity quantity) {
   const PhaseType phase = c.phase.type;
+  const bool particles = phase == PhaseType::kSizeDistribution;
   switch (quantity) {
     case kScattering:
     case kExtinction:
     case kOpticalDepth:
     case kColumn:
     case kPressure:
+    case kVolume:
       return states_amount(c, quantity);
     case kAngstromExponent:
-      return is_at_wavelength(c.amount_type) && !c.spectrum && phase != PhaseType::kRayleigh;
+      return is_at_wavelength(c.amount_type) && !c.spectrum && !particles &&
+             phase != PhaseType::kRayleigh;
     case kSingleScatteringAlbedo:
-      return scatters(c) && !c.albedo_spectrum && phase != PhaseType::kRayleigh;
+      return scatters(c) && !c.albedo_spectrum && !particles && phase != PhaseType::kRayleigh;
     case kScaleHeight:
       return c.profile.type == ProfileType::kExponential;
     case kBase:
@@ -147,6 +159,12 @@ bool has_quantity(const Constituent<double>& c, Quantity quantity) {
     case kPhaseG2:
     case kPhaseWeight:
       return scatters(c) && phase == PhaseType::kTwoLobe;
+    case kRadius:
+    case kWidth:
+      return particles;
+    case kIndexReal:
+    case kIndexImaginary:
+      return particles && !c.phase.particles.index_spectrum;
     case kAlbedo:
       return false;
   }

@@ -23,6 +23,7 @@ enum class Quantity {
   kOpticalDepth,
   kColumn,
   kPressure,
+  kVolume,
   kAngstromExponent,
   kSingleScatteringAlbedo,
   kScaleHeight,
@@ -32,6 +33,10 @@ enum class Quantity {
   kPhaseG1,
   kPhaseG2,
   kPhaseWeight,
+  kRadius,
+  kWidth,
+  kIndexReal,
+  kIndexImaginary,
   kAlbedo,  // of the ground alone
 };
 
@@ -89,7 +94,7 @@ struct Bounds {
 
 struct ParameterInfo {
   std::string name;       // e.g. "mie.phase.g1"
-  std::string_view unit;  // "1/m", "m", "DU" or "1" for a pure number
+  std::string_view unit;  // "1/m", "m", "um", "DU" or "1" for a pure number
   double lower, upper;    // physical bounds of a fit; a preset may lie outside
   std::optional<Prior> prior;
   bool free_by_default;
@@ -111,7 +116,8 @@ std::vector<Parameter> parameters_of(const Atmosphere<double>& atmosphere);
 Parameter parameter_from_name(std::string_view name);
 
 // Whether the atmosphere has the parameter: a coefficient, an optical depth or a column as its
-// constituent states its amount; g only with one lobe; g1, g2 and weight only with two; a scale
+// constituent states its amount; g only with one lobe; g1, g2 and weight only with two; radius and
+// width only of a size distribution, an index only where it does not depend on wavelength; a scale
 // height only of an exponential profile, base and top only of a layer (a base only above the
 // ground).
 bool has_parameter(const Atmosphere<double>& atmosphere, const Parameter& parameter);

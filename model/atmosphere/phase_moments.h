@@ -12,17 +12,20 @@
 
 namespace skyfit {
 
-// At one wavelength: a table in the place of those by wavelength.
+// At one wavelength: a table in the place of those by wavelength, particles with their optics.
 template <class T>
 PhaseFunction<T> phase_at(PhaseFunction<T> phase, double wavelength_nm) {
   if (phase.type == PhaseType::kByWavelength) {
     phase.table = phase.by_wavelength->at(wavelength_nm);
     phase.type = PhaseType::kTabulated;
+  } else if (phase.type == PhaseType::kSizeDistribution) {
+    phase.optics = optics_at(phase.particles, wavelength_nm);
   }
   return phase;
 }
 
-// 1/sr at the cosine nu of the scattering angle; not of kByWavelength, see phase_at().
+// 1/sr at the cosine nu of the scattering angle; of one that depends_on_wavelength() at one, see
+// phase_at().
 template <class T>
 T phase_value(const PhaseFunction<T>& phase, double nu) {
   Shared<T> shared;
@@ -32,11 +35,26 @@ T phase_value(const PhaseFunction<T>& phase, double nu) {
                                    T(nu));
     case PhaseType::kTabulated:
       return T(phase.table->phase(std::acos(std::clamp(nu, -1.0, 1.0))));
+    case PhaseType::kSizeDistribution:
+      return with_slopes(phase.optics->phase(std::acos(std::clamp(nu, -1.0, 1.0))),
+                         phase.particles);
     case PhaseType::kRayleigh:
       return shared.rayleigh_phase(T(phase.depolarisation), T(nu));
     default:
       return shared.lobe_phase(static_cast<int>(phase.type), phase.g, T(nu));
   }
+}
+
+// docs/theory (13.2) and (13.3).
+// What it makes of unpolarised light: Q in the frame of the scattering plane, 1/sr, at one
+// wavelength. Lobes and tables have no such element: their light counts as unpolarised.
+template <class T>
+T polarising_phase_value(const PhaseFunction<T>& phase, double nu) {
+  if (phase.type == PhaseType::kRayleigh)
+    return T(Shared<double>{}.rayleigh_polarising_phase(phase.depolarisation, nu));
+  if (phase.type != PhaseType::kSizeDistribution) return T(0.0);
+  return with_slopes(phase.optics->polarising_phase(std::acos(std::clamp(nu, -1.0, 1.0))),
+                     phase.particles);
 }
 
 // Moments chi_l, l = 0 .. count - 1: P(nu) = sum_l (2 l + 1) / (4 pi) chi_l P_l(nu), chi_0 = 1.
@@ -84,7 +102,7 @@ inline std::array<double, 3> rayleigh_moments(double depolarisation) {
   return {1.0, 0.0, Shared<double>{}.rayleigh_second_moment(depolarisation)};
 }
 
-// As many as asked for, fewer where the rest is 0. Not of kByWavelength.
+// As many as asked for, fewer where the rest is 0. At one wavelength, see phase_at().
 template <class T>
 std::vector<T> phase_moments(const PhaseFunction<T>& phase, int count) {
   switch (phase.type) {
@@ -95,6 +113,12 @@ std::vector<T> phase_moments(const PhaseFunction<T>& phase, int count) {
     case PhaseType::kTabulated: {
       const std::vector<double> chi = phase.table->moments(count);
       return std::vector<T>(chi.begin(), chi.end());
+    }
+    case PhaseType::kSizeDistribution: {
+      std::vector<T> chi;
+      for (int l = 0; l < count; ++l)
+        chi.push_back(with_slopes(phase.optics->moment(l), phase.particles));
+      return chi;
     }
     case PhaseType::kTwoLobe: {
       std::vector<T> chi = lobe_moments(phase.lobe, phase.g1, count);

@@ -21,13 +21,14 @@ struct Named {
   Enum value;
 };
 
-inline constexpr std::array<Named<PhaseType>, 6> kPhaseTypes = {
+inline constexpr std::array<Named<PhaseType>, 7> kPhaseTypes = {
     {{"cornette-shanks", PhaseType::kCornetteShanks},
      {"henyey-greenstein", PhaseType::kHenyeyGreenstein},
      {"two-lobe", PhaseType::kTwoLobe},
      {"tabulated", PhaseType::kTabulated},
      {"rayleigh", PhaseType::kRayleigh},
-     {"tabulated-by-wavelength", PhaseType::kByWavelength}}};
+     {"tabulated-by-wavelength", PhaseType::kByWavelength},
+     {"size-distribution", PhaseType::kSizeDistribution}}};
 inline constexpr std::array<Named<PhaseType>, 2> kLobeTypes = {kPhaseTypes[0], kPhaseTypes[1]};
 inline constexpr std::array<Named<ProfileType>, 6> kProfileTypes = {
     {{"exponential", ProfileType::kExponential},

@@ -2,8 +2,10 @@
 #include "model/atmosphere/preset_constituents.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <initializer_list>
+#include <vector>
 
 #include "model/atmosphere/preset_choices.h"
 
@@ -16,14 +18,16 @@ struct AmountField {
   AmountType type;
   std::string_view name;
 };
-constexpr std::array<AmountField, 6> kAmounts = {{{AmountType::kScattering, "scattering_per_m"},
+constexpr std::array<AmountField, 7> kAmounts = {{{AmountType::kScattering, "scattering_per_m"},
                                                   {AmountType::kExtinction, "extinction_per_m"},
                                                   {AmountType::kOpticalDepth, "optical_depth"},
                                                   {AmountType::kColumn, "column_du"},
                                                   {AmountType::kAirPressure, "rayleigh"},
-                                                  {AmountType::kOxygenPairs, "oxygen_pairs"}}};
+                                                  {AmountType::kOxygenPairs, "oxygen_pairs"},
+                                                  {AmountType::kVolume, "volume_um3_per_um2"}}};
 constexpr std::string_view kAmountNames =
-    "one of scattering_per_m, extinction_per_m, optical_depth, column_du, rayleigh, oxygen_pairs";
+    "one of scattering_per_m, extinction_per_m, optical_depth, column_du, rayleigh, oxygen_pairs, "
+    "volume_um3_per_um2";
 constexpr std::string_view kBodhaine = "bodhaine-1999";
 
 std::string_view amount_name(AmountType type) {
@@ -92,11 +96,18 @@ void read_amount(const PresetReader& object, const PresetTables& tables, Constit
     c.single_scattering_albedo = 0;
     return;
   }
+  if (c.amount_type == AmountType::kVolume) {
+    c.amount = object.number(found->name);
+    return;
+  }
   const PresetReader law = object.object(found->name);
   law.expect_only({"wavelength_nm", "value", "exponent", "spectrum"});
   c.wavelength_nm = law.number("wavelength_nm");
   c.amount = law.number("value");
-  if (!law.has("spectrum")) {
+  if (c.phase.type == PhaseType::kSizeDistribution) {
+    refuse_beside(law, "particles, whose sizes say how it depends on wavelength",
+                  {"exponent", "spectrum"});
+  } else if (!law.has("spectrum")) {
     c.angstrom_exponent = law.number("exponent");
   } else if (law.has("exponent")) {
     law.fail_value("exponent", "no exponent beside a spectrum");
@@ -108,6 +119,8 @@ void read_amount(const PresetReader& object, const PresetTables& tables, Constit
 void read_albedo(const PresetReader& object, const PresetTables& tables, Constituent<double>& c) {
   constexpr std::string_view kField = "single_scattering_albedo";
   if (!object.has(kField)) return;
+  if (c.phase.type == PhaseType::kSizeDistribution)
+    refuse_beside(object, "particles, whose refractive index says how they absorb", {kField});
   if (object.has_object(kField)) {
     c.albedo_spectrum = read_spectrum(object.object(kField), tables, kAlbedoFormat);
   } else {
@@ -145,6 +158,42 @@ VerticalProfile<double> read_profile(const PresetReader& object, const PresetTab
   return profile;
 }
 
+std::shared_ptr<const RefractiveIndex> read_index_spectrum(const PresetReader& index) {
+  return index.complaining([&] {
+    return std::make_shared<const RefractiveIndex>(
+        "", index.numbers("wavelength_nm"), index.numbers("real"), index.numbers("imaginary"));
+  });
+}
+
+SizeDistribution<double> read_size_distribution(const PresetReader& object) {
+  constexpr std::string_view kIndex = "refractive_index", kMaterial = "material";
+  object.expect_only({"type", "median_radius_um", "width", kMaterial, kIndex});
+  SizeDistribution<double> particles;
+  particles.radius_um = object.number("median_radius_um");
+  particles.width = object.number("width");
+  particles.tables = std::make_shared<const ParticleTables>();
+  if (object.has(kMaterial)) {
+    refuse_beside(object, kMaterial, {kIndex});
+    particles.index_spectrum = index_of_material(object.text(kMaterial));
+    if (particles.index_spectrum == nullptr) {
+      std::vector<std::string_view> names;
+      for (const Material& material : materials()) names.push_back(material.name);
+      object.fail_value(kMaterial, fmt::format("one of {}", fmt::join(names, ", ")));
+    }
+    return particles;
+  }
+  if (!object.has(kIndex)) object.fail_missing("material or refractive_index");
+  const PresetReader index = object.object(kIndex);
+  index.expect_only({"wavelength_nm", "real", "imaginary"});
+  if (index.has("wavelength_nm")) {
+    particles.index_spectrum = read_index_spectrum(index);
+  } else {
+    particles.index_real = index.number("real");
+    particles.index_imaginary = index.number("imaginary");
+  }
+  return particles;
+}
+
 std::shared_ptr<const SpectralPhase> read_spectral_phase(const PresetReader& object) {
   object.expect_only({"type", "wavelength_nm", "scattering_angle_deg", "phase_per_sr"});
   const std::vector<double> angles = object.numbers("scattering_angle_deg");
@@ -165,13 +214,15 @@ ordered_json spectrum_to_json(const SpectrumTable& spectrum, const TableFormat& 
 }
 
 ordered_json amount_to_json(const Constituent<double>& c) {
-  if (c.amount_type == AmountType::kColumn) return c.amount;
+  if (c.amount_type == AmountType::kColumn || c.amount_type == AmountType::kVolume) return c.amount;
   if (c.amount_type == AmountType::kAirPressure)
     return {{"kind", kBodhaine}, {"pressure_hpa", c.amount}, {"co2_ppm", c.co2_ppm}};
   if (c.amount_type == AmountType::kOxygenPairs)
     return {{"pressure_hpa", c.amount}, {"temperature_k", c.temperature_k}};
   ordered_json law = {{"wavelength_nm", c.wavelength_nm}, {"value", c.amount}};
-  if (c.spectrum) {
+  if (c.phase.type == PhaseType::kSizeDistribution) {
+    // It follows from the sizes.
+  } else if (c.spectrum) {
     law["spectrum"] = spectrum_to_json(*c.spectrum, kShapeFormat);
   } else {
     law["exponent"] = c.angstrom_exponent;
@@ -197,11 +248,30 @@ ordered_json to_json(const VerticalProfile<double>& profile) {
   throw std::invalid_argument("an enumerator without a name");
 }
 
+ordered_json to_json(const SizeDistribution<double>& particles, std::string_view type) {
+  ordered_json object = {
+      {"type", type}, {"median_radius_um", particles.radius_um}, {"width", particles.width}};
+  const RefractiveIndex* const spectrum = particles.index_spectrum.get();
+  if (spectrum == nullptr) {
+    object["refractive_index"] = {{"real", particles.index_real},
+                                  {"imaginary", particles.index_imaginary}};
+  } else if (!spectrum->material().empty()) {
+    object["material"] = spectrum->material();
+  } else {
+    object["refractive_index"] = {{"wavelength_nm", spectrum->wavelength_nm()},
+                                  {"real", spectrum->real()},
+                                  {"imaginary", spectrum->imaginary()}};
+  }
+  return object;
+}
+
 ordered_json to_json(const PhaseFunction<double>& phase) {
   const std::string_view type = name_of(phase.type, kPhaseTypes);
   switch (phase.type) {
     case PhaseType::kRayleigh:
       return {{"type", type}, {"depolarisation", phase.depolarisation}};
+    case PhaseType::kSizeDistribution:
+      return to_json(phase.particles, type);
     case PhaseType::kTabulated:
       return table_to_json(phase.table->table(), kPhaseFormat);
     case PhaseType::kTwoLobe:
@@ -236,6 +306,9 @@ PhaseFunction<double> read_phase(const PresetReader& object, const PresetTables&
     case PhaseType::kByWavelength:
       phase.by_wavelength = read_spectral_phase(object);
       break;
+    case PhaseType::kSizeDistribution:
+      phase.particles = read_size_distribution(object);
+      break;
     case PhaseType::kRayleigh:
       object.expect_only({"type", "depolarisation"});
       if (object.has("depolarisation")) phase.depolarisation = object.number("depolarisation");
@@ -256,20 +329,19 @@ PhaseFunction<double> read_phase(const PresetReader& object, const PresetTables&
 
 Constituent<double> read_constituent(const PresetReader& object, const PresetTables& tables) {
   object.expect_only({"name", "note", "scattering_per_m", "extinction_per_m", "optical_depth",
-                      "column_du", "rayleigh", "oxygen_pairs", "absorber", "site_pressure_hpa",
-                      "single_scattering_albedo", "profile", "phase"});
+                      "column_du", "rayleigh", "oxygen_pairs", "volume_um3_per_um2", "absorber",
+                      "site_pressure_hpa", "single_scattering_albedo", "profile", "phase"});
   Constituent<double> c;
   c.name = object.text("name");
+  if (object.has("phase")) c.phase = read_phase(object.object("phase"), tables);
   read_amount(object, tables, c);
   read_albedo(object, tables, c);
   if (object.has("site_pressure_hpa")) c.site_pressure_hpa = object.number("site_pressure_hpa");
   c.profile = read_profile(object.object("profile"), tables);
   if (c.amount_type == AmountType::kAirPressure) return c;
-  if (scatters(c)) {
-    c.phase = read_phase(object.object("phase"), tables);
-  } else if (object.has("phase")) {
+  if (!scatters(c) && object.has("phase"))
     object.fail_value("phase", "no phase function of what does not scatter");
-  }
+  if (scatters(c)) object.object("phase");  // is required
   return c;
 }
 
@@ -278,8 +350,8 @@ ordered_json constituent_to_json(const Constituent<double>& c) {
                          {std::string(amount_name(c.amount_type)), amount_to_json(c)}};
   if (c.amount_type == AmountType::kColumn) {
     object["absorber"] = name_of(c.absorber, kAbsorbers);
-  } else if (!is_at_wavelength(c.amount_type)) {
-    // It follows from the amount.
+  } else if (!is_at_wavelength(c.amount_type) || c.phase.type == PhaseType::kSizeDistribution) {
+    // It follows from the amount or the phase function.
   } else if (c.albedo_spectrum) {
     object["single_scattering_albedo"] = spectrum_to_json(*c.albedo_spectrum, kAlbedoFormat);
   } else {
@@ -288,7 +360,7 @@ ordered_json constituent_to_json(const Constituent<double>& c) {
   if (is_at_wavelength(c.amount_type) && c.site_pressure_hpa != kStandardPressureHpa)
     object["site_pressure_hpa"] = c.site_pressure_hpa;
   object["profile"] = to_json(c.profile);
-  if (is_at_wavelength(c.amount_type) && scatters(c)) object["phase"] = to_json(c.phase);
+  if (c.amount_type != AmountType::kAirPressure && scatters(c)) object["phase"] = to_json(c.phase);
   return object;
 }
 

@@ -57,7 +57,10 @@ Constituent<double> read_mie(const PresetReader& object, const PresetTables& tab
   read_power_law(object, c);
   c.single_scattering_albedo = object.number("single_scattering_albedo");
   c.profile = read_profile(object, tables);
-  c.phase = read_phase(object.object("phase"), tables);
+  const PresetReader phase = object.object("phase");
+  c.phase = read_phase(phase, tables);
+  if (c.phase.type == PhaseType::kSizeDistribution)
+    phase.fail_value("type", "another one: particles of a size distribution need version 2");
   return c;
 }
 

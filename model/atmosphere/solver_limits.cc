@@ -16,6 +16,7 @@ namespace skyfit {
 namespace {
 
 constexpr double kWavelengths[] = {400, 550, 700};  // nm, at which depths are looked at
+constexpr double kGreen = 550;                      // nm
 
 // From this top height over radius on few rays of the diffuse field lie between the horizon and the
 // limb. Their quadrature of scattering gains light, the more the oftener light is scattered: with
@@ -43,6 +44,11 @@ double narrowest_lobe(const PhaseFunction<double>& phase) {
       return std::max(phase.g1, phase.g2);
     case PhaseType::kTabulated:
       return of_table(*phase.table);
+    case PhaseType::kSizeDistribution: {
+      const double last =
+          optics_at(phase.particles, kGreen)->moment(TabulatedPhase::kLastMoment)[0];
+      return std::pow(std::max(last, 0.0), 1.0 / TabulatedPhase::kLastMoment);
+    }
     case PhaseType::kByWavelength: {
       double g = 0;
       for (const auto& table : phase.by_wavelength->phases()) g = std::max(g, of_table(*table));
@@ -73,8 +79,10 @@ void validate_solver_limits(const Atmosphere<double>& a) {
     for (const Constituent<double>& c : a.constituents) {
       const VerticalProfile<double> profile = own_profile(a, c);
       const double column = Profile(profile).vertical_column().value;
+      // Particles are as thick at the others within a factor of some; each wavelength has a table.
+      const double of_limit = c.phase.type == PhaseType::kSizeDistribution ? kGreen : nm;
       const Coefficients<0> k =
-          coefficients_at<0>(with_scalar<Dual<0>>(c), Dual<0>(column), {nm, 0, 0, 0});
+          coefficients_at<0>(with_scalar<Dual<0>>(c), Dual<0>(column), {of_limit, 0, 0, 0});
       const std::string path = c.name + "." + std::string(amount_path(c.amount_type));
       const double coefficient = k.extinction.v * highest_density(profile);
       expect(coefficient <= kMostCoefficient, path, c.amount,

@@ -85,8 +85,7 @@ ClearAir<N> clear_air(const Shells& shells, const Atmosphere<Dual<N>>& atmospher
     } else {
       air.aerosol_scattering = s.scattering;
       const Constituent<Dual<N>>& c = atmosphere.constituents[s.constituent];
-      const Dual<N> albedo = c.albedo_spectrum ? Dual<N>(c.albedo_spectrum->at(node.wavelength_nm))
-                                               : c.single_scattering_albedo;
+      const Dual<N> albedo = single_scattering_albedo_at(c, node.wavelength_nm);
       air.aerosol_extinction = albedo.v > 0 ? s.scattering / albedo : Dual<N>();
       air.aerosol_profile = profile;
       air.aerosol_scale_height = air.shape[s.profile][0];
@@ -166,6 +165,8 @@ Atmosphere<T> without_absorption(Atmosphere<T> atmosphere) {
   for (Constituent<T>& c : atmosphere.constituents) {
     if (!scatters(c)) {
       c.amount = T(0.0);
+    } else if (c.phase.type == PhaseType::kSizeDistribution) {
+      c.phase.particles.absorbs = false;
     } else {
       // What is stated as extinction: as much of it as scatters at the wavelength of the amount.
       if (c.amount_type != AmountType::kScattering)

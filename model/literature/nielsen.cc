@@ -40,8 +40,9 @@ Aerosol<N> aerosol_of(const literature::ClearAir<N>& green) {
       aerosol.hazy_g = phase.weight * phase.g1 + (Dual<N>(1.0) - phase.weight) * phase.g2;
       break;
     case PhaseType::kTabulated:
+    case PhaseType::kSizeDistribution:
       aerosol.type = PhaseType::kHenyeyGreenstein;
-      aerosol.hazy_g = phase.table->moments(2)[1];
+      aerosol.hazy_g = phase_moments(phase, 2)[1];
       break;
     default:
       aerosol.type = phase.type;

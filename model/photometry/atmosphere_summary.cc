@@ -23,8 +23,7 @@ ConstituentSummary summary_of(const Atmosphere<double>& atmosphere, const Consti
     summary.optical_depth[k] = vertical_optical_depth(atmosphere, c, node_at(spectra, nm));
   }
   if (scatters(c)) {
-    summary.single_scattering_albedo =
-        c.albedo_spectrum ? c.albedo_spectrum->at(kGreen) : c.single_scattering_albedo;
+    summary.single_scattering_albedo = single_scattering_albedo(c);
     summary.mean_cosine = mean_cosine(c.phase);
   }
   return summary;

@@ -191,7 +191,7 @@ void MultipleScattering<N>::add(std::span<const PathWithSuns> paths, Stokes whic
     const auto slices = static_cast<std::size_t>(fields_[wave].shape.slices);
     bundle.sums.clear();
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      weights[i] = node_weights(optics_[wave], *paths[i].path);
+      weights[i] = node_weights(optics_[wave], *paths[i].path, bundle.which != Stokes::kI);
       bundle.sums.emplace_back(paths[i].suns.size() * slices, 0.0);
     }
     const auto modes = static_cast<int>(fields_[wave].moments.size());

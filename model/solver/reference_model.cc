@@ -37,14 +37,20 @@ void check_option(bool good, std::string_view name, double value, std::string_vi
 ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& atmosphere) {
   constexpr double kNarrow = 0.1;       // share of the scattering that would be cut off
   constexpr double kNarrowDepth = 0.1;  // the same times the vertical optical depth
-  constexpr double kThick = 0.05;       // top height over radius
+  // A coarse mode beside a fine one scatters so little that its cut hardly shows.
+  constexpr double kThinDepth = 0.01;
+  const auto is_mode = [](const Constituent<double>& c) {
+    return c.phase.type == PhaseType::kSizeDistribution;
+  };
+  constexpr double kThick = 0.05;  // top height over radius
   if (options.moments != ReferenceOptions{}.moments) return options;
   if (atmosphere.top_radius_m > (1 + kThick) * atmosphere.bottom_radius_m) return options;
   const auto is_narrow = [&](const Constituent<double>& c) {
     if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
     constexpr double kGreen = 550;  // nm
     const double cut = phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back();
-    return cut > kNarrow || cut * vertical_optical_depth(atmosphere, c, {kGreen, 0}) > kNarrowDepth;
+    const double depth = cut * vertical_optical_depth(atmosphere, c, {kGreen, 0});
+    return depth > kNarrowDepth || (cut > kNarrow && (!is_mode(c) || depth > kThinDepth));
   };
   if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
     options.streams *= 2;
@@ -93,11 +99,14 @@ using ByStokes = std::map<Stokes, std::vector<T>>;
 template <int N>
 Dual<N> phase_of(const Scatterer<N>& scatterer, const SunAlongRay& sun, Stokes which) {
   if (which == Stokes::kI) return phase_value(scatterer.phase, sun.nu());
-  if (!polarises(scatterer)) return {};
   const SunAlongRay::Azimuth turn = sun.twice_the_turn();
-  return Dual<N>(
-      Shared<double>{}.rayleigh_polarising_phase(scatterer.phase.depolarisation, sun.nu()) *
-      (which == Stokes::kQ ? turn.cosine : turn.sine));
+  return polarising_phase_value(scatterer.phase, sun.nu()) *
+         (which == Stokes::kQ ? turn.cosine : turn.sine);
+}
+
+template <int N>
+bool same_values(const std::vector<Dual<N>>& a, const std::vector<Dual<N>>& b) {
+  return std::ranges::equal(a, b, {}, &Dual<N>::v, &Dual<N>::v);
 }
 
 // Light scattered once, [point][wavelength].
@@ -123,8 +132,12 @@ ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<O
     const RayNodes& along = edges.empty() ? nodes[rays.path_of_point[i]] : own;
     const SunlitNodes sunlit = sunlit_nodes(shells, along, suns[i]);
     for (std::size_t w = 0; w < optics.size(); ++w) {
-      const std::vector<Dual<N>> single = single_scattering(optics[w], along, sunlit);
+      std::vector<Dual<N>> to_eye, single;
       for (auto& [which, values] : light) {
+        const std::vector<Dual<N>> extinction = extinction_to_eye(optics[w], which != Stokes::kI);
+        if (single.empty() || !same_values(extinction, to_eye))
+          single = single_scattering(optics[w], along, sunlit, extinction);
+        to_eye = extinction;
         for (std::size_t s = 0; s < single.size(); ++s)
           values[i * optics.size() + w] +=
               single[s] * phase_of(optics[w].scatterers[s], suns[i], which);

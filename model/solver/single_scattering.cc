@@ -171,16 +171,31 @@ SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunA
 
 template <int N>
 std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
-                                       const SunlitNodes& sunlit) {
+                                       const SunlitNodes& sunlit,
+                                       const std::vector<Dual<N>>& to_eye) {
   const std::size_t count = nodes.points.size(), profiles = optics.profiles.size();
-  std::array<const double*, kMostConstituents> columns;
-  std::array<double, kMostConstituents> extinction;
+  // By the whole way at the sun's extinction, then along the ray by how much that to the eye
+  // differs.
+  struct Term {
+    const std::vector<std::vector<double>>* columns;
+    Dual<N> extinction;
+    std::size_t profile;
+  };
+  std::vector<Term> terms;
+  for (std::size_t k = 0; k < profiles; ++k)
+    terms.push_back({&sunlit.columns[k], optics.scaled_extinction[k], k});
   for (std::size_t k = 0; k < profiles; ++k) {
-    columns[k] = sunlit.columns[k][0].data();
-    extinction[k] = optics.scaled_extinction[k].v;
+    if (to_eye[k].v != optics.scaled_extinction[k].v)
+      terms.push_back({&nodes.columns[k], to_eye[k] - optics.scaled_extinction[k], k});
+  }
+  std::vector<const double*> columns;
+  std::vector<double> extinction;
+  for (const Term& term : terms) {
+    columns.push_back(term.columns->front().data());
+    extinction.push_back(term.extinction.v);
   }
   std::vector<double> through(count), scattered(count);
-  kernels::weighted_transmittances(count, sunlit.weight.data(), profiles, columns.data(),
+  kernels::weighted_transmittances(count, sunlit.weight.data(), terms.size(), columns.data(),
                                    extinction.data(), through.data());
   std::vector<Dual<N>> light;
   for (const Scatterer<N>& scatterer : optics.scatterers) {
@@ -196,12 +211,12 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
       for (std::size_t s = 0; s < optics.profiles[scatterer.profile].shapes(); ++s)
         add(kernels::dot(count, through.data(), density[1 + s].data()),
             optics.shape[scatterer.profile][s]);
-      for (std::size_t k = 0; k < profiles; ++k) {
-        add(-kernels::dot(count, scattered.data(), columns[k]), optics.scaled_extinction[k]);
-        for (std::size_t s = 0; s < optics.profiles[k].shapes(); ++s)
-          add(-extinction[k] *
-                  kernels::dot(count, scattered.data(), sunlit.columns[k][1 + s].data()),
-              optics.shape[k][s]);
+      for (const Term& term : terms) {
+        add(-kernels::dot(count, scattered.data(), term.columns->front().data()), term.extinction);
+        for (std::size_t s = 0; s < optics.profiles[term.profile].shapes(); ++s)
+          add(-term.extinction.v *
+                  kernels::dot(count, scattered.data(), (*term.columns)[1 + s].data()),
+              optics.shape[term.profile][s]);
       }
     }
     light.push_back(scatterer.scattering * sum);
@@ -210,8 +225,9 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
 }
 
 template std::vector<Dual<0>> single_scattering<0>(const Optics<0>&, const RayNodes&,
-                                                   const SunlitNodes&);
+                                                   const SunlitNodes&, const std::vector<Dual<0>>&);
 template std::vector<Dual<kDerivativesAtOnce>> single_scattering<kDerivativesAtOnce>(
-    const Optics<kDerivativesAtOnce>&, const RayNodes&, const SunlitNodes&);
+    const Optics<kDerivativesAtOnce>&, const RayNodes&, const SunlitNodes&,
+    const std::vector<Dual<kDerivativesAtOnce>>&);
 
 }  // namespace skyfit

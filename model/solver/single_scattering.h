@@ -37,9 +37,11 @@ struct SunlitNodes {
 SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunAlongRay& sun);
 
 // Radiance per unit solar irradiance of every scatterer without its phase function (sr^0): multiply
-// by P_i(nu) and add.
+// by P_i(nu) and add. `to_eye`: the extinction along the ray, per profile; the sun's beam has the
+// delta-M-scaled one of the optics.
 template <int N>
 std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
-                                       const SunlitNodes& sunlit);
+                                       const SunlitNodes& sunlit,
+                                       const std::vector<Dual<N>>& to_eye);
 
 }  // namespace skyfit

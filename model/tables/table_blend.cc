@@ -8,6 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
+
 namespace skyfit {
 namespace {
 
@@ -42,6 +45,8 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
                  x.name + ".profile");
     require_same(x.phase.type == y.phase.type, x.name + ".phase.type");
     require_same(x.phase.lobe == y.phase.lobe, x.name + ".phase.lobe");
+    require_same(same_spectrum(x.phase.particles, y.phase.particles),
+                 x.name + ".phase.refractive_index");
     require_same(
         same_table(x.phase.table, y.phase.table) && x.phase.by_wavelength == y.phase.by_wavelength,
         x.name + ".phase");
@@ -54,8 +59,7 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
 // The same with its amount stated at another wavelength.
 Constituent<double> stated_at(Constituent<double> c, double wavelength_nm) {
   if (!is_at_wavelength(c.amount_type)) return c;
-  c.amount *= c.spectrum ? c.spectrum->at(wavelength_nm) / c.spectrum->at(c.wavelength_nm)
-                         : std::pow(wavelength_nm / c.wavelength_nm, -c.angstrom_exponent);
+  c.amount *= relative_coefficient_at(with_scalar<Dual<0>>(c), wavelength_nm).v;
   c.wavelength_nm = wavelength_nm;
   return c;
 }
@@ -93,6 +97,11 @@ Atmosphere<double> interpolated_atmosphere(const Atmosphere<double>& a, const At
     c.phase.g1 = mix(c.phase.g1, end.phase.g1);
     c.phase.g2 = mix(c.phase.g2, end.phase.g2);
     c.phase.weight = mix(c.phase.weight, end.phase.weight);
+    SizeDistribution<double>& particles = c.phase.particles;
+    particles.radius_um = mix(particles.radius_um, end.phase.particles.radius_um);
+    particles.width = mix(particles.width, end.phase.particles.width);
+    particles.index_real = mix(particles.index_real, end.phase.particles.index_real);
+    particles.index_imaginary = mix(particles.index_imaginary, end.phase.particles.index_imaginary);
     c.phase.depolarisation = mix(c.phase.depolarisation, end.phase.depolarisation);
   }
   result.ground_albedo = mix(a.ground_albedo, b.ground_albedo);

@@ -105,7 +105,7 @@ struct TableRay {
 
   NodeValues phase_values(const PhaseFunction<double>& phase) const {
     NodeValues values;
-    if (phase.type != PhaseType::kByWavelength) {
+    if (!depends_on_wavelength(phase.type)) {
       values.fill(phase_value(phase, nu));
       return values;
     }

@@ -43,7 +43,7 @@ void store(Table& table, int x, int y, const NodeValues& value) {
 }
 
 bool is_tabulated(const PhaseFunction<double>& phase) {
-  return phase.type == PhaseType::kTabulated || phase.type == PhaseType::kByWavelength;
+  return phase.type == PhaseType::kTabulated || depends_on_wavelength(phase.type);
 }
 
 // Even steps of the angle, in which the logarithm is piecewise linear.
@@ -57,7 +57,7 @@ Table phase_table(const PhaseClasses& phases, const ColorRule& color) {
       NodeValues value;
       for (std::size_t k = 0; k < 4; ++k) {
         const auto phase = phase_at(phases.others[y], color.nodes[k].wavelength_nm);
-        value[k] = std::log(phase.table->phase(std::numbers::pi * i / kSteps));
+        value[k] = std::log(phase_value(phase, std::cos(std::numbers::pi * i / kSteps)));
       }
       store(table, i, static_cast<int>(y), value);
     }

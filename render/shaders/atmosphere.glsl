@@ -70,7 +70,7 @@ vec4 look_up(sampler3D table, vec3 at) { return texture(table, at); }
 vec4 class_phase(int c, float nu) {
   vec4 p = phase_parameters[c];
   if (kPhaseTypes[c] == 2) return vec4(two_lobe_phase(kLobeTypes[c], p.y, p.z, p.w, nu));
-  if (kPhaseTypes[c] == 3 || kPhaseTypes[c] == 5) {
+  if (kPhaseTypes[c] == 3 || kPhaseTypes[c] == 5 || kPhaseTypes[c] == 6) {
     float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) * kInversePi, float(textureSize(phase_table, 0).x));
     return exp(texture(phase_table, vec2(u, (float(c) + 0.5) / float(kClasses))));
   }

@@ -56,9 +56,7 @@ TEST(StandardSkyTest, WhatTheCallerSaysStays) {
   EXPECT_FALSE(with_standard_sky(options, kind, *model).free);
 }
 
-// Without a cloud type 3 is 1.3 % off with an aerosol that scatters backward, and above 30 % within
-// the bounds of aerosol that exists; under a cloud of any optical depth over bright ground it is a
-// few percent.
+// Under a cloud of any optical depth over bright ground type 3 is a few percent off.
 TEST(StandardSkyTest, AnOvercastSkyIsACloud) {
   const auto model = model_named("reference");
   const refs::Reference reference =

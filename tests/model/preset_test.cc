@@ -207,7 +207,8 @@ TEST(Preset, PhaseHasExactlyTheFieldsOfItsType) {
             "my.json:13: mie.phase.g: unknown name, expected one of type, lobe, g1, g2, weight");
   EXPECT_EQ(complaint(with("cornette-shanks", "mie")),
             "my.json:13: mie.phase.type = \"mie\": expected one of cornette-shanks, "
-            "henyey-greenstein, two-lobe, tabulated, rayleigh, tabulated-by-wavelength");
+            "henyey-greenstein, two-lobe, tabulated, rayleigh, tabulated-by-wavelength, "
+            "size-distribution");
 }
 
 TEST(Preset, MissingNameIsNamed) {

@@ -122,6 +122,37 @@ TEST(Stokes, AgreesWithMonteCarlo) {
   }
 }
 
+// The fine aerosol as particles: its sizes alone make its albedo, phase function and matrix. What
+// it scatters out of the sun's beam is polarised, further light of it is not.
+TEST(Stokes, OfParticlesAgreesWithMonteCarlo) {
+  StokesCase c = stokes_case("miefine550");
+  Constituent<double>& mie = c.atmosphere.at("mie");
+  mie.phase.type = PhaseType::kSizeDistribution;
+  SizeDistribution<double>& particles = mie.phase.particles;
+  particles.width = std::log(1.6);
+  particles.radius_um = 0.2 * std::exp(0.5 * particles.width * particles.width);
+  particles.index_real = 1.45;
+  particles.index_imaginary = 0.01;
+  particles.tables = std::make_shared<const ParticleTables>();
+  std::vector<Row> rows;
+  std::vector<SkyPoint> points;
+  for (const Row& row : read_rows("stokes.csv")) {
+    if (row.field[0] != "miefine550") continue;
+    rows.push_back(row);
+    points.push_back(
+        {0, row.number(1) * kDegree, row.number(2) * kDegree, row.number(3) * kDegree});
+  }
+  const StokesValues model = ReferenceModel({}).stokes(c.atmosphere, {&kNode, 1}, points, {});
+  for (const double sun_deg : {80.0, 88.0}) {
+    const StokesErrors e = stokes_errors(rows, model, sun_deg);
+    std::cout << "particles, suns to " << sun_deg << ": I rms " << 100 * e.i.rms() << " % worst "
+              << 100 * e.i.worst << " %, Q/I rms " << 100 * e.q.rms() << " % worst "
+              << 100 * e.q.worst << " %, U/I rms " << 100 * e.u.rms() << " % worst "
+              << 100 * e.u.worst << " %\n";
+    EXPECT_LT(e.i.rms(), 0.006);
+  }
+}
+
 // Thin air: P11 and P12 of Rayleigh's matrix, turned from the scattering plane.
 TEST(Stokes, OfThinAirIsTheClosedForm) {
   StokesCase c = stokes_case("rayleigh400");
