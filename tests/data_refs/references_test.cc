@@ -92,11 +92,11 @@ TEST(ScatteringAngle, HasItsClosedForms) {
 }
 
 TEST(ShippedPresets, AllReadAndCarryTheirName) {
-  EXPECT_THAT(
-      shipped_preset_names(),
-      ElementsAre("bodare-2014", "bruneton-2008", "earth-alpine", "earth-clear", "earth-hazy",
-                  "earth-volcanic", "hillaire-2020", "mars", "nielsen-2003", "oneil-2005",
-                  "schafhitzel-2007-earth", "schafhitzel-2007-mars", "sperlhofer-2011", "titan"));
+  EXPECT_THAT(shipped_preset_names(),
+              ElementsAre("bodare-2014", "bruneton-2008", "earth-alpine", "earth-clear",
+                          "earth-hazy", "earth-volcanic", "hillaire-2020", "mars", "nielsen-2003",
+                          "oneil-2005", "overcast", "schafhitzel-2007-earth",
+                          "schafhitzel-2007-mars", "sperlhofer-2011", "thin-cloud", "titan"));
   for (const std::string& name : shipped_preset_names()) {
     EXPECT_EQ(parse_preset(shipped_preset_json(name), name).name, name);
   }
@@ -105,7 +105,8 @@ TEST(ShippedPresets, AllReadAndCarryTheirName) {
       ThrowsMessage<std::invalid_argument>(
           "venus: unknown preset, expected one of bodare-2014, bruneton-2008, earth-alpine, "
           "earth-clear, earth-hazy, earth-volcanic, hillaire-2020, mars, nielsen-2003, oneil-2005, "
-          "schafhitzel-2007-earth, schafhitzel-2007-mars, sperlhofer-2011, titan"));
+          "overcast, schafhitzel-2007-earth, schafhitzel-2007-mars, sperlhofer-2011, thin-cloud, "
+          "titan"));
 }
 
 }  // namespace
