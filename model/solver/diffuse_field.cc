@@ -88,7 +88,7 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
 
 // Steps of the iteration that couples the suns: where it does not converge, by day, and in deep
 // twilight, where light comes from a node of the sun grid further with each step or two.
-constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 16;
+constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 24;
 
 // Whether the coupling's iteration has led to a twilight: the mean radiance on the ground is above
 // 0 and falls from sun to sun, no level's is far above those of the sun before, and the first
