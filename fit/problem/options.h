@@ -41,10 +41,10 @@ struct FitOptions {
   std::optional<std::vector<Parameter>> free;
   std::map<Parameter, double> fix;
   std::map<Parameter, Bounds> bounds;  // of free ones, in the place of the table's
-  std::map<Parameter, Prior> priors;  // in the place of the table's, or besides
-  bool use_priors = true;             // false drops those of the tables
-  std::set<Parameter> per_scan;       // of the free ones: one unknown per scan
-  std::optional<Link> link;           // the default ones: see above
+  std::map<Parameter, Prior> priors;   // in the place of the table's, or besides
+  bool use_priors = true;              // false drops those of the tables
+  std::set<Parameter> per_scan;        // of the free ones: one unknown per scan
+  std::optional<Link> link;            // the default ones: see above
   std::optional<Scale> scale;
   std::optional<Pointing> pointing;
   std::map<Instrument, Prior> instrument_priors;  // in place of the table's, in its units

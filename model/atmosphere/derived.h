@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quantities of the literature that follow from an atmosphere's constituents. A cloud is what scatters
-// and has a name that begins with "cloud"; aerosol is whatever else scatters with another phase
-// function than Rayleigh's.
+// Quantities of the literature that follow from an atmosphere's constituents. A cloud is what
+// scatters and has a name that begins with "cloud"; aerosol is whatever else scatters with another
+// phase function than Rayleigh's.
 #pragma once
 
 #include <string_view>

@@ -69,11 +69,11 @@ double norm_slope(Complex value, Complex slope) {
 }
 
 // S1 + S2 and S1 - S2 at some cosines mu and at -mu; real and imaginary parts.
-constexpr int kLanes = 8;
+constexpr int kBatch = 8;
 struct Amplitudes {
-  using Lanes = std::array<double, kLanes>;
-  Lanes sum_real{}, sum_imaginary{}, difference_real{}, difference_imaginary{};
-  Lanes back_sum_real{}, back_sum_imaginary{}, back_difference_real{}, back_difference_imaginary{};
+  using Batch = std::array<double, kBatch>;
+  Batch sum_real{}, sum_imaginary{}, difference_real{}, difference_imaginary{};
+  Batch back_sum_real{}, back_sum_imaginary{}, back_difference_real{}, back_difference_imaginary{};
 
   Complex first(std::size_t i, bool back) const {
     return 0.5 * (sum(i, back) + difference(i, back));
@@ -98,8 +98,8 @@ struct Amplitudes {
 SKYFIT_CLONES
 void add_terms(std::size_t terms, const double* a, const double* b, const double* cosines,
                Amplitudes& s) {
-  Amplitudes::Lanes mu, before, here, sr, si, dr, di, bsr, bsi, bdr, bdi;
-  for (int i = 0; i < kLanes; ++i) {
+  Amplitudes::Batch mu, before, here, sr, si, dr, di, bsr, bsi, bdr, bdi;
+  for (int i = 0; i < kBatch; ++i) {
     mu[i] = cosines[i];
     before[i] = 0;
     here[i] = 1;
@@ -116,7 +116,7 @@ void add_terms(std::size_t terms, const double* a, const double* b, const double
     const double turned_difference_r = sign * difference_r,
                  turned_difference_i = sign * difference_i;
     const double up = (2 * n + 1) / n, down = (n + 1) / n;
-    for (int i = 0; i < kLanes; ++i) {
+    for (int i = 0; i < kBatch; ++i) {
       const double tau = n * mu[i] * here[i] - (n + 1) * before[i];
       const double more = here[i] + tau, less = here[i] - tau;
       sr[i] += sum_r * more;
@@ -219,23 +219,23 @@ std::vector<MieMatrix> mie_matrix(double x, const MieCoefficients& c,
   const bool by_index = !c.a_by_index.empty();
   const std::vector<double> zeros(2 * count);
   std::vector<MieMatrix> result(by_index ? 3 : 1, MieMatrix{zeros, zeros, zeros});
-  for (std::size_t begin = 0; begin < count; begin += kLanes) {
-    const std::size_t lanes = std::min<std::size_t>(kLanes, count - begin);
-    Amplitudes::Lanes mu{};
-    std::copy_n(forward_cosines.begin() + static_cast<std::ptrdiff_t>(begin), lanes, mu.begin());
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    const std::size_t filled = std::min<std::size_t>(kBatch, count - begin);
+    Amplitudes::Batch mu{};
+    std::copy_n(forward_cosines.begin() + static_cast<std::ptrdiff_t>(begin), filled, mu.begin());
     const Amplitudes s = amplitudes(c.a, c.b, mu.data());
     const Amplitudes slope =
         by_index ? amplitudes(c.a_by_index, c.b_by_index, mu.data()) : Amplitudes{};
-    for (std::size_t i = 0; i < 2 * lanes; ++i) {
-      const bool back = i >= lanes;
-      const std::size_t lane = back ? i - lanes : i, at = begin + lane + (back ? count : 0);
-      const Complex s1 = s.first(lane, back), s2 = s.second(lane, back);
+    for (std::size_t i = 0; i < 2 * filled; ++i) {
+      const bool back = i >= filled;
+      const std::size_t place = back ? i - filled : i, at = begin + place + (back ? count : 0);
+      const Complex s1 = s.first(place, back), s2 = s.second(place, back);
       result[0].m11[at] = unit * (std::norm(s1) + std::norm(s2));
       result[0].m12[at] = unit * (std::norm(s2) - std::norm(s1));
       result[0].m33[at] = 2 * unit * (s1 * std::conj(s2)).real();
       for (std::size_t part = 1; part < result.size(); ++part) {
         const Complex turn = part == 1 ? Complex(1, 0) : Complex(0, 1);
-        const Complex d1 = turn * slope.first(lane, back), d2 = turn * slope.second(lane, back);
+        const Complex d1 = turn * slope.first(place, back), d2 = turn * slope.second(place, back);
         const double slope_1 = norm_slope(s1, d1), slope_2 = norm_slope(s2, d2);
         result[part].m11[at] = unit * (slope_1 + slope_2);
         result[part].m12[at] = unit * (slope_2 - slope_1);

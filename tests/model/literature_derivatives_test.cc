@@ -95,19 +95,17 @@ TEST_P(LiteratureDerivatives, EqualDifferences) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, LiteratureDerivatives,
-                         ::testing::Values(Case{"bruneton", false, false},
-                                           Case{"hillaire", false, false},
-                                           Case{"bodare", false, false},
-                                           Case{"schafhitzel", false, true},
-                                           Case{"oneil", false, true}, Case{"nielsen", true, true},
-                                           Case{"hoffman-preetham", true, true},
-                                           Case{"preetham", true, false}),
-                         [](const auto& tested) {
-                           std::string name(tested.param.model);
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Models, LiteratureDerivatives,
+    ::testing::Values(Case{"bruneton", false, false}, Case{"hillaire", false, false},
+                      Case{"bodare", false, false}, Case{"schafhitzel", false, true},
+                      Case{"oneil", false, true}, Case{"nielsen", true, true},
+                      Case{"hoffman-preetham", true, true}, Case{"preetham", true, false}),
+    [](const auto& tested) {
+      std::string name(tested.param.model);
+      std::erase(name, '-');
+      return name;
+    });
 
 }  // namespace
 }  // namespace skyfit

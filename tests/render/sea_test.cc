@@ -52,7 +52,7 @@ TEST(Sea, GlitterCarriesTheBeam) {
   }
 }
 
-// Seen from 300 m where the glitter is most of the light: the frame's light less the mirrored sky
+// From 300 m, where the glitter is most of the light: the frame's light less the mirrored sky
 // and the water's own, over the formula without masking.
 using SeaOfAMap = MapFiles;
 

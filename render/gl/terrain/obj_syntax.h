@@ -18,8 +18,8 @@ using MaterialUses = std::map<std::string, int>;
 std::string with_joined_lines(std::string_view obj);
 
 // `text` is the file's with joined lines. Throws std::runtime_error `file:line: what was found and
-// what was expected`: a vertex or normal that is not three finite numbers, a face of less than three
-// corners or of an index that is not in the file; `file: ...`: no faces, more than 50 million
+// what was expected`: a vertex or normal that is not three finite numbers, a face of less than
+// three corners or of an index that is not in the file; `file: ...`: no faces, more than 50 million
 // triangles.
 MaterialUses check_obj(const std::filesystem::path& file, std::string_view text);
 
