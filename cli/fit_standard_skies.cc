@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/fit_standard_skies.h"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -69,7 +71,9 @@ std::vector<fit::StandardSkyFit> fit_all(const FitArguments& arguments, const CL
   return fits;
 }
 
-plot::Figure figure_of(const std::vector<fit::StandardSkyFit>& fits) {
+}  // namespace
+
+plot::Figure standard_skies_figure(std::span<const fit::StandardSkyFit> fits) {
   std::vector<double> suns;
   for (const fit::ScanOutcome& scan : fits.front().result.scans)
     suns.push_back(degrees(scan.info.sun_zenith));
@@ -87,8 +91,6 @@ plot::Figure figure_of(const std::vector<fit::StandardSkyFit>& fits) {
   return plot::standard_skies_figure(suns, rows);
 }
 
-}  // namespace
-
 void run_standard_skies(const FitArguments& arguments, const CLI::App& command) {
   expect_no_checks(arguments);
   const WholeDirectory out(arguments.out, result_files(), arguments.force);
@@ -103,8 +105,8 @@ void run_standard_skies(const FitArguments& arguments, const CLI::App& command) 
     write_file(staging / kCsv, fit::standard_skies_csv(fits));
     write_file(staging / kJson, json);
     figures.draw(staging, kFigure, [&] {
-      plot::write_figure(figure_of(fits), {staging / fmt::format("{}.svg", kFigure),
-                                           staging / fmt::format("{}.png", kFigure)});
+      plot::write_figure(standard_skies_figure(fits), {staging / fmt::format("{}.svg", kFigure),
+                                                       staging / fmt::format("{}.png", kFigure)});
     });
   });
   for (const fit::StandardSkyFit& fit : fits) {

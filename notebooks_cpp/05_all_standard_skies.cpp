@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "cli/fit_standard_skies.h"
 #include "data_refs/cie_sky.h"
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
@@ -27,7 +28,7 @@
 #include "model/registry.h"
 #include "model/sky_model.h"
 #include "notebooks_cpp/notebook.h"
-#include "render/plot/standard_skies.h"
+#include "render/plot/figure_file.h"
 
 using namespace skyfit;
 
@@ -76,11 +77,8 @@ void run_notebook(notebook::Page& page) {
   const SpectralData& spectra = refs::standard_spectral_data();
   const std::unique_ptr<SkyModel> model =
       make_sky_model("reference", spectra, threads, Transfer::kScalar);
-  std::vector<double> suns, suns_deg;
-  for (int degrees = 0; degrees <= 80; degrees += 10) {
-    suns_deg.push_back(degrees);
-    suns.push_back(degrees * kDegree);
-  }
+  std::vector<double> suns;
+  for (int degrees = 0; degrees <= 80; degrees += 10) suns.push_back(degrees * kDegree);
   std::vector<fit::StandardSkyFit> fits;
   for (const refs::CieSky& sky : refs::cie_skies()) {
     const fit::StandardSkyKind& kind = fit::standard_sky_kind(sky.type, *model);
@@ -92,18 +90,7 @@ void run_notebook(notebook::Page& page) {
                     fit::fit_atmosphere(reference, spectra, *model,
                                         fit::with_standard_sky(options, kind, *model))});
   }
-  std::vector<plot::StandardSkyRow> rows;
-  for (const fit::StandardSkyFit& fit : fits) {
-    plot::StandardSkyRow row{fit.type,
-                             refs::cie_skies()[static_cast<std::size_t>(fit.type - 1)].description,
-                             std::string(fit.kind),
-                             fit.result.errors.rms_log,
-                             {}};
-    for (const fit::ScanOutcome& scan : fit.result.scans)
-      row.rms_percent_of_sun.push_back(scan.errors.rms_log);
-    rows.push_back(row);
-  }
-  plot::write_figure(plot::standard_skies_figure(suns_deg, rows), {page.scratch("skies.png")});
+  plot::write_figure(cli::standard_skies_figure(fits), {page.scratch("skies.png")});
   page.figure(page.scratch("skies.png"));
 
   // %% [markdown]
