@@ -12,8 +12,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
-#include "fit/exchange/engines.h"
-#include "fit/exchange/reduction.h"
+#include "fit/exchange/programs.h"
 #include "model/base/input_file.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
@@ -26,55 +25,41 @@ struct ExportArguments {
   int threads = default_threads();
 };
 
-// Of comments in scripts: one line of plain characters, whatever the preset is called.
-std::string plain(std::string text) {
-  for (char& c : text) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return text;
-}
-
 void run_export(const ExportArguments& arguments) {
-  const fit::Engine* engine = nullptr;
+  const fit::Program* program = nullptr;
   try {
-    engine = &fit::engine_named(arguments.to);
+    program = &fit::program_named(arguments.to);
   } catch (const std::invalid_argument& unknown) {
     throw UsageError("--to", arguments.to, unknown.what());
   }
-  require_output_files({arguments.out}, {std::string(engine->extension)});
-  fit::ExportFacts facts;
-  facts.sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 90);
-  facts.sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
+  require_output_files({arguments.out}, {std::string(program->extension)});
+  const double sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 90),
+               sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
   const Preset preset = preset_named(arguments.preset);
   if (std::ranges::none_of(preset.atmosphere.constituents, scatters<double>)) {
     throw std::invalid_argument(fmt::format(
         "{}: no constituent scatters light: there is no sky to export", arguments.preset));
   }
-  if (preset.atmosphere.star.spectrum != StarSpectrum::kSolar)
-    warn(fmt::format("{}: its star is not written: these programs have the sun's light",
-                     arguments.preset));
+  if (!program->has_star && preset.atmosphere.star.spectrum != StarSpectrum::kSolar)
+    warn(fmt::format("{}: its star is not written: {} has the sun's light", arguments.preset,
+                     program->name));
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   const auto truth = make_sky_model("reference", spectra, arguments.threads),
              scalar = make_sky_model("reference", spectra, arguments.threads, Transfer::kScalar);
-  const fit::Models models{*truth, *scalar};
-  fit::EngineAtmosphere restricted =
-      fit::engine_atmosphere(fit::engine_form(preset.atmosphere, spectra, engine->lobe));
-  engine->restrict_to(restricted);
-  Atmosphere<double> start = fit::atmosphere_of(restricted);
-  start.star = preset.atmosphere.star;
-  Progress progress("refitting for " + std::string(engine->name));
-  fit::EngineAtmosphere exported = fit::engine_atmosphere(
-      fit::refitted(models, spectra, preset.atmosphere, start, engine->free(),
-                    [&](double done) { progress.show(done, "parameters"); }));
-  engine->restrict_to(exported);  // to the ranges of its properties
-  Atmosphere<double> shown = fit::atmosphere_of(exported);
-  shown.star = preset.atmosphere.star;
-  facts.loss = fit::loss_text(fit::sky_loss(models, spectra, preset.atmosphere, shown));
-  facts.preset = plain(preset.name);
-  facts.star = preset.atmosphere.star;
-  write_whole_file(arguments.out, engine->write(exported, facts));
+  Progress progress("exporting for " + std::string(program->name));
+  const fit::Exported exported =
+      program->write({preset,
+                      spectra,
+                      {*truth, *scalar},
+                      sun_zenith,
+                      sun_azimuth,
+                      arguments.out,
+                      [&](double done) { progress.show(done, "parameters"); }});
+  for (const fit::WrittenFile& file : exported.files) write_whole_file(file.path, file.text);
+  for (std::size_t i = 1; i < exported.files.size(); ++i)
+    print(fmt::format("{}\n", exported.files[i].path.string()));
   print(fmt::format("{}: {} of the preset {}\nloss by what it cannot hold: {}\n", arguments.out,
-                    engine->meaning, preset.name, facts.loss));
+                    program->meaning, preset.name, exported.loss));
 }
 
 struct ImportFileArguments {
@@ -86,12 +71,12 @@ void run_import(const ImportFileArguments& arguments) {
   if (!arguments.out.empty()) require_output_files({arguments.out}, {".json"});
   const std::string text =
       read_file(arguments.file, "the parameters of another program", kMostBytes);
-  for (const fit::Engine& engine : fit::engines()) {
+  for (const fit::Program& program : fit::readable_programs()) {
     std::vector<std::string> notes;
-    const auto read = engine.read(text, arguments.file, notes);
+    const auto read = program.read(text, arguments.file, notes);
     if (!read) continue;
-    Preset preset{std::string(engine.name), fit::atmosphere_of(*read), nullptr,
-                  fmt::format("Imported from {}", engine.meaning)};
+    Preset preset{std::string(program.name), *read, nullptr,
+                  fmt::format("Imported from {}", program.meaning)};
     try {
       validate(preset.atmosphere);
     } catch (const std::invalid_argument& error) {
@@ -130,7 +115,7 @@ void add_export_command(CLI::App& app) {
       ->type_name("ANGLE")
       ->capture_default_str();
   add_threads_option(command, arguments->threads);
-  command.footer("Programs:\n" + named_lines(fit::engines()) +
+  command.footer("Programs:\n" + named_lines(fit::programs()) +
                  "\nWhat the program cannot hold (a second lobe, layers, heights that it fixes, a "
                  "spectrum) is\n"
                  "refitted to the preset's sky by the model reference, without polarisation, which "
@@ -149,7 +134,8 @@ void add_import_command(CLI::App& app) {
   command.add_option("file", arguments->file, "The parameters")->required()->type_name("FILE");
   command.add_option("--out", arguments->out, "The preset; by default it is printed")
       ->type_name("FILE.json");
-  command.footer("Programs, recognised by what the file holds:\n" + named_lines(fit::engines()) +
+  command.footer("Programs, recognised by what the file holds:\n" +
+                 named_lines(fit::readable_programs()) +
                  "\nExample: skyfit import sky.json --out preset.json");
   command.callback([arguments] { run_import(*arguments); });
 }

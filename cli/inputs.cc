@@ -15,7 +15,7 @@
 #include "data_refs/measured_sky.h"
 #include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
-#include "fit/exchange/engines.h"
+#include "fit/exchange/programs.h"
 
 namespace skyfit::cli {
 namespace {
@@ -42,10 +42,10 @@ namespace {
 // Of a file that is no preset: whose parameters it holds.
 void expect_no_other_program(const std::string& file) {
   constexpr std::size_t kMostBytes = 1 << 20;
-  const fit::Engine* engine = fit::engine_of(read_file(file, "a preset", kMostBytes));
-  if (engine == nullptr) return;
+  const fit::Program* program = fit::program_of(read_file(file, "a preset", kMostBytes));
+  if (program == nullptr) return;
   throw std::invalid_argument(
-      fmt::format("{}: is no preset but {}; `skyfit import` reads it", file, engine->meaning));
+      fmt::format("{}: is no preset but {}; `skyfit import` reads it", file, program->meaning));
 }
 
 }  // namespace

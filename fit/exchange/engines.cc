@@ -2,8 +2,8 @@
 #include "fit/exchange/engines.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -65,25 +65,9 @@ constexpr std::array<Engine, 5> kEngines = {{
 std::span<const Engine> engines() { return kEngines; }
 
 const Engine& engine_named(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const Engine& engine : kEngines) {
-    if (engine.name == name) return engine;
-    names.push_back(engine.name);
-  }
-  throw std::invalid_argument(
-      fmt::format("program \"{}\": expected one of {}", name, fmt::join(names, ", ")));
-}
-
-const Engine* engine_of(std::string_view text) {
-  for (const Engine& engine : kEngines) {
-    std::vector<std::string> notes;
-    try {
-      if (engine.read(text, "", notes)) return &engine;
-    } catch (const std::invalid_argument&) {  // its own, with something wrong
-      return &engine;
-    }
-  }
-  return nullptr;
+  const auto found = std::ranges::find(kEngines, name, &Engine::name);
+  if (found == kEngines.end()) throw std::logic_error(fmt::format("no engine {}", name));
+  return *found;
 }
 
 double number_or(const PresetReader& object, std::string_view field, double if_none) {

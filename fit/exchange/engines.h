@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other people's programs that take an atmosphere as parameters: one row each, from which
-// `skyfit export`, `skyfit import`, their help and docs/exchange.md follow.
+// Other people's programs that take an atmosphere of EngineAtmosphere's form as parameters: one row
+// each. programs.h lists them with all others.
 #pragma once
 
 #include <optional>
@@ -37,10 +37,7 @@ struct Engine {
 
 std::span<const Engine> engines();
 
-// Throws std::invalid_argument that lists the names.
+// Throws std::logic_error where there is none of that name.
 const Engine& engine_named(std::string_view name);
-
-// Whose parameters a text holds; null: nobody's.
-const Engine* engine_of(std::string_view text);
 
 }  // namespace skyfit::fit

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "data_refs/references.h"
 #include "fit/fit.h"
@@ -69,22 +70,11 @@ std::vector<Parameter> free_within_bounds(const Atmosphere<double>& start,
   return list;
 }
 
-using Xyz = std::array<double, 3>;
-
-std::vector<Xyz> colors_of(const SkyModel& model, const XyzRule& rule,
-                           const Atmosphere<double>& atmosphere,
-                           const std::vector<SkyPoint>& points) {
-  const SkyValues sky = model.radiance(atmosphere, rule.nodes, points, {});
-  std::vector<Xyz> colors;
-  for (int i = 0; i < sky.points; ++i) {
-    Xyz xyz{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < rule.nodes.size(); ++k)
-        xyz[c] += rule.weight[c][k] * sky.at(i, static_cast<int>(k));
-    }
-    colors.push_back(xyz);
-  }
-  return colors;
+double angle_from_sun(const SkyPoint& p) {
+  const double cosine =
+      std::cos(p.sun_zenith) * std::cos(p.view_zenith) +
+      std::sin(p.sun_zenith) * std::sin(p.view_zenith) * std::cos(p.relative_azimuth);
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 double uv_distance(const Xyz& a, const Xyz& b) {
@@ -98,18 +88,52 @@ double uv_distance(const Xyz& a, const Xyz& b) {
 
 }  // namespace
 
+std::vector<Xyz> sky_colors(const SkyModel& model, const XyzRule& rule,
+                            const Atmosphere<double>& atmosphere,
+                            const std::vector<SkyPoint>& points) {
+  const SkyValues sky = model.radiance(atmosphere, rule.nodes, points, {});
+  std::vector<Xyz> colors;
+  for (int i = 0; i < sky.points; ++i) {
+    Xyz xyz{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < rule.nodes.size(); ++k)
+        xyz[c] += rule.weight[c][k] * sky.at(i, static_cast<int>(k));
+    }
+    colors.push_back(xyz);
+  }
+  return colors;
+}
+
+std::vector<SkyPoint> lattice_sky(double sun_zenith) {
+  constexpr int kDirections = 400;
+  std::vector<SkyPoint> points;
+  for (int i = 0; i < kDirections; ++i) {
+    // Equal areas of the hemisphere.
+    const double zenith = std::acos(1 - (i + 0.5) / kDirections);
+    points.push_back(
+        {0, sun_zenith, zenith,
+         std::remainder(2 * std::numbers::pi * i * std::numbers::phi, 2 * std::numbers::pi)});
+  }
+  return points;
+}
+
+std::vector<SkyPoint> six_skies() { return points_of(sampled()); }
+
 SkyLoss sky_loss(const Models& models, const SpectralData& spectra, const Atmosphere<double>& truth,
                  const Atmosphere<double>& approximate) {
   const XyzRule rule = xyz_rule(spectra);
-  const refs::Reference reference = sampled();
-  const std::vector<SkyPoint> points = points_of(reference);
-  const auto a = colors_of(models.truth, rule, truth, points),
-             b = colors_of(models.engine, rule, approximate, points);
+  const std::vector<SkyPoint> points = six_skies();
+  return color_loss(points, sky_colors(models.truth, rule, truth, points),
+                    sky_colors(models.engine, rule, approximate, points));
+}
+
+SkyLoss color_loss(const std::vector<SkyPoint>& points, const std::vector<Xyz>& a,
+                   const std::vector<Xyz>& b) {
   SkyLoss loss;
   double squares = 0;
   int count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (refs::scattering_angle(reference.samples[i]) < kExcluded) continue;
+    if (angle_from_sun(points[i]) < kExcluded) continue;
     const double error = std::log(b[i][1] / a[i][1]), uv = uv_distance(a[i], b[i]);
     squares += error * error;
     loss.mean_uv += uv;
@@ -124,7 +148,7 @@ SkyLoss sky_loss(const Models& models, const SpectralData& spectra, const Atmosp
   return loss;
 }
 
-std::string loss_text(const SkyLoss& loss) {
+std::string loss_text(const SkyLoss& loss, std::string_view directions) {
   const double factor = std::exp(std::abs(loss.worst_percent) / 100);
   const std::string worst =
       factor > 1.5
@@ -132,11 +156,11 @@ std::string loss_text(const SkyLoss& loss) {
           : fmt::format("{:+.1f} %", 100 * std::expm1(loss.worst_percent / 100));
   return fmt::format(
       "luminance RMS {:.2f} %, worst {} (sun {:.0f}, view {:.0f}, azimuth {:.0f} deg); colour "
-      "u'v' {:.4f} in the mean, {:.4f} at worst; suns 10 to 85 deg from the zenith",
+      "u'v' {:.4f} in the mean, {:.4f} at worst; {}",
       loss.rms_percent, worst, loss.worst.sun_zenith * kDegreesPerRadian,
       loss.worst.view_zenith * kDegreesPerRadian,
       std::remainder(loss.worst.relative_azimuth * kDegreesPerRadian, 360), loss.mean_uv,
-      loss.worst_uv);
+      loss.worst_uv, directions);
 }
 
 Atmosphere<double> refitted(const Models& models, const SpectralData& spectra,

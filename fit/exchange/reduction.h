@@ -2,8 +2,10 @@
 // A preset's sky by an atmosphere of a simpler form, refitted, and what is lost.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fit/exchange/engine_form.h"
@@ -18,8 +20,14 @@ struct Models {
   const SkyModel& engine;
 };
 
-// How two skies differ: suns 10 to 85 deg from the zenith, the 145 patches of Tregenza, without
-// those within 3 deg of the sun.
+// CIE 1931, Y in cd/m^2.
+using Xyz = std::array<double, 3>;
+
+std::vector<Xyz> sky_colors(const SkyModel& model, const XyzRule& rule,
+                            const Atmosphere<double>& atmosphere,
+                            const std::vector<SkyPoint>& points);
+
+// How two skies differ, without directions within 3 deg of the sun.
 struct SkyLoss {
   double rms_percent = 0;            // of ln of the luminances
   double worst_percent = 0;          // 100 ln, of the largest
@@ -27,11 +35,23 @@ struct SkyLoss {
   double mean_uv = 0, worst_uv = 0;  // distance in CIE 1976 u', v'
 };
 
+// Of the colours of the same directions.
+SkyLoss color_loss(const std::vector<SkyPoint>& points, const std::vector<Xyz>& truth,
+                   const std::vector<Xyz>& approximate);
+
+// Six suns 10 to 85 deg from the zenith, the 145 patches of Tregenza each.
+std::vector<SkyPoint> six_skies();
+inline constexpr std::string_view kSixSkies = "suns 10 to 85 deg from the zenith";
+
+// One sun, 400 directions spread evenly over the hemisphere, a Fibonacci lattice.
+std::vector<SkyPoint> lattice_sky(double sun_zenith);
+
+// Of six_skies().
 SkyLoss sky_loss(const Models& models, const SpectralData& spectra, const Atmosphere<double>& truth,
                  const Atmosphere<double>& approximate);
 
-// "RMS 1.2 % of luminance (worst 4.1 % at sun 85, view 84, azimuth 12 deg), ..".
-std::string loss_text(const SkyLoss& loss);
+// "luminance RMS 1.2 %, worst +4.1 % (sun 85, view 84, azimuth 12 deg); ..; DIRECTIONS".
+std::string loss_text(const SkyLoss& loss, std::string_view directions = kSixSkies);
 
 // `start` with these parameters, as far as they lie within their bounds, refitted to the sky of
 // `truth` at 680, 550 and 440 nm, all suns jointly, in logarithms without priors. Without a fit

@@ -6,12 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <sstream>
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "fit/exchange/engines.h"
+#include "fit/exchange/programs.h"
 #include "fit/exchange/reduction.h"
 #include "model/atmosphere/preset.h"
+#include "model/numerics/angles.h"
 #include "model/registry.h"
 
 namespace skyfit::fit {
@@ -51,7 +55,8 @@ TEST_P(Engines, ReadsWhatItWrites) {
   for (const char* name : {"earth-clear", "earth-alpine", "hillaire-2020"}) {
     const EngineAtmosphere written = restricted(shipped(name), engine);
     const std::string text = engine.write(written, {name, "", 0.5, 1, {}});
-    EXPECT_EQ(engine_of(text), &engine);
+    ASSERT_NE(program_of(text), nullptr);
+    EXPECT_EQ(program_of(text)->name, engine.name);
     std::vector<std::string> notes;
     const auto read = engine.read(text, "file", notes);
     ASSERT_TRUE(read);
@@ -149,9 +154,116 @@ TEST(Exchange, StrangersFilesAreRefusedByField) {
                 ThrowsMessage<std::invalid_argument>(HasSubstr("air_density")))
         << wrong;
   }
-  EXPECT_EQ(engine_of("{\"skyfit_preset\": 2}"), nullptr);
-  EXPECT_THAT([] { engine_named("quake"); },
+  EXPECT_EQ(program_of("{\"skyfit_preset\": 2}"), nullptr);
+  EXPECT_THAT([] { program_named("quake"); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("unreal, unity")));
+}
+
+Exported exported(const Preset& preset, std::string_view to, double zenith, double azimuth) {
+  return program_named(to).write(
+      {preset, spectra(), kScalarTruth, zenith, azimuth, "folder/sky.x"});
+}
+
+// A file of data of Radiance: two dimensions with irregular positions, the second one fastest.
+struct RadianceData {
+  std::vector<double> first, second, values;
+
+  explicit RadianceData(const std::string& text) {
+    std::istringstream in(text);
+    int dimensions = 0;
+    in >> dimensions;
+    EXPECT_EQ(dimensions, 2);
+    for (std::vector<double>* positions : {&first, &second}) {
+      double begin = -1, end = -1;
+      std::size_t count = 0;
+      in >> begin >> end >> count;
+      EXPECT_EQ(begin, 0);
+      EXPECT_EQ(end, 0);
+      positions->resize(count);
+      for (double& p : *positions) in >> p;
+      EXPECT_TRUE(std::ranges::is_sorted(*positions, std::less_equal()));
+    }
+    values.resize(first.size() * second.size());
+    for (double& v : values) in >> v;
+    EXPECT_TRUE(in);
+    std::string rest;
+    EXPECT_FALSE(in >> rest);
+  }
+
+  double at(double x, double y) const {
+    const auto below = [](const std::vector<double>& p, double at) {
+      std::size_t i = 0;
+      while (i + 2 < p.size() && p[i + 1] <= at) ++i;
+      return i;
+    };
+    const std::size_t i = below(first, x), k = below(second, y);
+    const double u = (x - first[i]) / (first[i + 1] - first[i]),
+                 v = (y - second[k]) / (second[k + 1] - second[k]);
+    const auto value = [&](std::size_t a, std::size_t b) { return values[a * second.size() + b]; };
+    return (1 - u) * ((1 - v) * value(i, k) + v * value(i, k + 1)) +
+           u * ((1 - v) * value(i + 1, k) + v * value(i + 1, k + 1));
+  }
+};
+
+TEST(Radiance, ReadsTheSkyThatIsWritten) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const double zenith = 50 * kRadiansPerDegree, azimuth = 110 * kRadiansPerDegree;
+  const Exported sky = exported(preset, "radiance", zenith, azimuth);
+  ASSERT_EQ(sky.files.size(), 4U);
+  const std::string& scene = sky.files[0].text;
+  // What Radiance would evaluate for a direction: Atan2(abs(Dx*a-Dy*b),Dx*c+Dy*d).
+  double a, b, c, d;
+  const std::size_t at = scene.find("Atan2(");
+  ASSERT_NE(at, scene.npos);
+  ASSERT_EQ(
+      std::sscanf(scene.c_str() + at, "Atan2(abs(Dx*%lf-Dy*%lf),Dx*%lf+Dy*%lf)", &a, &b, &c, &d),
+      4);
+  std::vector<RadianceData> channels;
+  for (std::size_t k = 1; k < 4; ++k) {
+    channels.emplace_back(sky.files[k].text);
+    EXPECT_THAT(scene, HasSubstr(" " + sky.files[k].path.filename().string() + " "));
+  }
+  const XyzRule rule = xyz_rule(spectra());
+  for (const auto& [view_deg, north_deg] :
+       {std::pair{20.4, 33.0}, {61.3, 250.0}, {47.1, 117.0}, {88.7, 10.0}}) {
+    const double view = view_deg * kRadiansPerDegree, north = north_deg * kRadiansPerDegree;
+    const double x = std::sin(view) * std::sin(north), y = std::sin(view) * std::cos(north);
+    const double column = std::atan2(std::abs(x * a - y * b), x * c + y * d) * kDegreesPerRadian;
+    double luminance = 0;
+    constexpr std::array kShare = {0.265, 0.670, 0.065};  // of Radiance's reference manual
+    for (std::size_t k = 0; k < 3; ++k)
+      luminance += 179 * kShare[k] * channels[k].at(view_deg, column);
+    const double expected =
+        sky_colors(scalar(), rule, preset.atmosphere, {{0, zenith, view, north - azimuth}})[0][1];
+    EXPECT_NEAR(luminance, expected, 0.005 * expected) << view_deg << " " << north_deg;
+  }
+}
+
+TEST(Radiance, SunGivesTheBeam) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const double zenith = 50 * kRadiansPerDegree;
+  const std::string scene =
+      exported(preset, "radiance", zenith, 0.5 * std::numbers::pi).files[0].text;
+  double red, green, blue, x, y, z, diameter;
+  ASSERT_EQ(std::sscanf(scene.c_str() + scene.find("light solar") + 11, "%*f%*f%*f%lf%lf%lf", &red,
+                        &green, &blue),
+            3);
+  ASSERT_EQ(std::sscanf(scene.c_str() + scene.find("source sun") + 10, "%*f%*f%*f%lf%lf%lf%lf", &x,
+                        &y, &z, &diameter),
+            4);
+  EXPECT_NEAR(x, std::sin(zenith), 1e-8);  // the sun is in the east
+  EXPECT_NEAR(y, 0, 1e-8);
+  EXPECT_NEAR(z, std::cos(zenith), 1e-8);
+  EXPECT_NEAR(diameter, preset.atmosphere.star.angular_diameter_deg, 1e-4);
+  const XyzRule rule = xyz_rule(spectra());
+  const SkyValues light = scalar().irradiance(preset.atmosphere, rule.nodes, 0, zenith, {});
+  double lux = 0;
+  for (std::size_t k = 0; k < rule.nodes.size(); ++k)
+    lux += rule.weight[1][k] * light.at(kDirectNormal, static_cast<int>(k));
+  const double radius = 0.5 * diameter * kRadiansPerDegree;
+  EXPECT_NEAR(
+      179 * (0.265 * red + 0.670 * green + 0.065 * blue) * std::numbers::pi * radius * radius, lux,
+      0.002 * lux);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "data_refs/import_options.h"
 #include "data_refs/measured_formats.h"
 #include "data_refs/references.h"
-#include "fit/exchange/engines.h"
+#include "fit/exchange/programs.h"
 #include "model/registry.h"
 #include "render/plot/measured_figures.h"
 #include "render/sky_map/projection.h"
@@ -58,8 +58,8 @@ TEST(Documents, NameEveryProjectionOfSkyMaps) {
 
 TEST(Documents, NameEveryProgramOfExports) {
   const std::string text = document("docs/exchange.md");
-  for (const fit::Engine& engine : fit::engines())
-    expect_in(text, fmt::format("| {} | {} |", engine.name, engine.meaning));
+  for (const fit::Program& program : fit::programs())
+    expect_in(text, fmt::format("| {} | {} |", program.name, program.meaning));
 }
 
 TEST(Documents, NameEveryShippedPreset) {
