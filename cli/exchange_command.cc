@@ -16,6 +16,7 @@
 #include "model/base/input_file.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
+#include "render/sky_map/sky_map.h"
 
 namespace skyfit::cli {
 namespace {
@@ -47,17 +48,31 @@ void run_export(const ExportArguments& arguments) {
   const auto truth = make_sky_model("reference", spectra, arguments.threads),
              scalar = make_sky_model("reference", spectra, arguments.threads, Transfer::kScalar);
   Progress progress("exporting for " + std::string(program->name));
-  const fit::Exported exported =
-      program->write({preset,
-                      spectra,
-                      {*truth, *scalar},
-                      sun_zenith,
-                      sun_azimuth,
-                      arguments.out,
-                      [&](double done) { progress.show(done, "parameters"); }});
+  const auto write_map = [&](const std::filesystem::path& file) {
+    constexpr int kRows = 512;
+    SkyMapOptions options;
+    options.sun_zenith = sun_zenith;
+    options.sun_azimuth = sun_azimuth;
+    options.sun_disc = false;
+    write_sky_map(sky_map(*truth, preset.atmosphere, xyz_channels(spectra),
+                          *make_map_projection("equirectangular", kRows), options),
+                  Primaries::kRec709, file);
+  };
+  const fit::ExportRequest request{
+      .preset = preset,
+      .spectra = spectra,
+      .models = {*truth, *scalar},
+      .sun_zenith = sun_zenith,
+      .sun_azimuth = sun_azimuth,
+      .file = arguments.out,
+      .write_sky_map = write_map,
+      .progress = [&](double done) { progress.show(done, "parameters"); }};
+  const fit::Exported exported = program->write(request);
   for (const fit::WrittenFile& file : exported.files) write_whole_file(file.path, file.text);
   for (std::size_t i = 1; i < exported.files.size(); ++i)
     print(fmt::format("{}\n", exported.files[i].path.string()));
+  for (const std::filesystem::path& picture : exported.pictures)
+    print(fmt::format("{}\n", picture.string()));
   print(fmt::format("{}: {} of the preset {}\nloss by what it cannot hold: {}\n", arguments.out,
                     program->meaning, preset.name, exported.loss));
 }

@@ -25,7 +25,7 @@ Exported export_engine(const Engine& engine, const ExportRequest& request) {
   const ExportFacts facts{plain_line(request.preset.name),
                           loss_text(sky_loss(request.models, request.spectra, truth, shown)),
                           request.sun_zenith, request.sun_azimuth, truth.star};
-  return {{{request.file, engine.write(exported, facts)}}, facts.loss};
+  return {{{request.file, engine.write(exported, facts)}}, {}, facts.loss};
 }
 
 std::vector<Program> all_programs() {
@@ -45,6 +45,14 @@ std::vector<Program> all_programs() {
                   true,
                   export_radiance,
                   {}});
+  list.push_back({"mitsuba",
+                  "Mitsuba 3, emitters of one hour: sky map and sun (.xml and .exr)",
+                  ".xml",
+                  true,
+                  export_mitsuba,
+                  {}});
+  list.push_back({"calcmysky", "CalcMySky for Stellarium, description of the atmosphere (.atmo)",
+                  ".atmo", true, export_calcmysky, read_calcmysky});
   return list;
 }
 

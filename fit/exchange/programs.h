@@ -22,6 +22,9 @@ struct ExportRequest {
   Models models;
   double sun_zenith = 0, sun_azimuth = 0;  // radians, azimuth clockwise from north
   std::filesystem::path file;              // names what is written
+  // Writes this sun's sky and ground without the disc as a .exr: equirectangular, 1024 x 512, north
+  // in the middle and east to its right, linear light of sRGB's primaries in cd/m^2.
+  std::function<void(const std::filesystem::path&)> write_sky_map;
   std::function<void(double)> progress = [](double) {};
 };
 
@@ -31,8 +34,9 @@ struct WrittenFile {
 };
 
 struct Exported {
-  std::vector<WrittenFile> files;  // the first is the one asked for
-  std::string loss;                // against the preset's own sky, in words
+  std::vector<WrittenFile> files;               // the first is the one asked for
+  std::vector<std::filesystem::path> pictures;  // that are written already
+  std::string loss;                             // against the preset's own sky, in words
 };
 
 struct Program {
@@ -60,6 +64,10 @@ const Program* program_of(std::string_view text);
 
 // The programs that are not of engines.h. Their sources are named in each .cc.
 Exported export_radiance(const ExportRequest& request);
+Exported export_mitsuba(const ExportRequest& request);
+Exported export_calcmysky(const ExportRequest& request);
+std::optional<Atmosphere<double>> read_calcmysky(std::string_view text, std::string_view source,
+                                                 std::vector<std::string>& notes);
 
 // Of comments: one line of plain characters, whatever the preset is called.
 std::string plain_line(std::string text);

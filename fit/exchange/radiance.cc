@@ -107,18 +107,6 @@ std::string data_text(const Table& table, std::size_t channel) {
   return text;
 }
 
-// sum_k weight[k] value_k of an irradiance, value_k times `factor(k)`.
-template <class Factor>
-Xyz irradiance_xyz(const SkyValues& irradiance, Irradiance which, const XyzRule& rule,
-                   const Factor& factor) {
-  Xyz xyz{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t k = 0; k < rule.nodes.size(); ++k)
-      xyz[c] += rule.weight[c][k] * irradiance.at(which, static_cast<int>(k)) * factor(k);
-  }
-  return xyz;
-}
-
 }  // namespace
 
 Exported export_radiance(const ExportRequest& request) {
@@ -133,18 +121,19 @@ Exported export_radiance(const ExportRequest& request) {
                                      std::abs(p.relative_azimuth) * kDegreesPerRadian)));
   const std::string loss = loss_text(
       color_loss(checked, sky_colors(request.models.truth, rule, atmosphere, checked), shown),
-      "400 directions of the sky of this sun");
+      kLatticeSky);
 
   const SkyValues light =
       request.models.truth.irradiance(atmosphere, rule.nodes, 0, request.sun_zenith, {});
   const double radius = atmosphere.star.angular_radius_rad();
   const double solid_angle = 2 * kPi * (1 - std::cos(radius));
-  const auto disc = radiance_rgb(
-      irradiance_xyz(light, kDirectNormal, rule, [&](std::size_t) { return 1 / solid_angle; }));
-  const auto ground =
-      radiance_rgb(irradiance_xyz(light, kGlobalHorizontal, rule, [&](std::size_t k) {
-        return ground_albedo_at(atmosphere, rule.nodes[k].wavelength_nm) / kPi;
-      }));
+  std::vector<double> per_disc, reflected;
+  for (const WavelengthNode& node : rule.nodes) {
+    per_disc.push_back(1 / solid_angle);
+    reflected.push_back(ground_albedo_at(atmosphere, node.wavelength_nm) / kPi);
+  }
+  const auto disc = radiance_rgb(irradiance_color(light, kDirectNormal, rule, per_disc)),
+             ground = radiance_rgb(irradiance_color(light, kGlobalHorizontal, rule, reflected));
 
   // Digits of a text; 0 where the sine is 1e-16.
   const auto rounded = [](double value) { return std::round(value * 1e9) * 1e-9 + 0.0; };
@@ -206,6 +195,7 @@ ground_glow source ground
            {data_file("red"), data_text(table, 0)},
            {data_file("green"), data_text(table, 1)},
            {data_file("blue"), data_text(table, 2)}},
+          {},
           loss};
 }
 

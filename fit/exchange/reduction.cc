@@ -104,6 +104,16 @@ std::vector<Xyz> sky_colors(const SkyModel& model, const XyzRule& rule,
   return colors;
 }
 
+Xyz irradiance_color(const SkyValues& irradiance, Irradiance which, const XyzRule& rule,
+                     const std::vector<double>& factors) {
+  Xyz xyz{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < rule.nodes.size(); ++k)
+      xyz[c] += rule.weight[c][k] * irradiance.at(which, static_cast<int>(k)) * factors[k];
+  }
+  return xyz;
+}
+
 std::vector<SkyPoint> lattice_sky(double sun_zenith) {
   constexpr int kDirections = 400;
   std::vector<SkyPoint> points;

@@ -27,6 +27,10 @@ std::vector<Xyz> sky_colors(const SkyModel& model, const XyzRule& rule,
                             const Atmosphere<double>& atmosphere,
                             const std::vector<SkyPoint>& points);
 
+// Of one of the irradiances at the rule's nodes, each times its factor; lx.
+Xyz irradiance_color(const SkyValues& irradiance, Irradiance which, const XyzRule& rule,
+                     const std::vector<double>& factors);
+
 // How two skies differ, without directions within 3 deg of the sun.
 struct SkyLoss {
   double rms_percent = 0;            // of ln of the luminances
@@ -45,6 +49,8 @@ inline constexpr std::string_view kSixSkies = "suns 10 to 85 deg from the zenith
 
 // One sun, 400 directions spread evenly over the hemisphere, a Fibonacci lattice.
 std::vector<SkyPoint> lattice_sky(double sun_zenith);
+
+inline constexpr std::string_view kLatticeSky = "400 directions of the sky of this sun";
 
 // Of six_skies().
 SkyLoss sky_loss(const Models& models, const SpectralData& spectra, const Atmosphere<double>& truth,

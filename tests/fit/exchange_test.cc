@@ -14,6 +14,9 @@
 #include "fit/exchange/engines.h"
 #include "fit/exchange/programs.h"
 #include "fit/exchange/reduction.h"
+#include "model/atmosphere/derived.h"
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/preset.h"
 #include "model/numerics/angles.h"
 #include "model/registry.h"
@@ -160,8 +163,13 @@ TEST(Exchange, StrangersFilesAreRefusedByField) {
 }
 
 Exported exported(const Preset& preset, std::string_view to, double zenith, double azimuth) {
-  return program_named(to).write(
-      {preset, spectra(), kScalarTruth, zenith, azimuth, "folder/sky.x"});
+  return program_named(to).write({.preset = preset,
+                                  .spectra = spectra(),
+                                  .models = kScalarTruth,
+                                  .sun_zenith = zenith,
+                                  .sun_azimuth = azimuth,
+                                  .file = "folder/sky.x",
+                                  .write_sky_map = {}});
 }
 
 // A file of data of Radiance: two dimensions with irregular positions, the second one fastest.
@@ -264,6 +272,74 @@ TEST(Radiance, SunGivesTheBeam) {
   EXPECT_NEAR(
       179 * (0.265 * red + 0.670 * green + 0.065 * blue) * std::numbers::pi * radius * radius, lux,
       0.002 * lux);
+}
+
+double depth_at(const Atmosphere<double>& a, const std::string& name, double nm) {
+  return vertical_optical_depth(a, a.at(name), node_at(spectra(), nm));
+}
+
+// At wavelengths of its list; what lies between is interpolated.
+constexpr std::array kListed_nm = {360 + 2 * 470 / 15.0, 360 + 6 * 470 / 15.0,
+                                   360 + 10 * 470 / 15.0};
+
+TEST(CalcMySky, ReadsWhatItWrites) {
+  for (const char* name : {"earth-clear", "thin-cloud", "titan"}) {
+    const Preset preset{name, shipped(name), nullptr};
+    const Exported written = exported(preset, "calcmysky", 0.5, 1);
+    const std::string& text = written.files.at(0).text;
+    EXPECT_EQ(program_of(text)->name, "calcmysky");
+    std::vector<std::string> notes;
+    const Atmosphere<double> back = *read_calcmysky(text, "file", notes);
+    EXPECT_NO_THROW(validate(back)) << name;
+    EXPECT_EQ(notes.size(), 1U);
+    EXPECT_NEAR(back.bottom_radius_m, preset.atmosphere.bottom_radius_m, 1e-6);
+    EXPECT_NEAR(back.top_radius_m, preset.atmosphere.top_radius_m, 1e-6);
+    EXPECT_NEAR(back.star.angular_diameter_deg, preset.atmosphere.star.angular_diameter_deg, 1e-6);
+    EXPECT_EQ(back.constituents.size(), preset.atmosphere.constituents.size()) << name;
+  }
+}
+
+TEST(CalcMySky, LosesNothingOfPowerLawsAndLobes) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  std::vector<std::string> notes;
+  const Atmosphere<double>& a = preset.atmosphere;
+  const Atmosphere<double> back =
+      *read_calcmysky(exported(preset, "calcmysky", 0.5, 1).files.at(0).text, "file", notes);
+  for (const Constituent<double>& c : a.constituents) {
+    for (const double nm : kListed_nm)
+      EXPECT_NEAR(depth_at(back, c.name, nm), depth_at(a, c.name, nm),
+                  2e-5 * depth_at(a, c.name, nm))
+          << c.name << " " << nm;
+    if (!scatters(c)) continue;
+    for (const double nu : {-1.0, 0.2, 0.9, 1.0})
+      EXPECT_NEAR(phase_value(back.at(c.name).phase, nu), phase_value(c.phase, nu), 1e-6) << c.name;
+  }
+  EXPECT_NEAR(single_scattering_albedo_at(with_scalar<Dual<0>>(back.at("mie")), kListed_nm[1]).v,
+              a.at("mie").single_scattering_albedo, 1e-6);
+  EXPECT_NEAR(back.ground_albedo, a.ground_albedo, 1e-6);
+}
+
+TEST(CalcMySky, ForeignCodeIsRefusedByKey) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const std::string text = exported(preset, "calcmysky", 0.5, 1).files.at(0).text;
+  std::vector<std::string> notes;
+  const auto with = [&](const std::string& old, const std::string& other) {
+    std::string changed = text;
+    const std::size_t at = changed.find(old);
+    EXPECT_NE(at, changed.npos) << old;
+    changed.replace(at, old.size(), other);
+    return [&notes, changed] { read_calcmysky(changed, "a.atmo", notes); };
+  };
+  EXPECT_THAT(
+      with("exp(-altitude/1200.0)", "exp(-altitude/1200.0)*2.0"),
+      ThrowsMessage<std::invalid_argument>(HasSubstr("a.atmo: Scatterer \"mie\": number density")));
+  EXPECT_THAT(with("CONST float g1=", "CONST float h="),
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("a.atmo: Scatterer \"mie\": phase function = g1")));
+  EXPECT_THAT(with("Earth radius: 6360000.000000000 m", "Earth radius: 6360 miles"),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("Earth radius = 6360 miles")));
+  EXPECT_THAT(with("count=16", "count=20"),
+              ThrowsMessage<std::invalid_argument>(HasSubstr("16 values, expected 20")));
 }
 
 }  // namespace

@@ -1,0 +1,637 @@
+// SPDX-License-Identifier: Apache-2.0
+// Descriptions of atmospheres for CalcMySky (10110111/CalcMySky, doc/model_generation.md and
+// common/AtmosphereParameters.cpp), whose models Stellarium shows: `key: value` lines, sections in
+// braces, GLSL between lines of three backticks. Spectra belong to 16 wavelengths; a scatterer has
+// a power law and one phase function, an absorber a spectrum. Number densities, 1/m^3, are those of
+// particles whose cross section is 1 um^2 at 1 um (scatterers) or that of the list (absorbers).
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+#include "fit/exchange/programs.h"
+#include "model/atmosphere/optics.h"
+#include "model/atmosphere/parameter_field.h"
+#include "model/base/text.h"
+#include "model/numerics/angles.h"
+
+namespace skyfit::fit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kFirst_nm = 360, kLast_nm = 830, kUnit_m2 = 1e-12;  // 1 um^2
+constexpr int kWavelengths = 16;
+constexpr double kSunRadius_m = 696350e3, kAu_m = 149597870700;  // common/const.hpp
+constexpr std::string_view kAbsorption = "_abs";  // of the absorber that goes with a scatterer
+constexpr double kAbsorberDensity = 1e12;         // 1/m^3 where the profile is 1
+
+double wavelength(int k) { return kFirst_nm + (kLast_nm - kFirst_nm) * k / (kWavelengths - 1); }
+
+using Spectrum16 = std::array<double, kWavelengths>;
+
+// GLSL knows 1.0 and 1e3 as numbers with a fraction, 1 not.
+std::string number(double value) {
+  std::string text = fmt::format("{:.9g}", value);
+  return text.find_first_of(".e") == text.npos ? text + ".0" : text;
+}
+
+// For quantities with a unit, where exponents are not read.
+std::string plain_number(double value) { return fmt::format("{:.9f}", value); }
+
+std::string listed(const Spectrum16& values) {
+  std::vector<std::string> texts;
+  for (const double v : values) texts.push_back(fmt::format("{:.7g}", v));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+// The lines of a code block.
+using Code = std::vector<std::string>;
+
+Code density_code(const VerticalProfile<double>& profile, double factor) {
+  switch (profile.type) {
+    case ProfileType::kTent:
+      return {fmt::format("return {}*max(0.0,1.0-abs(altitude-{})/{});", number(factor),
+                          number(profile.peak_m), number(profile.half_width_m))};
+    case ProfileType::kLayer:
+    case ProfileType::kTabulated: {
+      const Profile shape(profile);
+      const std::vector<double>&x = shape.table().heights(), &y = shape.table().densities();
+      Code code;
+      for (std::size_t i = 0; i + 1 < x.size(); ++i)
+        code.push_back(fmt::format("if(altitude<{}) return {}*mix({},{},(altitude-{})/{});",
+                                   number(x[i + 1]), number(factor), number(y[i]), number(y[i + 1]),
+                                   number(x[i]), number(x[i + 1] - x[i])));
+      code.push_back("return 0.0;");
+      return code;
+    }
+    default:
+      return {fmt::format("return {}*exp(-altitude/{});", number(factor),
+                          number(profile.scale_height_m))};
+  }
+}
+
+std::string lobe(PhaseType type, std::string_view g) {
+  return type == PhaseType::kHenyeyGreenstein
+             ? fmt::format("(1.0-{0}*{0})/(4.0*PI)*pow(1.0+{0}*{0}-2.0*{0}*dotViewSun,-1.5)", g)
+             : fmt::format(
+                   "3.0/(8.0*PI)*(1.0-{0}*{0})/(2.0+{0}*{0})*(1.0+sqr(dotViewSun))*"
+                   "pow(1.0+{0}*{0}-2.0*{0}*dotViewSun,-1.5)",
+                   g);
+}
+
+std::string one_lobe(PhaseType type) { return fmt::format("return vec4({});", lobe(type, "g")); }
+
+std::string two_lobes(PhaseType type) {
+  return fmt::format("return vec4(weight*{}+(1.0-weight)*{});", lobe(type, "g1"), lobe(type, "g2"));
+}
+
+constexpr std::string_view kRayleighLine =
+    "return vec4(3.0/(8.0*PI)/(2.0+rho)*(1.0+rho+(1.0-rho)*sqr(dotViewSun)));";
+constexpr std::string_view kAngleLine = "float angle=degrees(acos(clamp(dotViewSun,-1.0,1.0)));";
+constexpr std::array kLobes = {PhaseType::kHenyeyGreenstein, PhaseType::kCornetteShanks};
+
+std::string constant(std::string_view name, double value) {
+  return fmt::format("CONST float {}={};", name, number(value));
+}
+
+// A phase function that is no formula, at 550 nm: its logarithm linear in the angle, degrees.
+TwoColumns table_at_550(const PhaseFunction<double>& phase) {
+  TwoColumns table;
+  if (phase.type == PhaseType::kTabulated) return phase.table->table();
+  const PhaseFunction<double> there = phase_at(phase, 550);
+  for (double angle = 0; angle <= 180; angle += angle < 20 ? 0.5 : 2) {
+    table.x.push_back(angle);
+    table.y.push_back(phase_value(there, std::cos(angle * kRadiansPerDegree)));
+  }
+  return table;
+}
+
+Code phase_code(const PhaseFunction<double>& phase) {
+  switch (phase.type) {
+    case PhaseType::kRayleigh:
+      return {constant("rho", phase.depolarisation), std::string(kRayleighLine)};
+    case PhaseType::kHenyeyGreenstein:
+    case PhaseType::kCornetteShanks:
+      return {constant("g", phase.g), one_lobe(phase.type)};
+    case PhaseType::kTwoLobe:
+      return {constant("g1", phase.g1), constant("g2", phase.g2), constant("weight", phase.weight),
+              two_lobes(phase.lobe)};
+    default: {
+      const TwoColumns table = table_at_550(phase);
+      Code code{std::string(kAngleLine)};
+      for (std::size_t i = 0; i + 1 < table.x.size(); ++i)
+        code.push_back(fmt::format("if(angle<={}) return vec4(exp(mix({},{},(angle-{})/{})));",
+                                   number(table.x[i + 1]), number(std::log(table.y[i])),
+                                   number(std::log(table.y[i + 1])), number(table.x[i]),
+                                   number(table.x[i + 1] - table.x[i])));
+      code.push_back(fmt::format("return vec4({});", number(table.y.back())));
+      return code;
+    }
+  }
+}
+
+// The power law a (1 um / lambda)^exponent that is nearest to positive values, in logarithms and
+// with weights.
+struct PowerLaw {
+  double at_1um, exponent;
+};
+PowerLaw power_law(const Spectrum16& values, const Spectrum16& weights) {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  for (int k = 0; k < kWavelengths; ++k) {
+    const Eigen::Vector2d row(1, std::log(1000 / wavelength(k)));
+    normal += weights[k] * row * row.transpose();
+    right += weights[k] * std::log(values[k]) * row;
+  }
+  const Eigen::Vector2d solution = normal.ldlt().solve(right);
+  return {std::exp(solution[0]), solution[1]};
+}
+
+// What the eye sees of the sun's light.
+Spectrum16 visual_weights(const SpectralData& spectra) {
+  Spectrum16 weights{};
+  for (int k = 0; k < kWavelengths; ++k) {
+    const double nm = wavelength(k);
+    weights[k] = (spectra.x_bar.at_or_zero(nm) + spectra.y_bar.at_or_zero(nm) +
+                  spectra.z_bar.at_or_zero(nm)) *
+                 spectra.solar_irradiance.at(nm);
+  }
+  return weights;
+}
+
+std::string block(const Code& code) {
+  std::string text = "    ```\n";
+  for (const std::string& line : code) text += "        " + line + "\n";
+  return text + "    ```\n";
+}
+
+std::string identifier(std::string_view name) {
+  std::string text(name);
+  for (char& c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!plain) c = '_';
+  }
+  return text;
+}
+
+std::string absorber_text(std::string_view name, const VerticalProfile<double>& profile,
+                          Spectrum16 absorption) {
+  for (double& a : absorption) a /= kAbsorberDensity;
+  return fmt::format("Absorber \"{}\":\n{{\n    number density:\n{}    cross section: {}\n}}\n",
+                     name, block(density_code(profile, kAbsorberDensity)), listed(absorption));
+}
+
+std::string constituent_text(const Atmosphere<double>& atmosphere, const Constituent<double>& c,
+                             const SpectralData& spectra) {
+  const VerticalProfile<double> profile = own_profile(atmosphere, c);
+  const Dual<0> column(Profile(profile).vertical_column().value);
+  Spectrum16 scattering{}, absorption{};
+  double most = 0;
+  for (int k = 0; k < kWavelengths; ++k) {
+    const auto at =
+        coefficients_at(with_scalar<Dual<0>>(c), column, node_at(spectra, wavelength(k)));
+    scattering[k] = at.scattering.v;
+    absorption[k] = std::max(at.extinction.v - at.scattering.v, 0.0);
+    most = std::max(most, at.extinction.v);
+  }
+  // Rounding of an albedo of 1 is no absorption.
+  for (double& a : absorption) a = a < 1e-12 * most ? 0 : a;
+  const bool absorbs = std::ranges::max(absorption) > 0;
+  std::string text;
+  if (scatters(c) && std::ranges::min(scattering) > 0) {
+    const PowerLaw law = power_law(scattering, visual_weights(spectra));
+    text += fmt::format(
+        "Scatterer \"{}\":\n{{\n    number density:\n{}    phase function:\n{}"
+        "    cross section at 1 um: 1 um^2\n    angstrom exponent: {}\n"
+        "    phase function type: achromatic\n}}\n",
+        identifier(c.name), block(density_code(profile, law.at_1um / kUnit_m2)),
+        block(phase_code(c.phase)), plain_number(law.exponent));
+    if (absorbs)
+      text += absorber_text(identifier(c.name) + std::string(kAbsorption), profile, absorption);
+  } else if (absorbs) {
+    text += absorber_text(identifier(c.name), profile, absorption);
+  }
+  return text;
+}
+
+// Of equal energy, 1 cd/m^2.
+Spectrum16 unit_luminance(const SpectralData& spectra) {
+  constexpr double kLumensPerWatt = 683;
+  double sum = 0;
+  for (int k = 0; k < kWavelengths; ++k)
+    sum += spectra.y_bar.at_or_zero(wavelength(k)) * (kLast_nm - kFirst_nm) / (kWavelengths - 1);
+  Spectrum16 values;
+  values.fill(1 / (kLumensPerWatt * sum));
+  return values;
+}
+
+std::string atmo_text(const ExportRequest& request, std::string_view loss) {
+  const Atmosphere<double>& a = request.preset.atmosphere;
+  Spectrum16 irradiance{}, albedo{};
+  for (int k = 0; k < kWavelengths; ++k) {
+    irradiance[k] = request.spectra.solar_irradiance.at(wavelength(k));
+    albedo[k] = ground_albedo_at(a, wavelength(k));
+  }
+  std::string text = fmt::format(
+      R"(# Atmosphere of the preset {}, for CalcMySky. Loss: {}
+version: 7
+
+transmittance texture size for VZA: 256
+transmittance texture size for altitude: 64
+irradiance texture size for SZA: 64
+irradiance texture size for altitude: 16
+scattering texture size for VZA: 128
+scattering texture size for dot(view,sun): 16
+scattering texture size for SZA: 128
+scattering texture size for altitude: 64
+eclipsed scattering texture size for relative azimuth: 32
+eclipsed scattering texture size for VZA: 128
+eclipsed double scattering texture size for relative azimuth: 16
+eclipsed double scattering texture size for VZA: 128
+eclipsed double scattering texture size for SZA: 16
+eclipsed double scattering number of azimuth pairs to sample: 2
+eclipsed double scattering number of elevation pairs to sample: 10
+light pollution texture size for VZA: 128
+light pollution texture size for altitude: 64
+light pollution angular integration points: 200
+transmittance integration points: 500
+radial integration points: 50
+angular integration points: 512
+angular integration points for eclipse: 512
+scattering orders: 4
+
+# The distance at which the program's sun of 696350 km has the preset's diameter.
+Earth-Sun distance: {} AU
+Earth-Moon distance: 384400 km
+Earth radius: {} m
+atmosphere height: {} m
+
+wavelengths: min={:g}nm,max={:g}nm,count={}
+solar irradiance at TOA: {}
+ground albedo: {}
+# Of equal energy.
+light pollution relative radiance: {}
+
+)",
+      plain_line(request.preset.name), loss,
+      plain_number(kSunRadius_m / a.star.angular_radius_rad() / kAu_m),
+      plain_number(a.bottom_radius_m), plain_number(a.top_radius_m - a.bottom_radius_m), kFirst_nm,
+      kLast_nm, kWavelengths, listed(irradiance), listed(albedo),
+      listed(unit_luminance(request.spectra)));
+  for (const Constituent<double>& c : a.constituents)
+    text += constituent_text(a, c, request.spectra);
+  return text;
+}
+
+void expect_within_format(const Atmosphere<double>& a) {
+  const double distance = kSunRadius_m / a.star.angular_radius_rad() / kAu_m,
+               height = a.top_radius_m - a.bottom_radius_m;
+  if (distance < 0.5)
+    throw std::invalid_argument(fmt::format(
+        "star.angular_diameter_deg = {:g}: CalcMySky holds at most {:.3g}",
+        a.star.angular_diameter_deg, 2 * kSunRadius_m / (0.5 * kAu_m) * kDegreesPerRadian));
+  if (height > 1e6)
+    throw std::invalid_argument(fmt::format(
+        "top_radius_m = {:g}: CalcMySky holds atmospheres of at most 1000 km", a.top_radius_m));
+}
+
+// What an .atmo file says: entries of the file, or of a section with its code.
+struct Section {
+  std::string kind, name;  // "Scatterer", "Absorber"; empty: the file's own
+  std::map<std::string, std::string> values;
+  std::map<std::string, Code> codes;
+};
+
+class AtmoReader {
+ public:
+  AtmoReader(std::string_view text, std::string_view source) : source_(source) {
+    sections_.push_back({});
+    std::string key;
+    bool in_code = false;
+    for (const std::string_view row : split(text, '\n')) {
+      ++line_;
+      const std::string_view line = trim(in_code ? row : row.substr(0, row.find('#')));
+      if (line == "```") {
+        if (key.empty()) fail("expected a key before a code block");
+        in_code = !in_code;
+      } else if (in_code) {
+        if (!line.empty()) sections_.back().codes[key].emplace_back(line);
+      } else if (line == "}") {
+        sections_.push_back({});
+      } else if (!line.empty() && line != "{") {
+        key = add_entry(line);
+      }
+    }
+    if (in_code) fail("expected the end of a code block");
+  }
+
+  const std::vector<Section>& sections() const { return sections_; }
+
+  const std::string& value(std::string_view kind, std::string_view name,
+                           const std::string& key) const {
+    for (const Section& s : sections_) {
+      if (s.kind != kind || s.name != name) continue;
+      if (const auto found = s.values.find(key); found != s.values.end() && !found->second.empty())
+        return found->second;
+    }
+    throw std::invalid_argument(fmt::format("{}: {}{}: not there", source_, of(kind, name), key));
+  }
+
+  const Code& code(const Section& s, const std::string& key) const {
+    const auto found = s.codes.find(key);
+    if (found == s.codes.end()) fail_value(s, key, "", "GLSL between lines of three backticks");
+    return found->second;
+  }
+
+  double quantity(std::string_view kind, std::string_view name, const std::string& key,
+                  const std::map<std::string, double>& units) const {
+    const std::string& text = value(kind, name, key);
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    const auto unit = units.find(std::string(trim(end)));
+    if (end == text.c_str() || unit == units.end() || !std::isfinite(number)) {
+      std::vector<std::string> names;
+      for (const auto& [unit_name, factor] : units) names.push_back(unit_name);
+      throw std::invalid_argument(
+          fmt::format("{}: {}{} = {}: expected a number with one of the units {}", source_,
+                      of(kind, name), key, printable(text), fmt::join(names, ", ")));
+    }
+    return number * unit->second;
+  }
+
+  std::vector<double> spectrum(std::string_view kind, std::string_view name, const std::string& key,
+                               std::size_t count) const {
+    const std::string& text = value(kind, name, key);
+    std::vector<double> values;
+    for (const std::string_view part : split(text, ',')) {
+      const std::string one(trim(part));
+      char* end = nullptr;
+      const double v = std::strtod(one.c_str(), &end);
+      if (one.empty() || *end != '\0' || !(v >= 0) || !std::isfinite(v)) {
+        throw std::invalid_argument(fmt::format("{}: {}{}: {}: expected numbers >= 0 with commas",
+                                                source_, of(kind, name), key, in_quotes(one)));
+      }
+      values.push_back(v);
+    }
+    if (values.size() != count) {
+      throw std::invalid_argument(fmt::format("{}: {}{}: {} values, expected {}, one a wavelength",
+                                              source_, of(kind, name), key, values.size(), count));
+    }
+    return values;
+  }
+
+  [[noreturn]] void fail_value(const Section& s, std::string_view key, std::string_view shown,
+                               std::string_view expected) const {
+    throw std::invalid_argument(fmt::format("{}: {}{}{}: expected {}", source_, of(s.kind, s.name),
+                                            key, shown.empty() ? "" : " = " + excerpt(shown),
+                                            expected));
+  }
+
+ private:
+  static std::string of(std::string_view kind, std::string_view name) {
+    return kind.empty() ? "" : fmt::format("{} \"{}\": ", kind, name);
+  }
+
+  [[noreturn]] void fail(std::string_view expected) const {
+    throw std::invalid_argument(fmt::format("{}:{}: {}", source_, line_, expected));
+  }
+
+  // The key of the entry.
+  std::string add_entry(std::string_view line) {
+    const std::size_t colon = line.find(':');
+    if (colon == line.npos) fail(in_quotes(line) + ": expected KEY: VALUE");
+    std::string key(trim(line.substr(0, colon)));
+    for (const std::string_view kind : {"Scatterer", "Absorber"}) {
+      if (!key.starts_with(kind)) continue;
+      const std::size_t open = key.find('"'), close = key.rfind('"');
+      if (open == key.npos || close <= open) fail(in_quotes(key) + ": expected a name in quotes");
+      sections_.push_back({std::string(kind), key.substr(open + 1, close - open - 1), {}, {}});
+      return key;
+    }
+    sections_.back().values[key] = std::string(trim(line.substr(colon + 1)));
+    return key;
+  }
+
+  std::string source_;
+  int line_ = 0;
+  std::vector<Section> sections_;
+};
+
+constexpr std::string_view kOurForm = "the form that `skyfit export --to calcmysky` writes";
+
+struct ReadDensity {
+  VerticalProfile<double> profile;
+  double factor = 0;
+};
+
+ReadDensity read_density(const AtmoReader& reader, const Section& s) {
+  const Code& code = reader.code(s, "number density");
+  ReadDensity read;
+  double a, b, c;
+  int length = 0;
+  const auto whole = [&] { return length > 0 && length == static_cast<int>(code[0].size()); };
+  if (code.size() == 1 &&
+      std::sscanf(code[0].c_str(), "return %lf*exp(-altitude/%lf);%n", &a, &b, &length) == 2 &&
+      whole()) {
+    read.factor = a;
+    read.profile.scale_height_m = b;
+    return read;
+  }
+  if (code.size() == 1 &&
+      std::sscanf(code[0].c_str(), "return %lf*max(0.0,1.0-abs(altitude-%lf)/%lf);%n", &a, &b, &c,
+                  &length) == 3 &&
+      whole()) {
+    read.factor = a;
+    read.profile.type = ProfileType::kTent;
+    read.profile.peak_m = b;
+    read.profile.half_width_m = c;
+    return read;
+  }
+  TwoColumns table;
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    double top, low, high, bottom, height;
+    if (std::sscanf(code[i].c_str(), "if(altitude<%lf) return %lf*mix(%lf,%lf,(altitude-%lf)/%lf);",
+                    &top, &read.factor, &low, &high, &bottom, &height) != 6) {
+      if (i + 1 == code.size() && i > 0 && code[i] == "return 0.0;") break;
+      reader.fail_value(s, "number density", code[i], kOurForm);
+    }
+    if (table.x.empty()) {
+      table.x.push_back(bottom);
+      table.y.push_back(low);
+    }
+    table.x.push_back(top);
+    table.y.push_back(high);
+  }
+  if (table.x.empty()) reader.fail_value(s, "number density", "", kOurForm);
+  read.profile.type = ProfileType::kTabulated;
+  read.profile.table = std::make_shared<const LinearProfile>(table);
+  return read;
+}
+
+bool same_shape(const VerticalProfile<double>& a, const VerticalProfile<double>& b) {
+  if (a.type != ProfileType::kTabulated || b.type != ProfileType::kTabulated) return a == b;
+  return a.table->heights() == b.table->heights() && a.table->densities() == b.table->densities();
+}
+
+PhaseFunction<double> read_phase(const AtmoReader& reader, const Section& s) {
+  const Code& code = reader.code(s, "phase function");
+  if (code.empty()) reader.fail_value(s, "phase function", "", kOurForm);
+  PhaseFunction<double> phase;
+  if (code[0] == kAngleLine) {
+    TwoColumns table;
+    for (std::size_t i = 1; i < code.size(); ++i) {
+      double to, low, high, from, width;
+      if (std::sscanf(code[i].c_str(), "if(angle<=%lf) return vec4(exp(mix(%lf,%lf,(angle-%lf)/%lf",
+                      &to, &low, &high, &from, &width) != 5) {
+        if (i + 1 == code.size() && i > 1) break;
+        reader.fail_value(s, "phase function", code[i], kOurForm);
+      }
+      if (table.x.empty()) {
+        table.x.push_back(from);
+        table.y.push_back(std::exp(low));
+      }
+      table.x.push_back(to);
+      table.y.push_back(std::exp(high));
+    }
+    phase.type = PhaseType::kTabulated;
+    phase.table = std::make_shared<const TabulatedPhase>(table);
+    return phase;
+  }
+  std::map<std::string, double> constants;
+  for (std::size_t i = 0; i + 1 < code.size(); ++i) {
+    char name[16];
+    double value;
+    if (std::sscanf(code[i].c_str(), "CONST float %15[a-z0-9]=%lf;", name, &value) != 2)
+      reader.fail_value(s, "phase function", code[i], kOurForm);
+    constants[name] = value;
+  }
+  const auto of = [&](const char* name) {
+    const auto found = constants.find(name);
+    if (found == constants.end()) reader.fail_value(s, "phase function", name, "a CONST float");
+    return found->second;
+  };
+  if (code.back() == kRayleighLine) {
+    phase.type = PhaseType::kRayleigh;
+    phase.depolarisation = of("rho");
+    return phase;
+  }
+  for (const PhaseType type : kLobes) {
+    if (code.back() == one_lobe(type)) {
+      phase.type = type;
+      phase.g = of("g");
+      return phase;
+    }
+    if (code.back() != two_lobes(type)) continue;
+    phase.type = PhaseType::kTwoLobe;
+    phase.lobe = type;
+    phase.g1 = of("g1");
+    phase.g2 = of("g2");
+    phase.weight = of("weight");
+    return phase;
+  }
+  reader.fail_value(s, "phase function", code.back(), kOurForm);
+}
+
+const std::map<std::string, double> kLengths = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3},
+                                                {"m", 1},     {"km", 1e3},  {"Mm", 1e6},
+                                                {"Gm", 1e9},  {"AU", kAu_m}};
+const std::map<std::string, double> kAreas = {{"am^2", 1e-36}, {"fm^2", 1e-30}, {"pm^2", 1e-24},
+                                              {"nm^2", 1e-18}, {"um^2", 1e-12}, {"mm^2", 1e-6},
+                                              {"cm^2", 1e-4},  {"m^2", 1},      {"km^2", 1e6},
+                                              {"Mm^2", 1e12},  {"Gm^2", 1e18}};
+const std::map<std::string, double> kPure = {{"", 1}};
+
+std::vector<double> read_wavelengths(const AtmoReader& reader) {
+  const std::string& text = reader.value("", "", "wavelengths");
+  double first, last;
+  int count = 0, length = 0;
+  if (std::sscanf(text.c_str(), "min=%lfnm,max=%lfnm,count=%d%n", &first, &last, &count, &length) !=
+          3 ||
+      length != static_cast<int>(text.size()) || !(first > 0 && last > first) || count < 4 ||
+      count > 1000)
+    reader.fail_value({}, "wavelengths", text, "min=NUMBERnm,max=NUMBERnm,count=4 .. 1000");
+  std::vector<double> list;
+  for (int k = 0; k < count; ++k) list.push_back(first + (last - first) * k / (count - 1));
+  return list;
+}
+
+}  // namespace
+
+std::optional<Atmosphere<double>> read_calcmysky(std::string_view text, std::string_view source,
+                                                 std::vector<std::string>& notes) {
+  if (text.find("cross section at 1 um") == text.npos &&
+      text.find("scattering texture size for") == text.npos)
+    return {};
+  const AtmoReader reader(text, source);
+  const std::vector<double> nm = read_wavelengths(reader);
+  Atmosphere<double> a;
+  a.constituents.clear();
+  a.bottom_radius_m = reader.quantity("", "", "Earth radius", kLengths);
+  a.top_radius_m = a.bottom_radius_m + reader.quantity("", "", "atmosphere height", kLengths);
+  a.star.angular_diameter_deg = 2 * kDegreesPerRadian * kSunRadius_m /
+                                reader.quantity("", "", "Earth-Sun distance", kLengths);
+  const std::vector<double> albedo = reader.spectrum("", "", "ground albedo", nm.size());
+  a.ground_albedo = clamped_interpolation({nm, albedo}, GroundSpectrum::kWavelengthNm);
+  if (a.ground_albedo > 0 && std::ranges::max(albedo) > std::ranges::min(albedo))
+    a.ground_spectrum = std::make_shared<const GroundSpectrum>(TwoColumns{nm, albedo});
+  std::map<std::string, std::size_t> absorption_of;  // "mie_abs": the place of "mie"
+  for (const Section& s : reader.sections()) {
+    if (s.kind.empty()) continue;
+    Constituent<double> c;
+    c.name = s.name;
+    const ReadDensity density = read_density(reader, s);
+    c.profile = density.profile;
+    if (s.kind == "Scatterer") {
+      c.wavelength_nm = 1000;
+      c.amount = density.factor * reader.quantity(s.kind, s.name, "cross section at 1 um", kAreas);
+      c.angstrom_exponent = reader.quantity(s.kind, s.name, "angstrom exponent", kPure);
+      c.phase = read_phase(reader, s);
+      absorption_of[s.name + std::string(kAbsorption)] = a.constituents.size();
+      a.constituents.push_back(c);
+      continue;
+    }
+    std::vector<double> section = reader.spectrum(s.kind, s.name, "cross section", nm.size());
+    const auto scatterer = absorption_of.find(s.name);
+    if (scatterer != absorption_of.end() &&
+        same_shape(c.profile, a.constituents[scatterer->second].profile)) {
+      Constituent<double>& owner = a.constituents[scatterer->second];
+      for (std::size_t k = 0; k < nm.size(); ++k) {
+        const double scattering =
+            owner.amount * std::pow(nm[k] / owner.wavelength_nm, -owner.angstrom_exponent);
+        section[k] = scattering / (scattering + density.factor * section[k]);
+      }
+      owner.single_scattering_albedo =
+          clamped_interpolation({nm, section}, GroundSpectrum::kWavelengthNm);
+      owner.albedo_spectrum =
+          std::make_shared<const SpectrumTable>(TwoColumns{nm, section}, kAlbedoFormat);
+      continue;
+    }
+    const auto largest = std::ranges::max_element(section);
+    if (*largest <= 0) continue;
+    c.amount_type = AmountType::kExtinction;
+    c.single_scattering_albedo = 0;
+    c.amount = density.factor * *largest;
+    c.wavelength_nm = nm[static_cast<std::size_t>(largest - section.begin())];
+    c.spectrum = std::make_shared<const SpectrumTable>(TwoColumns{nm, section}, kShapeFormat);
+    a.constituents.push_back(c);
+  }
+  notes.push_back("solar irradiance at TOA is not read: the star is skyfit's sun");
+  return a;
+}
+
+Exported export_calcmysky(const ExportRequest& request) {
+  const Atmosphere<double>& truth = request.preset.atmosphere;
+  expect_within_format(truth);
+  std::vector<std::string> notes;
+  Atmosphere<double> shown = *read_calcmysky(atmo_text(request, ""), request.file.string(), notes);
+  shown.star = truth.star;  // whose irradiance is in the file
+  const std::string loss = loss_text(sky_loss(request.models, request.spectra, truth, shown));
+  return {{{request.file, atmo_text(request, loss)}}, {}, loss};
+}
+
+}  // namespace skyfit::fit
