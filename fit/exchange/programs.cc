@@ -51,6 +51,8 @@ std::vector<Program> all_programs() {
                   true,
                   export_mitsuba,
                   {}});
+  list.push_back(
+      {"godot", "Godot 4, resource PhysicalSkyMaterial (.tres)", ".tres", false, export_godot, {}});
   list.push_back({"calcmysky", "CalcMySky for Stellarium, description of the atmosphere (.atmo)",
                   ".atmo", true, export_calcmysky, read_calcmysky});
   return list;

@@ -70,13 +70,6 @@ std::vector<Parameter> free_within_bounds(const Atmosphere<double>& start,
   return list;
 }
 
-double angle_from_sun(const SkyPoint& p) {
-  const double cosine =
-      std::cos(p.sun_zenith) * std::cos(p.view_zenith) +
-      std::sin(p.sun_zenith) * std::sin(p.view_zenith) * std::cos(p.relative_azimuth);
-  return std::acos(std::clamp(cosine, -1.0, 1.0));
-}
-
 double uv_distance(const Xyz& a, const Xyz& b) {
   const auto uv = [](const Xyz& c) {
     const double sum = c[0] + 15 * c[1] + 3 * c[2];
@@ -112,6 +105,13 @@ Xyz irradiance_color(const SkyValues& irradiance, Irradiance which, const XyzRul
       xyz[c] += rule.weight[c][k] * irradiance.at(which, static_cast<int>(k)) * factors[k];
   }
   return xyz;
+}
+
+double angle_from_sun(const SkyPoint& p) {
+  const double cosine =
+      std::cos(p.sun_zenith) * std::cos(p.view_zenith) +
+      std::sin(p.sun_zenith) * std::sin(p.view_zenith) * std::cos(p.relative_azimuth);
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 std::vector<SkyPoint> lattice_sky(double sun_zenith) {

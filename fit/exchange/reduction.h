@@ -47,6 +47,8 @@ SkyLoss color_loss(const std::vector<SkyPoint>& points, const std::vector<Xyz>& 
 std::vector<SkyPoint> six_skies();
 inline constexpr std::string_view kSixSkies = "suns 10 to 85 deg from the zenith";
 
+double angle_from_sun(const SkyPoint& point);  // radians
+
 // One sun, 400 directions spread evenly over the hemisphere, a Fibonacci lattice.
 std::vector<SkyPoint> lattice_sky(double sun_zenith);
 

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Godot 4's PhysicalSkyMaterial (class reference; scene/resources/3d/sky_material.cpp, sky shader,
+// after three.js and Preetham, Shirley & Smits 1999). It is no atmosphere, so its own formula is
+// fitted to the preset's sky: with beta_R = 1e-4 rayleigh_coefficient rayleigh_color and beta_M =
+// 4.34e-4 turbidity mie_coefficient mie_color (linear colours), m the air mass 1 / (c + 0.15
+// (3.885 + 54.5 c)^-1.253) at the view's cosine c, E = 0.757 mu_s times the light's energy,
+//   T = exp(-(8400 beta_R + 1250 beta_M) m),
+//   P = (beta_R p_R + beta_M p_M) / (beta_R + beta_M), p_R = 3 / (16 pi) (1 + ((1 + nu) / 2)^2),
+//   L = (E P (1 - T))^1.5 (1 - f + f (E P T)^0.5), f = (1 - mu_s)^5,
+// p_M Henyey & Greenstein's, the colour is energy_multiplier L^(1 / 2.4). Below the horizon L is
+// that of the horizon times ground_color.
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "fit/exchange/programs.h"
+#include "fit/exchange/srgb.h"
+#include "model/atmosphere/ground_spectrum.h"
+
+namespace skyfit::fit {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRayleighUnit = 1e-4, kMieUnit = 4.34e-4;  // 1/m
+constexpr double kGamma = 1 / 2.4;
+
+// ln beta_R, ln beta_M (red, green, blue), g, ln energy_multiplier per cd/m^2.
+constexpr int kUnknowns = 8;
+template <class T>
+using Unknowns = std::array<T, kUnknowns>;
+
+// L of a channel.
+template <class T>
+T light(const Unknowns<T>& x, std::size_t channel, const SkyPoint& p) {
+  using std::exp, std::pow, std::sqrt;
+  const double mu_s = std::cos(p.sun_zenith), c = std::max(std::cos(p.view_zenith), 0.0);
+  const double nu = std::clamp(std::cos(angle_from_sun(p)), -1.0, 1.0);
+  const double energy = 0.757 * std::max(mu_s, 0.0);
+  const double mass = 1 / (c + 0.15 * std::pow(3.885 + 54.5 * c, -1.253));
+  const T rayleigh = exp(x[channel]), mie = exp(x[3 + channel]), g = x[6];
+  const T depth = (8400.0 * rayleigh + 1250.0 * mie) * mass;
+  const T denominator = 1.0 + g * g - 2.0 * nu * g;
+  const T mie_phase = (1.0 - g * g) / (4 * kPi * denominator * sqrt(denominator));
+  const double rayleigh_phase = 3 / (16 * kPi) * (1 + 0.25 * (1 + nu) * (1 + nu));
+  const T scattered = energy * (rayleigh * rayleigh_phase + mie * mie_phase) / (rayleigh + mie);
+  const double low = std::pow(1 - mu_s, 5);
+  return pow(scattered * (1.0 - exp(-depth)), 1.5) *
+         (1 - low + low * sqrt(scattered) * exp(-0.5 * depth));
+}
+
+template <class T>
+T color(const Unknowns<T>& x, std::size_t channel, const SkyPoint& p) {
+  using std::exp, std::pow;
+  return exp(x[7]) * pow(light(x, channel, p), kGamma);
+}
+
+struct Residual {
+  SkyPoint point;
+  std::size_t channel;
+  double log_truth;
+  template <class T>
+  bool operator()(const T* parameters, T* residual) const {
+    Unknowns<T> x;
+    std::copy_n(parameters, kUnknowns, x.begin());
+    residual[0] = ceres::log(color(x, channel, point)) - log_truth;
+    return true;
+  }
+};
+
+struct Fitted {
+  Unknowns<double> x{};
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+Fitted fitted_from(Unknowns<double> x, const std::vector<SkyPoint>& points,
+                   const std::vector<Xyz>& truth) {
+  constexpr double kClose = 3 * kPi / 180;  // as color_loss()
+  ceres::Problem problem;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (angle_from_sun(points[i]) < kClose) continue;
+    const Rgb rgb = linear_srgb(truth[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (rgb[k] <= 0) continue;  // outside of sRGB
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Residual, 1, kUnknowns>(
+                                   new Residual{points[i], k, std::log(rgb[k])}),
+                               nullptr, x.data());
+    }
+  }
+  // The ranges of the properties in the editor; turbidity is at most 1000, mie_coefficient 1.
+  for (int k = 0; k < 3; ++k) {
+    for (const auto& [at, unit, most] :
+         {std::tuple{k, kRayleighUnit, 64.0}, {3 + k, kMieUnit, 1000.0}}) {
+      problem.SetParameterLowerBound(x.data(), at, std::log(unit * 1e-4));
+      problem.SetParameterUpperBound(x.data(), at, std::log(unit * most));
+    }
+  }
+  problem.SetParameterLowerBound(x.data(), 6, -0.98);
+  problem.SetParameterUpperBound(x.data(), 6, 0.98);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 200;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable())
+    throw std::runtime_error("Godot's sky cannot be fitted: " + summary.message);
+  return {x, summary.final_cost};
+}
+
+Fitted fitted(const std::vector<SkyPoint>& points, const std::vector<Xyz>& truth,
+              const std::function<void(double)>& progress) {
+  Fitted best;
+  int done = 0;
+  for (const double mie : {0.05, 0.5, 5.0}) {
+    for (const double g : {0.3, 0.7}) {
+      Unknowns<double> start{};
+      const Rgb air = {0.15, 0.3, 0.7};  // about those of the engine's defaults
+      for (std::size_t k = 0; k < 3; ++k) {
+        start[k] = std::log(kRayleighUnit * air[k]);
+        start[3 + k] = std::log(kMieUnit * mie);
+      }
+      start[6] = g;
+      start[7] = std::log(truth.front()[1]);
+      const Fitted found = fitted_from(start, points, truth);
+      if (found.cost < best.cost) best = found;
+      progress(++done / 6.0);
+    }
+  }
+  return best;
+}
+
+std::string color_text(const Rgb& linear) {
+  const auto encoded = [](double v) {
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+  };
+  return fmt::format("Color({:.6g}, {:.6g}, {:.6g}, 1)", encoded(linear[0]), encoded(linear[1]),
+                     encoded(linear[2]));
+}
+
+// Coefficients as a number and a colour whose largest channel is 1.
+struct Split {
+  double amount;
+  Rgb color;
+};
+Split split_color(const Unknowns<double>& x, std::size_t first, double unit) {
+  Rgb beta;
+  for (std::size_t k = 0; k < 3; ++k) beta[k] = std::exp(x[first + k]) / unit;
+  const double most = std::ranges::max(beta);
+  for (double& b : beta) b /= most;
+  return {most, beta};
+}
+
+}  // namespace
+
+Exported export_godot(const ExportRequest& request) {
+  const XyzRule rule = xyz_rule(request.spectra);
+  const Atmosphere<double>& a = request.preset.atmosphere;
+  const SkyValues sun = request.models.truth.irradiance(a, rule.nodes, 0, request.sun_zenith, {});
+  const std::vector<double> ones(rule.nodes.size(), 1);
+  const double beam = irradiance_color(sun, kDirectNormal, rule, ones)[1];  // lx
+  if (!(beam > 0))
+    throw std::invalid_argument(
+        "the sun gives no light at this zenith angle: Godot's light has energy 1, expected a "
+        "higher sun");
+
+  const std::vector<SkyPoint> points = six_skies();
+  const std::vector<Xyz> truth = sky_colors(request.models.truth, rule, a, points);
+  const Unknowns<double> x = fitted(points, truth, request.progress).x;
+  std::vector<Xyz> shown;
+  for (const SkyPoint& p : points)
+    shown.push_back(xyz_of_srgb({color(x, 0, p), color(x, 1, p), color(x, 2, p)}));
+  const std::string loss = loss_text(color_loss(points, truth, shown));
+
+  // The ground of this sun, seen across the sun's azimuth.
+  std::vector<double> reflected;
+  for (const WavelengthNode& node : rule.nodes)
+    reflected.push_back(ground_albedo_at(a, node.wavelength_nm) / kPi);
+  const Rgb ground_light = linear_srgb(irradiance_color(sun, kGlobalHorizontal, rule, reflected));
+  Rgb ground{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double horizon = light(x, k, {0, request.sun_zenith, 0.5 * kPi, 0.5 * kPi});
+    const double seen = std::pow(std::max(ground_light[k], 0.0) / std::exp(x[7]), 1 / kGamma);
+    ground[k] = horizon > 0 ? std::min(seen / horizon, 1.0) : 0;
+  }
+  const Split rayleigh = split_color(x, 0, kRayleighUnit), mie = split_color(x, 3, kMieUnit);
+  constexpr double kTurbidity = 10;  // the engine's default
+  const double turbidity = std::max(kTurbidity, mie.amount);
+  return {{{request.file,
+            fmt::format(
+                R"([gd_resource type="PhysicalSkyMaterial" format=3]
+
+; Sky of the preset {}, for Godot 4. Loss: {}
+; Of a DirectionalLight3D with light_energy 1, whose direct light is then {:.4g} lx.
+[resource]
+rayleigh_coefficient = {:.6g}
+rayleigh_color = {}
+mie_coefficient = {:.6g}
+mie_eccentricity = {:.6g}
+mie_color = {}
+turbidity = {:.6g}
+sun_disk_scale = 1.0
+ground_color = {}
+energy_multiplier = {:.6g}
+)",
+                plain_line(request.preset.name), loss, beam, rayleigh.amount,
+                color_text(rayleigh.color), mie.amount / turbidity, x[6], color_text(mie.color),
+                turbidity, color_text(ground), std::exp(x[7]) * kPi / beam)}},
+          {},
+          loss};
+}
+
+}  // namespace skyfit::fit
