@@ -188,8 +188,8 @@ Exported export_godot(const ExportRequest& request) {
     ground[k] = horizon > 0 ? std::min(seen / horizon, 1.0) : 0;
   }
   const Split rayleigh = split_color(x, 0, kRayleighUnit), mie = split_color(x, 3, kMieUnit);
-  constexpr double kTurbidity = 10;  // the engine's default
-  const double turbidity = std::max(kTurbidity, mie.amount);
+  constexpr double kMieCoefficient = 0.005, kMostTurbidity = 1000;  // its default, its range
+  const double mie_coefficient = std::max(kMieCoefficient, mie.amount / kMostTurbidity);
   return {{{request.file,
             fmt::format(
                 R"([gd_resource type="PhysicalSkyMaterial" format=3]
@@ -208,8 +208,8 @@ ground_color = {}
 energy_multiplier = {:.6g}
 )",
                 plain_line(request.preset.name), loss, beam, rayleigh.amount,
-                color_text(rayleigh.color), mie.amount / turbidity, x[6], color_text(mie.color),
-                turbidity, color_text(ground), std::exp(x[7]) * kPi / beam)}},
+                color_text(rayleigh.color), mie_coefficient, x[6], color_text(mie.color),
+                mie.amount / mie_coefficient, color_text(ground), std::exp(x[7]) * kPi / beam)}},
           {},
           loss};
 }

@@ -2,13 +2,17 @@
 // Parameters of other programs: what is written is read back, what a program can hold loses
 // nothing, what it cannot hold is refitted and stated, and strangers' files are refused by name and
 // field.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <numbers>
+#include <pugixml.hpp>
 #include <sstream>
 
+#include "data_refs/image/image_module.h"
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "fit/exchange/engines.h"
@@ -19,8 +23,10 @@
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/preset.h"
+#include "model/base/module_file.h"
 #include "model/numerics/angles.h"
 #include "model/registry.h"
+#include "render/sky_map/sky_map.h"
 
 namespace skyfit::fit {
 namespace {
@@ -275,6 +281,18 @@ TEST(Radiance, SunGivesTheBeam) {
       0.002 * lux);
 }
 
+// A sky that costs nothing, where only the text of an export matters.
+class EvenSky : public SkyModel {
+ public:
+  std::string_view name() const override { return "even"; }
+  SkyValues radiance(const Atmosphere<double>&, std::span<const WavelengthNode> wavelengths,
+                     std::span<const SkyPoint> points, std::span<const Parameter>) const override {
+    SkyValues sky{static_cast<int>(points.size()), static_cast<int>(wavelengths.size()), 0, {}, {}};
+    sky.value.assign(points.size() * wavelengths.size(), 1.0);
+    return sky;
+  }
+};
+
 double depth_at(const Atmosphere<double>& a, const std::string& name, double nm) {
   return vertical_optical_depth(a, a.at(name), node_at(spectra(), nm));
 }
@@ -286,7 +304,13 @@ constexpr std::array kListed_nm = {360 + 2 * 470 / 15.0, 360 + 6 * 470 / 15.0,
 TEST(CalcMySky, ReadsWhatItWrites) {
   for (const char* name : {"thin-cloud", "titan"}) {
     const Preset preset{name, shipped(name), nullptr};
-    const Exported written = exported(preset, "calcmysky", 0.5, 1);
+    const EvenSky even;
+    const Exported written = program_named("calcmysky")
+                                 .write({.preset = preset,
+                                         .spectra = spectra(),
+                                         .models = {even, even},
+                                         .file = "sky.atmo",
+                                         .write_sky_map = {}});
     const std::string& text = written.files.at(0).text;
     EXPECT_EQ(program_of(text)->name, "calcmysky");
     std::vector<std::string> notes;
@@ -397,6 +421,82 @@ TEST(Godot, PropertiesGiveTheSkyWithinTheLoss) {
       color_loss(points, sky_colors(scalar(), rule, preset.atmosphere, points), shown);
   EXPECT_EQ(loss_text(loss), written.loss);
   EXPECT_LT(loss.rms_percent, 40);
+}
+
+// What Mitsuba would look up in the picture for directions of the world.
+TEST(Mitsuba, MapShowsTheSkyWhereItIs) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const double zenith = 50 * kRadiansPerDegree, azimuth = 110 * kRadiansPerDegree;
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / fmt::format("skyfit_mitsuba_{}.xml", getpid());
+  const auto write_map = [&](const std::filesystem::path& to) {
+    SkyMapOptions options;
+    options.sun_zenith = zenith;
+    options.sun_azimuth = azimuth;
+    options.sun_disc = false;
+    write_sky_map(sky_map(scalar(), preset.atmosphere, xyz_channels(spectra()),
+                          *make_map_projection("equirectangular", 90), options),
+                  Primaries::kRec709, to);
+  };
+  const Exported written = program_named("mitsuba").write({.preset = preset,
+                                                           .spectra = spectra(),
+                                                           .models = kScalarTruth,
+                                                           .sun_zenith = zenith,
+                                                           .sun_azimuth = azimuth,
+                                                           .file = file,
+                                                           .write_sky_map = write_map});
+  ASSERT_EQ(written.pictures.size(), 1U);
+  const refs::Image image =
+      module_named<refs::ImageModule>("skyfit_image_module").read(written.pictures[0]);
+  std::filesystem::remove(written.pictures[0]);
+  pugi::xml_document scene;
+  ASSERT_TRUE(scene.load_string(written.files.at(0).text.c_str()));
+  const auto emitter = [&](const char* type) {
+    return scene.child("scene").find_child_by_attribute("emitter", "type", type);
+  };
+  EXPECT_EQ(
+      emitter("envmap").find_child_by_attribute("name", "filename").attribute("value").value(),
+      written.pictures[0].filename().string());
+  std::istringstream numbers(
+      emitter("envmap").child("transform").child("matrix").attribute("value").value());
+  double to_world[4][4];
+  for (auto& row : to_world) {
+    for (double& v : row) numbers >> v;
+  }
+  ASSERT_TRUE(numbers);
+  const XyzRule rule = xyz_rule(spectra());
+  for (const auto& [view_deg, north_deg] :
+       {std::pair{21.0, 33.0}, {61.0, 251.0}, {47.0, 131.0}, {81.0, 11.0}}) {
+    const double view = view_deg * kRadiansPerDegree, north = north_deg * kRadiansPerDegree;
+    const double d[] = {std::sin(view) * std::sin(north), std::sin(view) * std::cos(north),
+                        std::cos(view)};
+    double local[3] = {};
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) local[i] += to_world[k][i] * d[k];  // the inverse of a rotation
+    }
+    const double u = std::atan2(local[0], -local[2]) / (2 * std::numbers::pi),
+                 v = std::acos(local[1]) / std::numbers::pi;
+    const int x = static_cast<int>((u - std::floor(u)) * image.width),
+              y = static_cast<int>(std::lround(v * (image.height - 1)));
+    const float* pixel = image.pixel(x, y);
+    const double expected =
+        sky_colors(scalar(), rule, preset.atmosphere, {{0, zenith, view, north - azimuth}})[0][1];
+    EXPECT_NEAR(xyz_of_srgb({pixel[0], pixel[1], pixel[2]})[1], expected, 0.04 * expected)
+        << view_deg << " " << north_deg;
+  }
+  std::istringstream direction(emitter("directional").child("vector").attribute("value").value()),
+      irradiance(emitter("directional").child("rgb").attribute("value").value());
+  double x, y, z;
+  Rgb rgb;
+  direction >> x >> y >> z;
+  irradiance >> rgb[0] >> rgb[1] >> rgb[2];
+  EXPECT_NEAR(x, -std::sin(zenith) * std::sin(azimuth), 1e-8);
+  EXPECT_NEAR(y, -std::sin(zenith) * std::cos(azimuth), 1e-8);
+  EXPECT_NEAR(z, -std::cos(zenith), 1e-8);
+  const double lux =
+      irradiance_color(scalar().irradiance(preset.atmosphere, rule.nodes, 0, zenith, {}),
+                       kDirectNormal, rule, std::vector<double>(rule.nodes.size(), 1))[1];
+  EXPECT_NEAR(xyz_of_srgb(rgb)[1], lux, 1e-5 * lux);
 }
 
 }  // namespace
