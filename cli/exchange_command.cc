@@ -113,14 +113,16 @@ void run_import(const ImportFileArguments& arguments) {
 void add_export_command(CLI::App& app) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App& command = *app.add_subcommand(
-      "export", "Writes a preset as the parameters of another program, and what is lost.");
+      "export", "Writes a preset, or its sky, for another program, and what is lost.");
   command.add_option("preset", arguments->preset, "Shipped preset or preset file")
       ->required()
       ->type_name("PRESET");
   command.add_option("--to", arguments->to, "The program, see below")
       ->required()
       ->type_name("NAME");
-  command.add_option("--out", arguments->out, "The file")->required()->type_name("FILE");
+  command.add_option("--out", arguments->out, "The file; what belongs to it is written beside it")
+      ->required()
+      ->type_name("FILE");
   command.add_option("--sun-zenith-deg", arguments->sun_zenith, "Zenith angle of its sun, 0 to 90")
       ->type_name("ANGLE")
       ->capture_default_str();
@@ -130,15 +132,21 @@ void add_export_command(CLI::App& app) {
       ->type_name("ANGLE")
       ->capture_default_str();
   add_threads_option(command, arguments->threads);
-  command.footer("Programs:\n" + named_lines(fit::programs()) +
-                 "\nWhat the program cannot hold (a second lobe, layers, heights that it fixes, a "
-                 "spectrum) is\n"
-                 "refitted to the preset's sky by the model reference, without polarisation, which "
-                 "such programs\n"
-                 "leave out, and the rest is stated as the loss. The program's own approximations "
-                 "come on top.\n"
-                 "\n"
-                 "Example: skyfit export fitted/preset.json --to unreal --out sky.json");
+  command.footer(
+      "Programs:\n" + named_lines(fit::programs()) +
+      "\nRadiance and Mitsuba get the sky of the sun that the options state, with its ground and "
+      "its beam.\n"
+      "The others get the atmosphere. What they cannot hold (a second lobe, layers, heights that "
+      "are fixed, a\n"
+      "spectrum) is refitted to the preset's sky by the model reference, without polarisation, "
+      "which such\n"
+      "programs leave out. What remains is stated as the loss; the program's own approximations "
+      "come on top.\n"
+      "\n"
+      "Examples:\n"
+      "  skyfit export fitted/preset.json --to unreal --out sky.json\n"
+      "  skyfit export earth-clear --to radiance --sun-zenith-deg 60 --sun-azimuth-deg 120 --out "
+      "sky.rad");
   command.callback([arguments] { run_export(*arguments); });
 }
 

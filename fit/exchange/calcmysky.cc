@@ -57,7 +57,16 @@ Code density_code(const VerticalProfile<double>& profile, double factor) {
     case ProfileType::kTent:
       return {fmt::format("return {}*max(0.0,1.0-abs(altitude-{})/{});", number(factor),
                           number(profile.peak_m), number(profile.half_width_m))};
-    case ProfileType::kLayer:
+    case ProfileType::kLayer: {
+      // Its lower edge is as wide as the ground allows (model/atmosphere/profile.cc).
+      constexpr double kSharp_m = 1e-3;
+      const double edge = kLayerEdge * (profile.top_m - profile.base_m),
+                   low = std::max(std::min(2 * profile.base_m, edge), kSharp_m);
+      return {fmt::format(
+          "return {}*clamp((altitude-{})/{}+0.5,0.0,1.0)*clamp(({}-altitude)/{}+0.5,0.0,1.0);",
+          number(factor), number(profile.base_m), number(low), number(profile.top_m),
+          number(edge))};
+    }
     case ProfileType::kTabulated: {
       const Profile shape(profile);
       const std::vector<double>&x = shape.table().heights(), &y = shape.table().densities();
@@ -450,6 +459,19 @@ ReadDensity read_density(const AtmoReader& reader, const Section& s) {
     read.profile.type = ProfileType::kTent;
     read.profile.peak_m = b;
     read.profile.half_width_m = c;
+    return read;
+  }
+  double low_edge, edge;
+  if (code.size() == 1 &&
+      std::sscanf(code[0].c_str(),
+                  "return %lf*clamp((altitude-%lf)/%lf+0.5,0.0,1.0)*clamp((%lf-altitude)/%lf+0.5,"
+                  "0.0,1.0);%n",
+                  &a, &b, &low_edge, &c, &edge, &length) == 5 &&
+      whole() && std::abs(edge / (kLayerEdge * (c - b)) - 1) < 1e-6) {
+    read.factor = a;
+    read.profile.type = ProfileType::kLayer;
+    read.profile.base_m = b;
+    read.profile.top_m = c;
     return read;
   }
   TwoColumns table;

@@ -321,6 +321,13 @@ TEST(CalcMySky, ReadsWhatItWrites) {
     EXPECT_NEAR(back.top_radius_m, preset.atmosphere.top_radius_m, 1e-6);
     EXPECT_NEAR(back.star.angular_diameter_deg, preset.atmosphere.star.angular_diameter_deg, 1e-6);
     EXPECT_EQ(back.constituents.size(), preset.atmosphere.constituents.size()) << name;
+    for (const Constituent<double>& c : preset.atmosphere.constituents) {
+      EXPECT_EQ(back.at(c.name).profile.type, c.profile.type) << name << " " << c.name;
+      const double depth = depth_at(preset.atmosphere, c.name, kListed_nm[1]);
+      // Tables of spectra become power laws.
+      EXPECT_NEAR(depth_at(back, c.name, kListed_nm[1]), depth, 0.03 * depth)
+          << name << " " << c.name;
+    }
   }
 }
 
