@@ -256,8 +256,11 @@ Image as_radiance_means(Image image, const RadianceHeader& header, std::string_v
   return image;
 }
 
+Image pixels_of(const std::filesystem::path& file) {
+  return module_named<ImageModule>("skyfit_image_module").read(file);
+}
+
 Reference load_sky_image(const std::filesystem::path& file, const ImportOptions& options) {
-  const auto& module = module_named<ImageModule>("skyfit_image_module");
   ImportOptions facts = options;
   const bool is_radiance_hdr = file_head(file).starts_with(kHdrMagic);
   RadianceHeader header;
@@ -265,12 +268,12 @@ Reference load_sky_image(const std::filesystem::path& file, const ImportOptions&
     header = read_radiance_header(file);
     facts = with_view(facts, header.view, file.string());
   }
-  Image image = module.read(file);
+  Image image = pixels_of(file);
   if (is_radiance_hdr) image = as_radiance_means(std::move(image), header, file.string());
   std::optional<Image> mask;
   if (facts.mask) {
     require_regular_file(*facts.mask, "an image", kMostImageBytes);
-    mask = module.read(*facts.mask);
+    mask = pixels_of(*facts.mask);
   }
   return sky_image_reference(image, mask ? &*mask : nullptr, is_radiance_hdr, file.string(), facts);
 }

@@ -29,6 +29,9 @@ namespace skyfit::refs {
 // Whether a file begins as OpenEXR or Radiance HDR do.
 bool is_sky_image(const std::filesystem::path& file);
 
+// As they stand in an image file. Throws std::runtime_error when it cannot be read.
+Image pixels_of(const std::filesystem::path& file);
+
 // Throws std::invalid_argument `file: field = value: expected ...`, std::runtime_error when the
 // file cannot be read.
 Reference load_sky_image(const std::filesystem::path& file, const ImportOptions& options);

@@ -10,10 +10,9 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "data_refs/image/image_module.h"
+#include "data_refs/sky_image.h"
 #include "fit/exchange/programs.h"
 #include "fit/exchange/srgb.h"
-#include "model/base/module_file.h"
 
 namespace skyfit::fit {
 namespace {
@@ -54,7 +53,7 @@ Exported export_mitsuba(const ExportRequest& request) {
   request.write_sky_map(map);
 
   // The loss is that of the file as it is read back.
-  const refs::Image image = module_named<refs::ImageModule>("skyfit_image_module").read(map);
+  const refs::Image image = refs::pixels_of(map);
   const std::vector<SkyPoint> points = lattice_sky(request.sun_zenith);
   std::vector<Xyz> shown;
   for (const SkyPoint& p : points)

@@ -12,8 +12,8 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "data_refs/image/image_module.h"
 #include "data_refs/references.h"
+#include "data_refs/sky_image.h"
 #include "data_refs/spectra.h"
 #include "fit/exchange/engines.h"
 #include "fit/exchange/programs.h"
@@ -23,7 +23,6 @@
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/preset.h"
-#include "model/base/module_file.h"
 #include "model/numerics/angles.h"
 #include "model/registry.h"
 #include "render/sky_map/sky_map.h"
@@ -453,8 +452,7 @@ TEST(Mitsuba, MapShowsTheSkyWhereItIs) {
                                                            .file = file,
                                                            .write_sky_map = write_map});
   ASSERT_EQ(written.pictures.size(), 1U);
-  const refs::Image image =
-      module_named<refs::ImageModule>("skyfit_image_module").read(written.pictures[0]);
+  const refs::Image image = refs::pixels_of(written.pictures[0]);
   std::filesystem::remove(written.pictures[0]);
   pugi::xml_document scene;
   ASSERT_TRUE(scene.load_string(written.files.at(0).text.c_str()));
