@@ -15,6 +15,7 @@
 #include "cli/progress.h"
 #include "data_refs/absorption_bands.h"
 #include "data_refs/spectra.h"
+#include "fit/exchange/result_netcdf.h"
 #include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
 #include "fit/standard_sky.h"
@@ -40,6 +41,7 @@ FinishedFit fit_with_progress(const refs::Reference& reference, const SkyModel& 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
+  require_netcdf(arguments.netcdf);
   refs::Reference reference = load_references(arguments.reference, arguments.sun_zenith,
                                               arguments.sampling, arguments.import, command);
   const auto model = make_sky_model(arguments.model, refs::standard_spectral_data(),
@@ -53,6 +55,8 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   Figures figures;
   out.publish(
       [&](const std::filesystem::path& staging) { write_fit(staging, finished, *model, figures); });
+  if (!arguments.netcdf.empty())
+    fit::write_netcdf(arguments.netcdf, fit::netcdf_of(finished.result));
   if (!finished.result.converged) {
     warn(fmt::format("the fit stopped before it converged: {}", finished.result.termination));
   }
@@ -99,6 +103,7 @@ void add_fit_command(CLI::App& app) {
       ->capture_default_str();
   add_scalar_option(*command, options->scalar);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
+  add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");
   add_threads_option(*command, options->threads);
   command->footer(
       "Leaves preset.json, report.txt, report.json and samples.csv in the directory; of relative\n"

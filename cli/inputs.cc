@@ -226,6 +226,16 @@ void add_result_options(CLI::App& command, std::string& out, bool& force, bool& 
   command.add_flag("--json", json, fmt::format("Print {} to stdout", file));
 }
 
+void add_netcdf_option(CLI::App& command, std::string& netcdf, const std::string& what) {
+  command
+      .add_option("--netcdf", netcdf, what + " as a NetCDF-4 file by the CF conventions")
+      ->type_name("FILE.nc");
+}
+
+void require_netcdf(const std::string& netcdf) {
+  if (!netcdf.empty()) require_output_files({netcdf}, {".nc"}, "--netcdf");
+}
+
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void add_threads_option(CLI::App& command, int& threads) {

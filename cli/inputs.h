@@ -72,6 +72,11 @@ bool is_shipped_reference(const std::string& name);
 void add_result_options(CLI::App& command, std::string& out, bool& force, bool& json,
                         const std::string& file);
 
+// --netcdf FILE; `what` says of what. require_netcdf() throws before long work where the file that
+// was given, if any, cannot be written.
+void add_netcdf_option(CLI::App& command, std::string& netcdf, const std::string& what);
+void require_netcdf(const std::string& netcdf);
+
 // Threads to use when the user names no number: those of the machine.
 int default_threads();
 void add_threads_option(CLI::App& command, int& threads);

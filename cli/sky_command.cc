@@ -10,6 +10,7 @@
 #include "cli/inputs.h"
 #include "cli/light_check.h"
 #include "cli/output.h"
+#include "cli/sky_netcdf.h"
 #include "cli/sky_table.h"
 #include "cli/stokes_table.h"
 #include "data_refs/spectra.h"
@@ -29,7 +30,7 @@ constexpr double kMaxAltitude = 1e12;  // metres, beyond any atmosphere
 
 struct SkyOptions {
   std::string preset, site_pressure, model = "reference";
-  std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength;
+  std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength, netcdf;
   bool luminance = false, color = false, irradiance = false, sigma = false;
   bool stokes = false, iau = false, scalar = false;
   int orders = 0;
@@ -38,6 +39,23 @@ struct SkyOptions {
 
 struct SkyGrid {
   std::vector<double> altitude_m, sun_zenith_deg, view_zenith_deg, azimuth_deg;
+  std::vector<double> wavelength_nm;  // empty: luminances
+
+  // Of the observers, or of their directions.
+  std::vector<GridAxis> axes(bool directions) const {
+    std::vector<GridAxis> all = {
+        {"altitude", "height of the observer above the ground", "m", altitude_m},
+        {"sun_zenith", "zenith angle of the sun", "degree", sun_zenith_deg}};
+    if (directions) {
+      all.push_back(
+          {"view_zenith", "zenith angle of the line of sight", "degree", view_zenith_deg});
+      all.push_back({"relative_azimuth", "azimuth of the line of sight from the sun's", "degree",
+                     azimuth_deg});
+    }
+    if (!wavelength_nm.empty())
+      all.push_back({"wavelength", "wavelength in air", "nm", wavelength_nm});
+    return all;
+  }
 };
 
 SkyGrid parse_grid(const SkyOptions& options) {
@@ -59,7 +77,7 @@ SkyGrid parse_grid(const SkyOptions& options) {
   return grid;
 }
 
-SkyTable parse_table(const SkyOptions& options, const SpectralData& data) {
+SkyTable parse_table(const SkyOptions& options, const SpectralData& data, SkyGrid& grid) {
   if (options.wavelength.empty()) {
     if (options.irradiance) return illuminance_table(data);
     return options.color ? color_table(data) : luminance_table(data);
@@ -72,6 +90,7 @@ SkyTable parse_table(const SkyOptions& options, const SpectralData& data) {
   const std::vector<double> nm =
       parse_list_within("--wavelength-nm", options.wavelength, table.front(), table.back(),
                         "a wavelength in nm that the tables hold,");
+  grid.wavelength_nm = nm;
   return options.irradiance ? irradiance_table(data, nm) : radiance_table(data, nm);
 }
 
@@ -146,13 +165,23 @@ void print_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, c
   });
 }
 
-void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
-               const SkyTable& table, int threads) {
+void leave_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
+               const SkyTable& table, const SkyOptions& options) {
   const std::vector<SkyPoint> points = points_of(grid, 1 + table.orders);
   const SkyValues sky = model.radiance(atmosphere, table.nodes, points, table.derivatives());
   check_light(sky, table.nodes, points);
   const std::vector<SkyValues> orders =
-      orders_of(atmosphere, table, points, threads, model.transfer());
+      orders_of(atmosphere, table, points, options.threads, model.transfer());
+  if (!options.netcdf.empty()) {
+    std::vector<double> all;
+    for (int p = 0; p < sky.points; ++p) {
+      const std::vector<double> values = place_values(table, sky, orders, p, 1);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    fit::write_netcdf(options.netcdf, sky_netcdf("Sky of " + options.preset, grid.axes(true),
+                                                 table.all_columns(), all));
+    return;
+  }
   print(header(table, kPlaceColumns));
   int point = 0;
   fmt::memory_buffer text;
@@ -163,9 +192,10 @@ void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
   });
 }
 
-void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmosphere,
-                      const SkyGrid& grid, const SkyTable& table) {
+void leave_irradiance(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                      const SkyGrid& grid, const SkyTable& table, const SkyOptions& options) {
   fmt::memory_buffer text;
+  std::vector<double> all;
   for (const double altitude : grid.altitude_m) {
     for (const double sun : grid.sun_zenith_deg) {
       const SkyValues irradiance =
@@ -173,17 +203,25 @@ void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
       check_irradiance(irradiance, table.nodes, altitude, radians(sun));
       append_place(table, fmt::format("{:.9g},{:.9g},", altitude, sun), irradiance, {}, 0,
                    kIrradianceCount, text);
+      const std::vector<double> values = place_values(table, irradiance, {}, 0, kIrradianceCount);
+      all.insert(all.end(), values.begin(), values.end());
     }
+  }
+  if (!options.netcdf.empty()) {
+    fit::write_netcdf(options.netcdf, sky_netcdf("Irradiance under " + options.preset,
+                                                 grid.axes(false), table.all_columns(), all));
+    return;
   }
   print(header(table, "altitude_m,sun_zenith_deg,"));
   print({text.data(), text.size()});
 }
 
 void run_sky(const SkyOptions& options) {
-  const SkyGrid grid = parse_grid(options);
+  require_netcdf(options.netcdf);
+  SkyGrid grid = parse_grid(options);
   Preset preset = preset_named(options.preset);
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-  SkyTable table = parse_table(options, spectra);
+  SkyTable table = parse_table(options, spectra, grid);
   table.orders = options.orders;
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--model", options.model, "expected reference with --orders");
@@ -201,9 +239,9 @@ void run_sky(const SkyOptions& options) {
     print_stokes(*model, preset.atmosphere, grid, table,
                  options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise);
   } else if (options.irradiance) {
-    print_irradiance(*model, preset.atmosphere, grid, table);
+    leave_irradiance(*model, preset.atmosphere, grid, table, options);
   } else {
-    print_sky(*model, preset.atmosphere, grid, table, options.threads);
+    leave_sky(*model, preset.atmosphere, grid, table, options);
   }
 }
 
@@ -281,6 +319,7 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
       ->excludes(irradiance)
       ->excludes(sigma)
       ->excludes(stokes);
+  add_netcdf_option(command, options.netcdf, "Write, in place of the CSV, the table");
   add_threads_option(command, options.threads);
 }
 
