@@ -56,6 +56,7 @@ void add_commands(CLI::App& app) {
       ->trigger_on_parse();
   add_fit_command(app);
   add_report_command(app);
+  add_campaign_command(app);
   add_sky_command(app);
   add_sky_map_command(app);
   add_export_command(app);

@@ -9,6 +9,7 @@ namespace skyfit::cli {
 
 void add_fit_command(CLI::App& app);
 void add_report_command(CLI::App& app);
+void add_campaign_command(CLI::App& app);
 void add_sky_command(CLI::App& app);
 void add_sky_map_command(CLI::App& app);
 void add_export_command(CLI::App& app);

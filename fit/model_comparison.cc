@@ -16,6 +16,7 @@
 #include "fit/problem/starts.h"
 #include "fit/result/errors.h"
 #include "fit/result/record.h"
+#include "model/base/text.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -176,14 +177,6 @@ nlohmann::json fields(const refs::Reference& reference, const ModelComparison& r
   }
   line["remark"] = fitted ? row.fit_problem : row.problem;
   return line;
-}
-
-// RFC 4180.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
 }
 
 template <class Use>

@@ -26,14 +26,6 @@ std::string unit_of(refs::Quantity quantity) {
   return "1";
 }
 
-// UDUNITS' spelling of a unit of the reports, such as "W m^-2".
-std::string cf_unit(std::string_view unit) {
-  std::string text(unit);
-  std::erase(text, '^');
-  if (text.empty()) return "1";
-  return text == "deg" ? "degree" : text;
-}
-
 template <class Rows, class Value>
 auto column(const Rows& rows, const Value& value) {
   std::vector<std::decay_t<decltype(value(*rows.begin()))>> result;
@@ -90,24 +82,27 @@ void add_unknowns(const Result& result, NetcdfFile& file) {
   add("identifiable", column(rows, [](const UnknownRow& row) { return row.identifiable ? 1 : 0; }),
       "0: the value is that of the prior", "1");
   if (result.covariance.size() == 0) return;
-  '  for (const char* side : {"covariance_parameter", "covariance_parameter_2"}) { file.dimensions
-      .emplace_back(side, result.covariance_unknowns.size());
-  file.variables.push_back(
-      {side,
-       {side},
-       column(result.covariance_unknowns,
-              [&](int i) { return rows[static_cast<std::size_t>(i)].unknown.name(); }),
-       "name of the unknown",
-       ""});
-}
-const auto matrix = [&](const char* name, const Eigen::MatrixXd& values, const char* meaning) {
-  std::vector<double> rowwise;
-  for (const auto row : values.rowwise()) rowwise.insert(rowwise.end(), row.begin(), row.end());
-  file.variables.push_back(
-      {name, {"covariance_parameter", "covariance_parameter_2"}, std::move(rowwise), meaning, "1"});
-};
-matrix("covariance", result.covariance, "covariance, in the products of the parameters' units");
-matrix("correlation", result.correlation, "correlation");
+  for (const char* side : {"covariance_parameter", "covariance_parameter_2"}) {
+    file.dimensions.emplace_back(side, result.covariance_unknowns.size());
+    file.variables.push_back(
+        {side,
+         {side},
+         column(result.covariance_unknowns,
+                [&](int i) { return rows[static_cast<std::size_t>(i)].unknown.name(); }),
+         "name of the unknown",
+         ""});
+  }
+  const auto matrix = [&](const char* name, const Eigen::MatrixXd& values, const char* meaning) {
+    std::vector<double> rowwise;
+    for (const auto row : values.rowwise()) rowwise.insert(rowwise.end(), row.begin(), row.end());
+    file.variables.push_back({name,
+                              {"covariance_parameter", "covariance_parameter_2"},
+                              std::move(rowwise),
+                              meaning,
+                              "1"});
+  };
+  matrix("covariance", result.covariance, "covariance, in the products of the parameters' units");
+  matrix("correlation", result.correlation, "correlation");
 }
 
 void add_scans(const Result& result, NetcdfFile& file) {
@@ -126,17 +121,24 @@ void add_scans(const Result& result, NetcdfFile& file) {
   add("scan_sun_zenith",
       column(scans, [](const ScanOutcome& s) { return s.info.sun_zenith / kRadiansPerDegree; }),
       "zenith angle of the sun at the begin of the scan", "degree");
-  add("rms_luminance", column(scans, [](const ScanOutcome& s) { return 100 * s.errors.luminance; }),
+  add("rms_luminance", column(scans, [](const ScanOutcome& s) { return s.errors.luminance; }),
       "root mean square of model over reference less 1, of luminances", "percent");
-  add("rms_spectral", column(scans, [](const ScanOutcome& s) { return 100 * s.errors.spectral; }),
+  add("rms_spectral", column(scans, [](const ScanOutcome& s) { return s.errors.spectral; }),
       "2-norm of model less reference over that of the reference, 400 to 700 nm", "percent");
-  add("rms_log", column(scans, [](const ScanOutcome& s) { return 100 * s.errors.rms_log; }),
+  add("rms_log", column(scans, [](const ScanOutcome& s) { return s.errors.rms_log; }),
       "root mean square of the logarithm of model over reference, its mean taken off", "percent");
   add("scan_samples", column(scans, [](const ScanOutcome& s) { return s.samples; }),
       "samples of the scan that were fitted", "1");
 }
 
 }  // namespace
+
+std::string cf_unit(std::string_view unit) {
+  std::string text(unit);
+  std::erase(text, '^');
+  if (text.empty()) return "1";
+  return text == "deg" ? "degree" : text;
+}
 
 double seconds_since_1970(const std::string& time_utc) {
   const std::optional<refs::Instant> time = refs::instant(time_utc, 0);

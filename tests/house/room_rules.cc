@@ -51,7 +51,7 @@ std::string room_of(const std::string& path, std::span<const RoomRule> rules) {
 // such as dlfcn.h.
 bool is_system_header(const std::string& name) {
   static const std::regex system(
-      "[a-z0-9_]+|(dlfcn|unistd|fcntl|signal|spawn|stdlib|string|immintrin)\\.h|sys/[a-z]+\\.h");
+      "[a-z0-9_]+|(dlfcn|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/[a-z]+\\.h");
   return std::regex_match(name, system);
 }
 
@@ -115,7 +115,7 @@ std::span<const RoomRule> room_rules() {
            std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::", "pugixml::"}},
       {"fit/exchange/netcdf",
        {},
-       kMath + std::vector<std::string>{"netcdf.h"},
+       kMath + std::vector<std::string>{"netcdf.h", "hdf5.h"},
        kMathLibraries + std::vector<std::string>{"PkgConfig::netCDF"}},
       {"render", kModelRooms + std::vector<std::string>{"model"},
        kMath + std::vector<std::string>{"glm", "glad", "GL", "EGL", "KHR", "OpenImageIO", "OpenEXR",

@@ -2,6 +2,7 @@
 #include "fit/exchange/netcdf/netcdf_module.h"
 
 #include <fmt/format.h>
+#include <hdf5.h>
 #include <netcdf.h>
 
 #include <limits>
@@ -15,6 +16,8 @@ class OpenFile {
  public:
   OpenFile(const std::filesystem::path& file, bool writes)
       : file_(file), doing_(writes ? "written" : "read") {
+    // Of every thread, or HDF5 prints what it looked for in vain.
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     check(writes ? nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_)
                  : nc_open(file.c_str(), NC_NOWRITE, &id_));
     open_ = true;
