@@ -289,13 +289,13 @@ std::vector<Outcome> outcomes_of(const NetcdfFile& file, std::string_view source
   return outcomes;
 }
 
-std::vector<char> outliers(const std::vector<Outcome>& outcomes) {
+std::vector<int> outliers(const std::vector<Outcome>& outcomes) {
   constexpr double kNormal = 1.4826, kFar = 5;
   std::vector<double> misfits;
   for (const Outcome& o : outcomes) {
     if (std::isfinite(o.misfit())) misfits.push_back(o.misfit());
   }
-  std::vector<char> flags(outcomes.size(), 0);
+  std::vector<int> flags(outcomes.size(), 0);
   if (misfits.empty()) return flags;
   const double middle = median(misfits);
   for (double& misfit : misfits) misfit = std::abs(misfit - middle);
@@ -315,7 +315,7 @@ std::string campaign_csv(const std::vector<Outcome>& outcomes) {
   for (const std::string& name : parameters.list())
     text += fmt::format(",{0},sigma_{0}", csv_field(name));
   text += '\n';
-  const std::vector<char> far = outliers(outcomes);
+  const std::vector<int> far = outliers(outcomes);
   for (std::size_t t = 0; t < outcomes.size(); ++t) {
     const Outcome& o = outcomes[t];
     const char* state = !o.reason.empty() ? "failed" : far[t] != 0 ? "outlier" : "fitted";
@@ -340,7 +340,7 @@ std::string campaign_text(const std::vector<Outcome>& outcomes) {
   Names parameters;
   std::map<std::string, std::vector<double>> values;
   std::map<std::string, std::string> units;
-  const std::vector<char> flags = outliers(outcomes);
+  const std::vector<int> flags = outliers(outcomes);
   for (std::size_t t = 0; t < outcomes.size(); ++t) {
     const Outcome& o = outcomes[t];
     if (!o.reason.empty()) {

@@ -50,7 +50,7 @@ std::vector<Outcome> outcomes_of(const NetcdfFile& file, std::string_view source
 
 // Fits whose misfit lies more than five robust standard deviations (1.4826 times the median of the
 // distances from the median) above the median; one flag per outcome.
-std::vector<char> outliers(const std::vector<Outcome>& outcomes);
+std::vector<int> outliers(const std::vector<Outcome>& outcomes);
 
 // One line per task: state (fitted, outlier, failed), reason, numbers, and value and sigma of every
 // unknown.
