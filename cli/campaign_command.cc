@@ -70,9 +70,11 @@ class HowToFit {
         fit::task_reference(task, [this](const fs::path& file) { return read(file); });
     if (!arguments_.keep_absorption_bands) refs::mask_absorption_bands(reference);
     const SpectralData spectra = refs::spectral_data_of(fit::start_atmosphere(options_));
+    fit::FitOptions options = options_;
+    options.aerosol = known_aerosol(arguments_, reference);
     return fit::outcome_of(
         task, fit::fit_atmosphere(reference, spectra,
-                                  *model(transfer_for(reference, arguments_.scalar)), options_));
+                                  *model(transfer_for(reference, arguments_.scalar)), options));
   }
 
  private:

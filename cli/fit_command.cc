@@ -47,6 +47,7 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   const auto model = make_sky_model(arguments.model, refs::standard_spectral_data(),
                                     arguments.threads, transfer_for(reference, arguments.scalar));
   fit::FitOptions options = fit_options(arguments, *model, command);
+  options.aerosol = known_aerosol(arguments, reference);
   if (const std::optional<int> type = fit::standard_sky_type(arguments.reference))
     options = fit::with_standard_sky(options, fit::standard_sky_kind(*type, *model), *model);
   const fit::CheckOptions checks = check_options(arguments);

@@ -134,7 +134,10 @@ std::string group_of(const CampaignPlan& plan, const refs::Scan& scan) {
 std::string key_of(const CampaignPlan& plan, const Task& task) {
   ContentHash hash;
   hash.add(kVersion);
-  for (const std::string& option : plan.options) hash.add(option + "\n");
+  for (const std::string& option : plan.options) {
+    hash.add(option + "\n");
+    if (fs::is_regular_file(option)) hash.add_file(option);  // a preset, say
+  }
   for (const Task::Part& part : task.parts) {
     hash.add(part.file.filename().string());
     for (const int scan : part.scans) hash.add(fmt::format("[{}]", scan));
