@@ -45,6 +45,7 @@ class HowToFit {
   HowToFit(const fit::CampaignPlan& plan, const std::string& plan_name) {
     add_fit_options(app_, arguments_);
     app_.add_option("--model", arguments_.model);
+    add_refraction_option(app_, arguments_.refraction);
     add_scalar_option(app_, arguments_.scalar);
     try {
       std::vector<std::string> reversed(plan.options.rbegin(), plan.options.rend());
@@ -79,8 +80,8 @@ class HowToFit {
 
  private:
   std::unique_ptr<SkyModel> model(Transfer transfer) const {
-    return make_sky_model(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
-                          transfer);
+    return sky_model_named(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
+                           transfer, arguments_.refraction);
   }
 
   CLI::App app_;

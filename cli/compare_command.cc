@@ -36,7 +36,8 @@ constexpr const char* kFisheyeFile = "fisheye.png";
 constexpr const char* kOurs = "model:reference";
 
 struct CompareOptions {
-  std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out, netcdf;
+  std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out,
+                         netcdf;
   std::string exclude_sun = "3";
   ImportArguments import;
   int starts = 4, threads = default_threads();
@@ -230,8 +231,7 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
                                    options.threads),
                         {staging / kFisheyeFile});
   });
-  if (!options.netcdf.empty())
-    fit::write_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
+  if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
   print(options.json ? json_text(json) : text);
 }
 

@@ -44,8 +44,10 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   require_netcdf(arguments.netcdf);
   refs::Reference reference = load_references(arguments.reference, arguments.sun_zenith,
                                               arguments.sampling, arguments.import, command);
-  const auto model = make_sky_model(arguments.model, refs::standard_spectral_data(),
-                                    arguments.threads, transfer_for(reference, arguments.scalar));
+  const auto model =
+      sky_model_named(arguments.model, refs::standard_spectral_data(), arguments.threads,
+                      transfer_for(reference, arguments.scalar), arguments.refraction);
+  if (arguments.refraction) reference.notes.emplace_back("rays of the model are curved by air");
   fit::FitOptions options = fit_options(arguments, *model, command);
   options.aerosol = known_aerosol(arguments, reference);
   if (const std::optional<int> type = fit::standard_sky_type(arguments.reference))
@@ -102,6 +104,7 @@ void add_fit_command(CLI::App& app) {
   command->add_option("--model", options->model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();
+  add_refraction_option(*command, options->refraction);
   add_scalar_option(*command, options->scalar);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");

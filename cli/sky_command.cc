@@ -15,6 +15,7 @@
 #include "cli/stokes_table.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/derived.h"
+#include "model/atmosphere/refraction.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
 #include "model/solver/reference_model.h"
@@ -32,7 +33,7 @@ struct SkyOptions {
   std::string preset, site_pressure, model = "reference";
   std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength, netcdf;
   bool luminance = false, color = false, irradiance = false, sigma = false;
-  bool stokes = false, iau = false, scalar = false;
+  bool stokes = false, iau = false, scalar = false, refraction = false, apparent_sun = false;
   int orders = 0;
   int threads = default_threads();
 };
@@ -40,12 +41,24 @@ struct SkyOptions {
 struct SkyGrid {
   std::vector<double> altitude_m, sun_zenith_deg, view_zenith_deg, azimuth_deg;
   std::vector<double> wavelength_nm;  // empty: luminances
+  // Of suns that are stated as they are seen; at 550 nm.
+  std::optional<Refraction> refraction;
+
+  // Where the sun stands without air, radians.
+  double true_sun_zenith(double altitude, double sun_deg) const {
+    const double zenith = radians(sun_deg);
+    if (!refraction) return zenith;
+    return zenith + refraction->bending(refraction->refractive_height(altitude), zenith);
+  }
+  const char* sun_column() const { return refraction ? "apparent_sun_zenith" : "sun_zenith"; }
 
   // Of the observers, or of their directions.
   std::vector<GridAxis> axes(bool directions) const {
     std::vector<GridAxis> all = {
         {"altitude", "height of the observer above the ground", "m", altitude_m},
-        {"sun_zenith", "zenith angle of the sun", "degree", sun_zenith_deg}};
+        {sun_column(),
+         refraction ? "zenith angle of the sun as it is seen" : "zenith angle of the sun", "degree",
+         sun_zenith_deg}};
     if (directions) {
       all.push_back(
           {"view_zenith", "zenith angle of the line of sight", "degree", view_zenith_deg});
@@ -109,7 +122,8 @@ std::vector<SkyPoint> points_of(const SkyGrid& grid, std::size_t values) {
     for (const double sun : grid.sun_zenith_deg) {
       for (const double view : grid.view_zenith_deg) {
         for (const double azimuth : grid.azimuth_deg) {
-          points.push_back({altitude, radians(sun), radians(view), radians(azimuth)});
+          points.push_back(
+              {altitude, grid.true_sun_zenith(altitude, sun), radians(view), radians(azimuth)});
         }
       }
     }
@@ -130,21 +144,26 @@ void for_each_point(const SkyGrid& grid, const Row& row) {
   }
 }
 
+ReferenceOptions reference_options(const SkyOptions& options) {
+  ReferenceOptions result;
+  result.threads = options.threads;
+  result.transfer = transfer_of(options.scalar);
+  result.refraction = options.refraction;
+  return result;
+}
+
 // The light of each order of scattering at the points.
 std::vector<SkyValues> orders_of(const Atmosphere<double>& atmosphere, const SkyTable& table,
-                                 const std::vector<SkyPoint>& points, int threads,
-                                 Transfer transfer) {
+                                 const std::vector<SkyPoint>& points, ReferenceOptions options) {
   std::vector<SkyValues> orders;
-  ReferenceOptions options;
-  options.threads = threads;
-  options.transfer = transfer;
   for (options.order = 1; options.order <= table.orders; ++options.order)
     orders.push_back(ReferenceModel(options).radiance(atmosphere, table.nodes, points, {}));
   return orders;
 }
 
-constexpr const char* kPlaceColumns =
-    "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,";
+std::string place_columns(const SkyGrid& grid) {
+  return fmt::format("altitude_m,{}_deg,view_zenith_deg,relative_azimuth_deg,", grid.sun_column());
+}
 std::string place(double altitude, double sun, double view, double azimuth) {
   return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth);
 }
@@ -155,7 +174,7 @@ void print_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, c
   const std::vector<SkyPoint> points = points_of(grid, kParameters);
   const StokesValues stokes = model.stokes(atmosphere, table.nodes, points, {});
   check_light(stokes.i, table.nodes, points);
-  print(stokes_header(kPlaceColumns));
+  print(stokes_header(place_columns(grid)));
   int point = 0;
   std::string text;
   for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
@@ -171,7 +190,7 @@ void leave_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
   const SkyValues sky = model.radiance(atmosphere, table.nodes, points, table.derivatives());
   check_light(sky, table.nodes, points);
   const std::vector<SkyValues> orders =
-      orders_of(atmosphere, table, points, options.threads, model.transfer());
+      orders_of(atmosphere, table, points, reference_options(options));
   if (!options.netcdf.empty()) {
     std::vector<double> all;
     for (int p = 0; p < sky.points; ++p) {
@@ -182,7 +201,7 @@ void leave_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
                                                  table.all_columns(), all));
     return;
   }
-  print(header(table, kPlaceColumns));
+  print(header(table, place_columns(grid)));
   int point = 0;
   fmt::memory_buffer text;
   for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
@@ -199,8 +218,9 @@ void leave_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
   for (const double altitude : grid.altitude_m) {
     for (const double sun : grid.sun_zenith_deg) {
       const SkyValues irradiance =
-          model.irradiance(atmosphere, table.nodes, altitude, radians(sun), table.derivatives());
-      check_irradiance(irradiance, table.nodes, altitude, radians(sun));
+          model.irradiance(atmosphere, table.nodes, altitude, grid.true_sun_zenith(altitude, sun),
+                           table.derivatives());
+      check_irradiance(irradiance, table.nodes, altitude, grid.true_sun_zenith(altitude, sun));
       append_place(table, fmt::format("{:.9g},{:.9g},", altitude, sun), irradiance, {}, 0,
                    kIrradianceCount, text);
       const std::vector<double> values = place_values(table, irradiance, {}, 0, kIrradianceCount);
@@ -212,7 +232,7 @@ void leave_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
                                                  grid.axes(false), table.all_columns(), all));
     return;
   }
-  print(header(table, "altitude_m,sun_zenith_deg,"));
+  print(header(table, fmt::format("altitude_m,{}_deg,", grid.sun_column())));
   print({text.data(), text.size()});
 }
 
@@ -233,8 +253,12 @@ void run_sky(const SkyOptions& options) {
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
     set_site_pressure(preset.atmosphere, *pressure);
-  const auto model =
-      make_sky_model(options.model, spectra, options.threads, transfer_of(options.scalar));
+  if (options.apparent_sun) {
+    constexpr double kGreen = 550;
+    grid.refraction.emplace(preset.atmosphere, kGreen);
+  }
+  const auto model = sky_model_named(options.model, spectra, options.threads,
+                                     transfer_of(options.scalar), options.refraction);
   if (options.stokes) {
     print_stokes(*model, preset.atmosphere, grid, table,
                  options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise);
@@ -306,6 +330,11 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
                 "Count U and the angle counter-clockwise, as the International Astronomical\n"
                 "Union does")
       ->needs(stokes);
+  auto* const refraction = add_refraction_option(command, options.refraction);
+  command
+      .add_flag("--apparent-sun", options.apparent_sun,
+                "The sun zenith angles are those at which the sun is seen")
+      ->needs(refraction);
   add_scalar_option(command, options.scalar);
   command
       .add_option(
