@@ -14,7 +14,17 @@
 namespace skyfit {
 namespace {
 
-constexpr int kProfileNodes = 600, kTableHeights = 40, kTableCosines = 64;
+constexpr int kTableHeights = 40, kTableCosines = 64;
+
+// Of 0 .. top: a profile of scale height H that is linear between them has columns that are off by
+// a twelfth of the square of step over H, 0.02 % of an aerosol of 1200 m.
+std::vector<double> profile_heights(double top) {
+  constexpr double kFirst = 20, kGrowth = 0.025;  // m, share of the height
+  std::vector<double> heights = {0};
+  while (heights.back() < top)
+    heights.push_back(std::min(heights.back() + kFirst + kGrowth * heights.back(), top));
+  return heights;
+}
 
 // Of 0 .. top, dense at the ground.
 std::vector<double> cubic_heights(double top, int count) {
@@ -53,7 +63,7 @@ Refraction::Refraction(const Atmosphere<double>& atmosphere, double wavelength_n
     : bottom_radius_(atmosphere.bottom_radius_m),
       top_(atmosphere.top_radius_m - atmosphere.bottom_radius_m),
       refractive_radius_(bottom_radius_),
-      heights_(cubic_heights(top_, kProfileNodes)) {
+      heights_(profile_heights(top_)) {
   const auto air = std::ranges::find_if(atmosphere.constituents, [](const auto& c) {
     return c.amount_type == AmountType::kAirPressure ||
            (scatters(c) && c.phase.type == PhaseType::kRayleigh);
