@@ -232,7 +232,8 @@ class Renderer {
   double ground_height_m(const std::optional<Site>& site) const;
 
   // Progress in 0..1; may be empty. Throws std::invalid_argument for options that validate()
-  // refuses and for a camera below the ground.
+  // refuses, for a camera below the ground, and for a camera or a sun that the tables' model does
+  // not know (SkyRayTables::limits).
   Frame draw(const FrameOptions& options, const std::function<void(double)>& progress = {});
 
   // The same for frames that are shown one after another on the device. Waits for the frame before,
@@ -248,7 +249,8 @@ class Renderer {
 
   std::unique_ptr<FrameDrawer> drawer_;
   double basin_depth_m_;
-  std::string preset_;  // as JSON
+  std::optional<DaylightLimits> limits_;  // of the tables
+  std::string preset_;                    // as JSON
 };
 
 // One frame of a planet of noise.
@@ -266,6 +268,7 @@ void write_exr(const Frame& frame, const std::filesystem::path& file);
 enum class ToneCurve {
   kFilmic,       // a fit of the ACES film curve, Narkowicz 2015
   kExponential,  // 1 - exp(-k L), Sperlhofer 2011
+  kClip,         // k L, cut off at 1: a display without a curve
 };
 
 // How a tone curve, and the display's range, apply to colours.

@@ -97,6 +97,10 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   path.transmittance = light.transmittance;
 #else
   if (ray.air && surface.d > ray.entry) {
+#ifdef CLOSED_FORM
+    path.transmittance = closed_form_through(start, end.h, in_air);
+    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+#else
     // Both ends from the same table: nothing is left of its errors where they are near each other.
     path.transmittance = transmittance_between(start, end, ray.hits_ground);
 #ifdef HILLAIRE
@@ -105,6 +109,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     Scattering rest = scattering(end, nu, ray.hits_ground);
     path.in_scatter = radiance(scattering_before(whole.scattering, path.transmittance, rest), nu);
+#endif
 #endif
   }
 #endif
@@ -132,9 +137,14 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   Place start = place_of(ray, sun, nu);
   PathLight path = no_light();
   if (ray.air) {
+#ifdef CLOSED_FORM
+    path.transmittance = closed_form_to_sky(start.h, start.mu);
+    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+#else
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     path.in_scatter = radiance(whole.scattering, nu);
     path.transmittance = exp(-whole.depth);
+#endif
   }
 #ifdef DISC
   vec2 disc_and_cover = disc(square_ray, square_across, square_along, sun);
@@ -145,16 +155,22 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #ifndef SURFACE
   const float in_air = kInfinity;
 #endif
-#ifdef SHADOWS
+#if defined(SHADOWS) && !defined(CLOSED_FORM)
   if (i == 0 && ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air), 0.0);
 #endif
 #ifdef CLOUDS
   // Of the light behind a cloud the cloud lets the rest pass.
   if (clear < 1.0) {
     Place at = place_along(start, nu, cloud_distance(ray) - ray.entry);
+#ifdef CLOSED_FORM
+    vec4 dimming = closed_form_through(start, at.h, cloud_distance(ray) - ray.entry);
+    vec4 before = closed_form_inscatter(start, nu, dimming);
+#else
     vec4 dimming = transmittance_between(start, at, ray.hits_ground);
-    Scattering before = scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground));
-    path.in_scatter = mix(min(radiance(before, nu), path.in_scatter), path.in_scatter, clear);
+    vec4 before = radiance(
+        scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground)), nu);
+#endif
+    path.in_scatter = mix(min(before, path.in_scatter), path.in_scatter, clear);
     path.reflected += (1.0 - clear) * dimming * cloud_radiance(at, ray.h);
   }
 #endif

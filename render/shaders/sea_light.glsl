@@ -16,5 +16,10 @@ vec4 sea_radiance(Place at, vec3 to_eye, vec3 up, vec3 sun, float lit) {
   vec3 mirrored = reflect(-to_eye, normal);
   float nu = clamp(dot(mirrored, sun), -1.0, 1.0);
   Place sky = Place(entry.h, clamp(dot(mirrored, up), 0.0, 1.0), at.mu_s);
-  return light + water_reflectance(dot(to_eye, normal)) * radiance(scattering(sky, nu, false), nu);
+#ifdef CLOSED_FORM
+  vec4 mirrored_light = closed_form_sky(sky, nu);
+#else
+  vec4 mirrored_light = radiance(scattering(sky, nu, false), nu);
+#endif
+  return light + water_reflectance(dot(to_eye, normal)) * mirrored_light;
 }

@@ -86,6 +86,21 @@ TEST(RenderRequest, SceneOptions) {
   EXPECT_EQ(r.tone.exposure, 1e-4);
 }
 
+TEST(RenderRequest, WithoutAtmosphereNothingScatters) {
+  EXPECT_FALSE(
+      request({"--out", "x.png"}).sequence.keyframes[0].preset.atmosphere.constituents.empty());
+  EXPECT_TRUE(request({"--atmosphere", "off", "--out", "x.png"})
+                  .sequence.keyframes[0]
+                  .preset.atmosphere.constituents.empty());
+  EXPECT_EQ(request({"--tone", "clip", "--out", "x.png"}).tone.curve, ToneCurve::kClip);
+}
+
+TEST(RenderRequest, ModelsThatDoNotDrawAreRefused) {
+  EXPECT_EQ(request({"--model", "nielsen:published-sun", "--out", "x.png"}).model,
+            "nielsen:published-sun");
+  EXPECT_THROW(request({"--model", "preetham", "--out", "x.png"}), UsageError);
+}
+
 TEST(RenderRequest, StripsAreEvenlySpaced) {
   const RenderRequest r = request({"--strip", "ozone.column=100..400:4", "--out", "x.png"});
   EXPECT_EQ(r.strip->parameter, Parameter::kOzoneColumn);

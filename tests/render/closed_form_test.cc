@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames by the closed forms, `nielsen` and `hoffman-preetham`: what the air before the ground lets
+// through is that of the formulas with the ground at its own height; observers that the models do
+// not know are refused. Their sky is in sky_agreement_test.cc.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "data_refs/spectra.h"
+#include "model/registry.h"
+#include "model/shared/shared.h"
+#include "model/sky_model.h"
+#include "render/render.h"
+#include "tests/render/gl_fixture.h"
+
+namespace skyfit {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kBeta = 2e-5;  // 1/m
+
+// Of grey aerosol alone, so that a colour's three numbers are one.
+Preset grey_haze() {
+  Preset preset = shipped("nielsen-2003");
+  preset.atmosphere.at("rayleigh").amount = 0;
+  Constituent<double>& mie = preset.atmosphere.at("mie");
+  mie.amount = kBeta;
+  mie.angstrom_exponent = 0;
+  return preset;
+}
+
+AtmosphereTables tables_by(const std::string& model, const Preset& preset) {
+  const SpectralData& spectra = refs::standard_spectral_data();
+  return compute_tables_of(*make_sky_model(model, spectra, 2), preset.atmosphere,
+                           color_rule(spectra), TableSizes{}, 2, {});
+}
+
+FrameOptions options_of(std::string_view view) {
+  FrameOptions options;
+  options.width = 64;
+  options.height = 40;
+  options.samples_per_side = 1;
+  options.layers = true;
+  options.camera = find_view(view).camera;
+  options.sun_zenith = find_view(view).sun_zenith;
+  return options;
+}
+
+// `depth`, in metres of density 1, of a path from one height to another over a length, all in m.
+// Returns the range of the heights of the ground.
+double expect_transmittance(
+    Renderer& renderer, const std::string& model, const Preset& preset,
+    const std::function<double(double from, double to, double length)>& depth) {
+  renderer.set_atmosphere(preset, tables_by(model, preset));
+  const FrameOptions options = options_of("10km");
+  const Frame frame = renderer.draw(options);
+  const double from = options.camera.altitude_m;
+  double lowest = from, highest = 0;
+  int pixels = 0;
+  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+    if (!std::isfinite(frame.depth_m[i])) continue;
+    ++pixels;
+    const double to = Shared<double>{}.height_after(preset.atmosphere.bottom_radius_m, from,
+                                                    std::cos(frame.view_zenith_deg[i] * kDegree),
+                                                    frame.depth_m[i]);
+    lowest = std::min(lowest, to);
+    highest = std::max(highest, to);
+    const double expected = std::exp(-kBeta * depth(from, std::max(to, 0.0), frame.depth_m[i]));
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(frame.layers->transmittance[3 * i + c], expected, 1e-3)
+          << model << ": pixel " << i << ", " << frame.depth_m[i] << " m to the height " << to;
+  }
+  EXPECT_GT(pixels, 500);
+  return highest - lowest;
+}
+
+TEST(ClosedFormFrames, GroundIsSeenThroughTheAirAtItsOwnHeight) {
+  const Preset preset = grey_haze();
+  Renderer renderer;
+  Shared<double> shared;
+  const double scale_height = shared.nielsen_aerosol_scale_height();
+  const double relief =
+      expect_transmittance(renderer, "nielsen", preset, [&](double from, double to, double length) {
+        return shared.nielsen_terrain_depth(from, to, length, scale_height);
+      });
+  EXPECT_GT(relief, 1000) << "m: the heights of the ground must differ for the test to see them";
+  expect_transmittance(renderer, "nielsen:mean-height", preset,
+                       [&](double from, double to, double length) {
+                         return shared.nielsen_mean_height_depth(from, to, length, scale_height);
+                       });
+  expect_transmittance(renderer, "hoffman-preetham", preset,
+                       [](double, double, double length) { return length; });
+}
+
+TEST(ClosedFormFrames, RefuseNightAndSpace) {
+  const Preset preset = grey_haze();
+  Renderer renderer;
+  renderer.set_atmosphere(preset, tables_by("nielsen", preset));
+  FrameOptions options = options_of("10km");
+  options.sun_zenith = 90 * kDegree;
+  EXPECT_THROW(renderer.draw(options), std::invalid_argument);
+  options.sun_zenith = 60 * kDegree;
+  options.second_sun = SecondSun{95 * kDegree, 1, 0.2};
+  EXPECT_THROW(renderer.draw(options), std::invalid_argument);
+  EXPECT_THROW(renderer.draw(options_of("orbit")), std::invalid_argument);
+}
+
+// The sun, the sky and the sea's mirror are not black, nor is what the sun does not reach.
+TEST(ClosedFormFrames, NoPixelIsBlack) {
+  const Preset preset = shipped("nielsen-2003");
+  Renderer renderer;
+  for (const std::string model : {"nielsen", "hoffman-preetham"}) {
+    renderer.set_atmosphere(preset, tables_by(model, preset));
+    FrameOptions options = options_of("valley");
+    options.shadows = true;
+    options.clouds = CloudLayer{};
+    const Frame frame = renderer.draw(options);
+    const auto [darkest, brightest] = std::ranges::minmax(frame.luminance);
+    EXPECT_GT(darkest, 10) << model << ": cd/m^2";
+    EXPECT_LT(brightest, 1e5) << model << ": cd/m^2";
+  }
+}
+
+}  // namespace
+}  // namespace skyfit
