@@ -167,7 +167,7 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
   if (!sky_model_entry(options.model).draws_frames) {
     throw UsageError(
         "--model", options.model,
-        fmt::format("expected {}; skyfit sky-map draws the sky of every model", drawing_models()));
+        fmt::format("expected {}; skyfit compare draws the skies of all models", drawing_models()));
   }
   request.model = options.model;
   request.light = {transfer_of(options.scalar), options.orders};

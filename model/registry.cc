@@ -52,7 +52,7 @@ constexpr SkyModelVariant kNielsenVariants[] = {
     {NielsenModel::kMeanHeight,
      "paths to the ground have the density at the mean of their heights"},
     {NielsenModel::kRayleighPhase, "air scatters by Rayleigh's phase function"},
-    {NielsenModel::kPublishedSun, "the sun's light as published: dimmed by haze alone, uncoloured"},
+    {NielsenModel::kSunThroughSky, "the sun's light is what the model's sky lets through"},
 };
 
 std::unique_ptr<SkyModel> make_nielsen(const SkyModelRequest& request) {

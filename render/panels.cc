@@ -29,6 +29,13 @@ const FrameLayers& layers_of(const Frame& frame) {
 
 Frame in_scatter(const Frame& frame) { return picture_of(frame, layers_of(frame).in_scatter); }
 Frame reflected(const Frame& frame) { return picture_of(frame, layers_of(frame).reflected); }
+Frame direct(const Frame& frame) { return picture_of(frame, layers_of(frame).direct); }
+Frame ambient(const Frame& frame) {
+  std::vector<float> rgb = layers_of(frame).reflected;
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    rgb[i] = std::max(rgb[i] - frame.layers->direct[i], 0.0f);
+  return picture_of(frame, std::move(rgb));
+}
 Frame transmittance(const Frame& frame) {
   return picture_of(frame, layers_of(frame).transmittance);
 }
@@ -80,6 +87,8 @@ std::span<const PanelEntry> frame_panels() {
       {"in-scatter", "light that the air sends to the eye", in_scatter, true},
       {"reflected", "light of ground, objects and clouds, as it arrives at the eye", reflected,
        true},
+      {"direct", "the part of it that is the suns' beams'", direct, true},
+      {"ambient", "the rest of it: light of sky, clouds and the ground around", ambient, true},
       {"transmittance", "share of sunlight that the air lets through, 1 is white", transmittance,
        false},
       {"albedo", "share of sunlight that the ground reflects, 1 is white", albedo, false},

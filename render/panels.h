@@ -15,7 +15,7 @@ struct PanelEntry {
   Frame (*draw)(const Frame& frame);
   bool is_light;  // shown with the frame's tone; otherwise linear, 1 is white
 };
-// In-scatter, reflected light, transmittance, albedo, normal, depth.
+// In-scatter, reflected light with its two parts, transmittance, albedo, normal, depth.
 std::span<const PanelEntry> frame_panels();
 
 // PNG, 8 bit sRGB. Light has the exposure and the tone of the frame, so that in-scatter and

@@ -156,6 +156,8 @@ struct FrameLayers {
   std::vector<float>
       in_scatter;  // cd/m^2: of the air between the eye and what it sees, or of the sky
   std::vector<float> reflected;  // cd/m^2: of ground, objects and clouds, as it arrives at the eye
+  std::vector<float>
+      direct;  // cd/m^2: the part of it that is the suns' beams', reflected or from their discs
   std::vector<float> transmittance;  // of sunlight, from what is seen to the eye; of sky: to space
   std::vector<float> normal;         // camera frame; 0 for sky
   std::vector<float> albedo;         // of sunlight; 0 for sky
@@ -259,7 +261,7 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 
 // OpenEXR, 32-bit float: R, G, B, luminance.Y, view.zenith_deg, view.azimuth_deg, Z (metres,
 // infinite for sky) and, where the frame has layers, inscatter.R, .G, .B, reflected.R, .G, .B,
-// transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with Frame::metadata as attributes
+// direct.R, .G, .B, transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with Frame::metadata as attributes
 // `skyfit:...` and the chromaticities of the primaries. R, G, B hold X, Y, Z where these are the
 // primaries. The file appears whole or not at all; throws
 // std::runtime_error that names it.

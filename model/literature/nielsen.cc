@@ -98,7 +98,7 @@ NielsenModel::NielsenModel(const NielsenChoices& choices) : choices_(choices), n
   };
   add(choices.mean == NielsenMean::kOfHeights, kMeanHeight);
   add(choices.phase == NielsenAirPhase::kRayleigh, kRayleighPhase);
-  add(choices.sun == NielsenSun::kPublished, kPublishedSun);
+  add(choices.sun == NielsenSun::kThroughTheSky, kSunThroughSky);
 }
 
 NielsenChoices nielsen_choices(std::span<const std::string_view> names) {
@@ -106,7 +106,7 @@ NielsenChoices nielsen_choices(std::span<const std::string_view> names) {
   NielsenChoices choices;
   if (chosen(NielsenModel::kMeanHeight)) choices.mean = NielsenMean::kOfHeights;
   if (chosen(NielsenModel::kRayleighPhase)) choices.phase = NielsenAirPhase::kRayleigh;
-  if (chosen(NielsenModel::kPublishedSun)) choices.sun = NielsenSun::kPublished;
+  if (chosen(NielsenModel::kSunThroughSky)) choices.sun = NielsenSun::kThroughTheSky;
   return choices;
 }
 

@@ -6,8 +6,9 @@
 // The two densities of the published shader, which it swaps in the extinction, are each used with
 // their own coefficient, and both ends are halved. Choices where the source is not legible: the
 // asymmetry of thick haze is the preset's g (the mean of its lobes), so that a fit has it; the
-// factor on the Mie coefficient is over Hoffman & Preetham's of turbidity 2; the sun's light is
-// that at the eye (on the ground: there), behind the model's own depth of the sky. Left out:
+// factor m on the Mie coefficient is over Hoffman & Preetham's of turbidity 2; the sun's light,
+// 9.2 - 550 m, is over 9.2 of that in space, of the star's colour, and constant beyond his thickest
+// haze, m = 7e-3. He says that it falls as the sun sinks, but not how: here it does not. Left out:
 // absorption and ozone, every further scattering, the preset's scale heights (the model has its
 // own). Valid by day, the sun above the horizon, up to 30 km, the highest eye of the source.
 #pragma once
@@ -20,8 +21,8 @@ namespace skyfit {
 // - of a path to the ground the mean of the densities at its ends, which the source chooses, or the
 //   density at the mean of their heights;
 // - the air's phase function as published or Rayleigh's;
-// - the sun's light at the eye, or, as published, 9.2 - 550 m over 9.2 of it at the top of the
-//   atmosphere, of the star's colour and at every height of the sun.
+// - the sun's light as published, or what the model's own sky lets through to the eye (on the
+//   ground: to there): that reddens a low sun, and it browns a hazy sky.
 
 // The aerosol of an atmosphere as the model sees it: the lobe's kind, the asymmetry of thick haze,
 // the factor on Hoffman & Preetham's Mie coefficient.
@@ -35,7 +36,7 @@ class NielsenModel final : public SkyModel {
  public:
   // The names of the choices that are not its own: what stands behind "nielsen:".
   static constexpr std::string_view kMeanHeight = "mean-height", kRayleighPhase = "rayleigh-phase",
-                                    kPublishedSun = "published-sun";
+                                    kSunThroughSky = "sun-through-sky";
 
   explicit NielsenModel(const NielsenChoices& choices = {});
   std::string_view name() const override { return name_; }

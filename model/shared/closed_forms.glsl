@@ -53,8 +53,10 @@ Number nielsen_aerosol_scale_height() { return Number(5000.0); }
 Number nielsen_air_phase(Number nu) { return 0.05968310365946075 * (2.0 + 0.5 * nu * nu); }  // 3 / (16 pi)
 
 // Nielsen 2003: the sun's light in haze over that in none, 9.2 - 550 times the factor on Hoffman & Preetham's Mie
-// coefficient, over 9.2; never below 0.
-Number nielsen_sunlight(Number mie_multiplier) { return max(Number(1.0) - (550.0 / 9.2) * mie_multiplier, Number(0.0)); }
+// coefficient, over 9.2; beyond the thickest haze of the source, 7e-3, as in that.
+Number nielsen_sunlight(Number mie_multiplier) {
+  return Number(1.0) - (550.0 / 9.2) * min(mie_multiplier, Number(7e-3));
+}
 
 // Nielsen 2003: asymmetry of the aerosol from the eye's height, the sun's zenith angle (radians) and the amount of haze,
 // as the factor on Hoffman & Preetham's Mie coefficient; `hazy_g` is that of thick haze.

@@ -40,11 +40,11 @@ constexpr bool is_closed_form(SkyRayMapping mapping) {
 // What kNielsen leaves open, see model/literature/nielsen.h.
 enum class NielsenMean { kOfDensities, kOfHeights };
 enum class NielsenAirPhase { kPublished, kRayleigh };
-enum class NielsenSun { kAtTheEye, kPublished };
+enum class NielsenSun { kPublished, kThroughTheSky };
 struct NielsenChoices {
   NielsenMean mean = NielsenMean::kOfDensities;
   NielsenAirPhase phase = NielsenAirPhase::kPublished;
-  NielsenSun sun = NielsenSun::kAtTheEye;
+  NielsenSun sun = NielsenSun::kPublished;
 };
 
 // The observers whom a model without twilight and space knows: those below a height, by day.

@@ -96,8 +96,8 @@ TEST(RenderRequest, WithoutAtmosphereNothingScatters) {
 }
 
 TEST(RenderRequest, ModelsThatDoNotDrawAreRefused) {
-  EXPECT_EQ(request({"--model", "nielsen:published-sun", "--out", "x.png"}).model,
-            "nielsen:published-sun");
+  EXPECT_EQ(request({"--model", "nielsen:sun-through-sky", "--out", "x.png"}).model,
+            "nielsen:sun-through-sky");
   EXPECT_THROW(request({"--model", "preetham", "--out", "x.png"}), UsageError);
 }
 

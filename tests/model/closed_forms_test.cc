@@ -56,7 +56,7 @@ TEST(HoffmanPreetham, RefusesTwilightAndHeight) {
 TEST(Nielsen, SkyByHand) {
   SkyPoint high = kSide;
   high.altitude_m = 3000;
-  EXPECT_NEAR(radiance("nielsen", {}, high) / 0.019300777413634274, 1, kDigits);
+  EXPECT_NEAR(radiance("nielsen:sun-through-sky", {}, high) / 0.019300777413634274, 1, kDigits);
 }
 
 TEST(Nielsen, BothEndsOfATerrainPathAreHalved) {
@@ -214,9 +214,9 @@ TEST(Models, HaveNamesThatMakeThem) {
   for (const SkyModelEntry& entry : sky_models())
     EXPECT_EQ(model_named(entry.name)->name(), entry.name);
   for (const char* name :
-       {"nielsen:mean-height", "nielsen:mean-height:rayleigh-phase:published-sun"})
+       {"nielsen:mean-height", "nielsen:mean-height:rayleigh-phase:sun-through-sky"})
     EXPECT_EQ(model_named(name)->name(), name);
-  for (const char* wrong : {"nonsense", "nielsen:nonsense", "nielsen:", "oneil:published-sun"})
+  for (const char* wrong : {"nonsense", "nielsen:nonsense", "nielsen:", "oneil:mean-height"})
     EXPECT_THROW(model_named(wrong), std::invalid_argument) << wrong;
 }
 

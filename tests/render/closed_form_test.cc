@@ -8,9 +8,11 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "data_refs/spectra.h"
+#include "model/literature/nielsen.h"
 #include "model/registry.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
@@ -94,6 +96,50 @@ TEST(ClosedFormFrames, GroundIsSeenThroughTheAirAtItsOwnHeight) {
                        });
   expect_transmittance(renderer, "hoffman-preetham", preset,
                        [](double, double, double length) { return length; });
+}
+
+// The direct light of dry ground is the beam's, Lambert's law; the rest of the reflected light is
+// ambient.
+TEST(ClosedFormFrames, DirectLightIsTheBeamsShareOfTheReflected) {
+  Preset preset = grey_haze();
+  preset.atmosphere.sea = false;
+  Renderer renderer;
+  renderer.set_atmosphere(preset, tables_by("nielsen", preset));
+  const FrameOptions options = options_of("valley");
+  const Frame frame = renderer.draw(options);
+  const FrameLayers& layers = *frame.layers;
+  const auto luminance = [](const std::vector<float>& rgb, std::size_t i) {
+    return 0.2126 * rgb[3 * i] + 0.7152 * rgb[3 * i + 1] + 0.0722 * rgb[3 * i + 2];
+  };
+  int lit = 0, unlit = 0;
+  double least = 1e9, most = 0;
+  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+    if (!std::isfinite(frame.depth_m[i])) continue;
+    const double facing = layers.normal[3 * i] * std::sin(options.sun_zenith) +
+                          layers.normal[3 * i + 2] * std::cos(options.sun_zenith);
+    const double direct = luminance(layers.direct, i), reflected = luminance(layers.reflected, i);
+    EXPECT_LE(direct, reflected * (1 + 1e-5)) << i;
+    if (facing < -0.01) {
+      EXPECT_EQ(direct, 0) << i;
+      ++unlit;
+    } else if (facing > 0.1) {
+      const double beam = direct / (facing * luminance(layers.albedo, i) *
+                                    luminance(layers.transmittance, i) / std::numbers::pi);
+      least = std::min(least, beam);
+      most = std::max(most, beam);
+      ++lit;
+    }
+  }
+  EXPECT_GT(lit, 300);
+  EXPECT_GT(unlit, 10);
+  // Colours are sums over wavelengths, of which the luminance of a product is not quite that.
+  constexpr double kProducts = 0.02;
+  const ColorRule color = color_rule(refs::standard_spectral_data());
+  const double expected =
+      Shared<double>{}.nielsen_sunlight(nielsen_aerosol(preset.atmosphere).mie_multiplier) *
+      std::accumulate(color.xyz_from_nodes[1].begin(), color.xyz_from_nodes[1].end(), 0.0);
+  EXPECT_NEAR(least / expected, 1, kProducts) << least << " lx";
+  EXPECT_NEAR(most / expected, 1, kProducts) << most << " lx";
 }
 
 TEST(ClosedFormFrames, RefuseNightAndSpace) {

@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Sky{"oneil", "earth-clear", "10km", {60, 92}},
                       Sky{"oneil", "earth-clear", "limb", {30, 85, 90}},
                       Sky{"nielsen", "earth-hazy", "10km", {30, 88}},
-                      Sky{"nielsen:published-sun:rayleigh-phase", "nielsen-2003", "10km", {60}},
+                      Sky{"nielsen:rayleigh-phase:sun-through-sky", "nielsen-2003", "10km", {60}},
                       Sky{"hoffman-preetham", "nielsen-2003", "10km", {30, 88}}));
 
 }  // namespace
