@@ -261,9 +261,9 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 
 // OpenEXR, 32-bit float: R, G, B, luminance.Y, view.zenith_deg, view.azimuth_deg, Z (metres,
 // infinite for sky) and, where the frame has layers, inscatter.R, .G, .B, reflected.R, .G, .B,
-// direct.R, .G, .B, transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with Frame::metadata as attributes
-// `skyfit:...` and the chromaticities of the primaries. R, G, B hold X, Y, Z where these are the
-// primaries. The file appears whole or not at all; throws
+// direct.R, .G, .B, transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with
+// Frame::metadata as attributes `skyfit:...` and the chromaticities of the primaries. R, G, B hold
+// X, Y, Z where these are the primaries. The file appears whole or not at all; throws
 // std::runtime_error that names it.
 void write_exr(const Frame& frame, const std::filesystem::path& file);
 
