@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/arguments.h"
 #include "cli/render_arguments.h"
 #include "model/atmosphere/preset.h"
 

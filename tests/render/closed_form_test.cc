@@ -105,7 +105,8 @@ TEST(ClosedFormFrames, DirectLightIsTheBeamsShareOfTheReflected) {
   preset.atmosphere.sea = false;
   Renderer renderer;
   renderer.set_atmosphere(preset, tables_by("nielsen", preset));
-  const FrameOptions options = options_of("valley");
+  FrameOptions options = options_of("valley");
+  options.sun_zenith = 80 * kDegree;  // slopes face away from it
   const Frame frame = renderer.draw(options);
   const FrameLayers& layers = *frame.layers;
   const auto luminance = [](const std::vector<float>& rgb, std::size_t i) {
@@ -155,20 +156,18 @@ TEST(ClosedFormFrames, RefuseNightAndSpace) {
   EXPECT_THROW(renderer.draw(options_of("orbit")), std::invalid_argument);
 }
 
-// The sun, the sky and the sea's mirror are not black, nor is what the sun does not reach.
+// Neither the sky nor the clouds, nor what the sun does not reach.
 TEST(ClosedFormFrames, NoPixelIsBlack) {
   const Preset preset = shipped("nielsen-2003");
   Renderer renderer;
-  for (const std::string model : {"nielsen", "hoffman-preetham"}) {
-    renderer.set_atmosphere(preset, tables_by(model, preset));
-    FrameOptions options = options_of("valley");
-    options.shadows = true;
-    options.clouds = CloudLayer{};
-    const Frame frame = renderer.draw(options);
-    const auto [darkest, brightest] = std::ranges::minmax(frame.luminance);
-    EXPECT_GT(darkest, 10) << model << ": cd/m^2";
-    EXPECT_LT(brightest, 1e5) << model << ": cd/m^2";
-  }
+  renderer.set_atmosphere(preset, tables_by("nielsen", preset));
+  FrameOptions options = options_of("valley");
+  options.shadows = true;
+  options.clouds = CloudLayer{};
+  const Frame frame = renderer.draw(options);
+  const auto [darkest, brightest] = std::ranges::minmax(frame.luminance);
+  EXPECT_GT(darkest, 10) << "cd/m^2";
+  EXPECT_LT(brightest, 1e5) << "cd/m^2";
 }
 
 }  // namespace
