@@ -44,6 +44,17 @@ struct CompareOptions {
   bool fitted = false, scalar = false, force = false, json = false;
 };
 
+std::string variant_lines() {
+  std::string text;
+  for (const SkyModelEntry& entry : sky_models()) {
+    if (entry.variants.empty()) continue;
+    text += fmt::format("Variants of {0}, behind its name as in {0}:{1}:\n", entry.name,
+                        entry.variants.front().name) +
+            named_lines(entry.variants);
+  }
+  return text;
+}
+
 std::vector<std::string> model_names(const std::string& text) {
   std::vector<std::string> names;
   if (text.empty()) {
@@ -274,7 +285,7 @@ void add_compare_command(CLI::App& app) {
       "scattering alone, fitted, reaches it as well. Compare with truth and measurements "
       "first.\n\n"
       "Models:\n" +
-      named_lines(sky_models()) +
+      named_lines(sky_models()) + variant_lines() +
       "\nExamples:\n"
       "  skyfit compare --reference truth:earth-550nm-ground --out compared\n"
       "  skyfit compare --reference cie:12 --models reference,bodare,oneil --fitted --out "
