@@ -241,6 +241,14 @@ void add_scalar_option(CLI::App& command, bool& scalar) {
                    "4 % in the green (docs/accuracy.md)");
 }
 
+void add_iau_option(CLI::App& command, bool& iau, CLI::Option* stokes) {
+  command
+      .add_flag("--iau", iau,
+                "Count U and the angle counter-clockwise, as the International Astronomical\n"
+                "Union does")
+      ->needs(stokes);
+}
+
 Transfer transfer_of(bool scalar) { return scalar ? Transfer::kScalar : Transfer::kVector; }
 
 Transfer transfer_for(const refs::Reference& reference, bool scalar) {

@@ -149,11 +149,7 @@ void add_plot_command(CLI::App& app) {
       ->type_name("LENGTH")
       ->needs(sun)
       ->capture_default_str();
-  command
-      ->add_flag("--iau", options->iau,
-                 "Count the angle of polarisation counter-clockwise, as the International\n"
-                 "Astronomical Union does")
-      ->needs(sun);
+  add_iau_option(*command, options->iau, sun);
   add_threads_option(*command, options->threads);
   command->footer(
       "Reference, fit and start in the principal plane, one panel per sun position, "
