@@ -79,6 +79,19 @@ std::string errors_text(const Result& result) {
   return text + errors_meaning() + "\n";
 }
 
+std::string polarisation_text(const Result& result) {
+  if (result.polarisation.empty()) return "";
+  constexpr std::string_view kRow = "{:<44}{:>12}{:>12}{:>12}{:>12}\n";
+  std::string text = fmt::format(kRow, "Polarisation, RMS in percentage points", "readings",
+                                 "start", "fitted", "one sigma");
+  for (const PolarisationErrors& errors : result.polarisation) {
+    text += fmt::format(kRow, polarisation_name(errors.what), errors.readings,
+                        number_text(errors.start_rms, 4), number_text(errors.rms, 4),
+                        number_text(errors.sigma, 3));
+  }
+  return text + "\n";
+}
+
 std::string rms_text(const Result& result) {
   const auto row = [](std::string_view name, double start, double fitted) {
     return fmt::format("{:<52}{:>12}{:>12}\n", name, number_text(start), number_text(fitted));
@@ -306,6 +319,18 @@ std::string prior_text(const UnknownRow& row) {
   return prior ? fmt::format("{:.4g}+-{:.3g}", prior->mean / unit, prior->sigma / unit) : "none";
 }
 
+std::string_view polarisation_name(refs::Polarisation what) {
+  switch (what) {
+    case refs::Polarisation::kQ:
+      return "Q / I";
+    case refs::Polarisation::kU:
+      return "U / I";
+    case refs::Polarisation::kDegree:
+      break;
+  }
+  return "degree of linear polarisation";
+}
+
 std::string sigma_text(const Result& result) {
   std::string text;
   if (result.likelihood.noise_is_known) {
@@ -364,10 +389,11 @@ std::string brief_report(const Result& result) {
 }
 
 std::string full_report(const Result& result, const Checks& checks) {
-  return header(result) + reference_remarks(result) + errors_text(result) + rms_text(result) +
-         scales_text(result) + unknowns_text(result) + pulled_text(pulled_priors(result)) +
-         downweighted_text(result) + correlation_text(result) + findings_text(result) +
-         starts_text(result) + profiles_text(checks.profiles) +
+  return header(result) + reference_remarks(result) + errors_text(result) +
+         polarisation_text(result) + rms_text(result) + scales_text(result) +
+         unknowns_text(result) + pulled_text(pulled_priors(result)) + downweighted_text(result) +
+         correlation_text(result) + findings_text(result) + starts_text(result) +
+         profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
          hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }
