@@ -224,18 +224,18 @@ TEST(SkyMap, LayersOfPolarisationLeaveOutTheDisc) {
   SkyMapOptions options = sun_at(60);
   options.stokes = true;
   options.ground = false;
-  const SkyMap without = map_of("equirectangular", 64, options);
+  const SkyMap without = map_of("equirectangular", 32, options);
   EXPECT_EQ(without.layers, (std::vector<std::string>{"stokes.Q", "stokes.U", "dolp", "aolp"}));
   options.sun_disc = true;
   options.angle = PolarisationAngle::kIau;
-  const SkyMap with = map_of("equirectangular", 64, options);
+  const SkyMap with = map_of("equirectangular", 32, options);
   for (std::size_t i = 0; i < with.layer_values.size(); i += 4) {
     ASSERT_EQ(with.layer_values[i], without.layer_values[i]);
     ASSERT_EQ(with.layer_values[i + 1], -without.layer_values[i + 1]);
     ASSERT_EQ(with.layer_values[i + 2], without.layer_values[i + 2]);
   }
-  EXPECT_EQ(with.layer_values[static_cast<std::size_t>(4 * 128 * 48) + 2], 0);
-  EXPECT_GT(with.layer_values[static_cast<std::size_t>(4 * 128 * 4) + 2], 0.2);
+  EXPECT_EQ(with.layer_values[static_cast<std::size_t>(4 * 64 * 24) + 2], 0);
+  EXPECT_GT(with.layer_values[static_cast<std::size_t>(4 * 64 * 2) + 2], 0.2);
 }
 
 }  // namespace
