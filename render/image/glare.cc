@@ -77,9 +77,10 @@ double glare_function(double angle_deg) {
   // 9.2e6 / (1 + (x / 0.0046)^2)^1.5 and 1.5e5 / (1 + (x / 0.045)^2)^1.5 far out.
   constexpr double kTails = 9.2e6 * 0.0046 * 0.0046 * 0.0046 + 1.5e5 * 0.045 * 0.045 * 0.045;
   constexpr double kSharp = 0.3;  // degrees
-  const double age = std::pow(kAge / 70, 4);
+  constexpr double kRatio = kAge / 70, age = kRatio * kRatio * kRatio * kRatio;
   const double square = angle_deg * angle_deg, x = 1 + square / 0.01;
-  return (1 - 0.08 * age) * kTails / std::pow(square + kSharp * kSharp, 1.5) +
+  const double blunt = square + kSharp * kSharp;
+  return (1 - 0.08 * age) * kTails / (blunt * std::sqrt(blunt)) +
          (1 + 1.6 * age) * (400 / x + 3e-8 * square +
                             kPigmentation * (1300 / (x * std::sqrt(x)) + 0.8 / std::sqrt(x))) +
          2.5e-3 * kPigmentation;
@@ -97,7 +98,8 @@ std::vector<float> glare_of(const Frame& frame) {
       for (const Source& source : sources) {
         const double away = 2 * std::asin(std::min(0.5 * glm::length(ray - source.direction), 1.0));
         sum += source.illuminance *
-               glare_function(std::hypot(away, source.half_rad) / kRadiansPerDegree);
+               glare_function(std::sqrt(away * away + source.half_rad * source.half_rad) /
+                              kRadiansPerDegree);
       }
       for (int k = 0; k < 3; ++k)
         glare[3 * pixel + static_cast<std::size_t>(k)] = static_cast<float>(sum[k]);

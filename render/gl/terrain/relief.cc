@@ -38,8 +38,8 @@ constexpr NodeValues kSnow = {2.6, 2.6, 2.57, 2.55};
 glm::dvec3 bend(const glm::dvec3& p) {
   constexpr double kLength = 55e3, kStrength = 14e3;
   const glm::dvec3 q = p / kLength;
-  return kStrength * glm::dvec3(gradient_noise(q), gradient_noise(q + glm::dvec3(17.3, 5.1, 9.7)),
-                                gradient_noise(q + glm::dvec3(3.9, 31.7, 12.2)));
+  return kStrength *
+         gradient_noises({q, q + glm::dvec3(17.3, 5.1, 9.7), q + glm::dvec3(3.9, 31.7, 12.2)});
 }
 
 double land_value(const glm::dvec3& p, double resolution) {
