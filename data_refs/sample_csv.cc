@@ -227,9 +227,13 @@ Reference parse_sample_csv(std::string_view text, std::string_view source,
     throw std::invalid_argument(
         fmt::format("{}: {} samples with a weight > 0, expected at least 1", source, used));
   }
+  std::size_t readings = 0;
+  for (const Sample& sample : reference.samples) readings += sample.polarisation.size();
   reference.description =
-      fmt::format("{} samples of {} in {} scans from {}", reference.samples.size(),
-                  quantity_name(reference.quantity), reader.scans().size(), source);
+      fmt::format("{} samples of {}{} in {} scans from {}", reference.samples.size(),
+                  quantity_name(reference.quantity),
+                  readings > 0 ? fmt::format(" and {} readings of polarisation", readings) : "",
+                  reader.scans().size(), source);
   reference.scans = reader.scans();
   return reference;
 }

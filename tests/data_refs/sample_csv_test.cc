@@ -59,6 +59,8 @@ TEST(SampleCsv, ReadsPolarisationWhereItWasMeasured) {
       kHeader +
           ",q_over_i,q_over_i_sigma,u_over_i\n30,60,90,4000,-0.25,0.01,0.5\n30,10,90,4000,,,\n",
       "sky.csv");
+  EXPECT_EQ(reference.description,
+            "2 samples of luminance and 2 readings of polarisation in 1 scans from sky.csv");
   const auto& readings = reference.samples[0].polarisation;
   ASSERT_EQ(readings.size(), 2u);
   EXPECT_EQ(readings[0].what, Polarisation::kQ);

@@ -98,7 +98,8 @@ TEST(PolarisationFit, JacobianEqualsCentralDifferences) {
                                       {Link::kLog, Scale::kProfiled},
                                       {Link::kLinear, Scale::kProfiled}}) {
       const Likelihood likelihood{link, scale, {}, true, Loss::kNone, 3};
-      for (const Parameter& id : {Parameter::kMieScattering, Parameter::kGroundAlbedo}) {
+      for (const Parameter& id : {Parameter::kMieScattering, Parameter::kMieSingleScatteringAlbedo,
+                                  Parameter::kMiePhaseG, Parameter::kGroundAlbedo}) {
         const auto white_at = [&](double value, const std::vector<Unknown>& unknowns) {
           Atmosphere<double> atmosphere = true_sky();
           set_parameter(atmosphere, id, value);
