@@ -333,6 +333,8 @@ std::string_view polarisation_name(refs::Polarisation what) {
 
 std::string sigma_text(const Result& result) {
   std::string text;
+  int readings = 0;
+  for (const PolarisationErrors& errors : result.polarisation) readings += errors.readings;
   if (result.likelihood.noise_is_known) {
     text = fmt::format(
         "One sigma is from the known noise ({:.3g} % root mean square) and the priors; chi^2 per "
@@ -341,10 +343,12 @@ std::string sigma_text(const Result& result) {
   } else {
     text = fmt::format(
         "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "
-        "assumed.\nCorrelated as the residuals are, {} samples count as {:.3g} independent ones. "
-        "chi^2 per degree of\nfreedom under the assumed noise: {:.4g}.\n",
-        result.sigma_percent, result.sigma_factor, result.samples, result.effective_samples,
-        result.chi_square_per_dof);
+        "assumed.\nCorrelated as the residuals are, {} samples{} count as {:.3g} independent "
+        "ones.\n"
+        "chi^2 per degree of freedom under the assumed noise: {:.4g}.\n",
+        result.sigma_percent, result.sigma_factor, result.samples + readings,
+        readings > 0 ? fmt::format(" ({} of polarisation)", readings) : "",
+        result.effective_samples, result.chi_square_per_dof);
   }
   return text +
          "\"not identifiable\": the data say less about the unknown than its prior (without one: "
