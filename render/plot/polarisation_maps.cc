@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kMap = 440, kGap = 40, kMargin = 24, kHeader = 112, kFooter = 142;
-constexpr int kPixels = 264;  // of a map's side
+constexpr int kPixels = 220;  // of a map's side
 constexpr double kAlmostHorizon_deg = 89.9;
 
 LinearPolarisation linear_polarisation_of(const PolarisedSky& sky, double zenith, double azimuth) {
@@ -46,7 +46,8 @@ void write_pixels(Script& script, const std::string& name, const PolarisedSky& s
   script.line("EOD");
 }
 
-void draw_frame(Script& script) {
+// The circles are named where no lines are in the way.
+void draw_frame(Script& script, bool named) {
   for (const double zenith : {30.0, 60.0}) {
     script.line(
         "set object circle at 0,0 size {:.9g} front fs empty border lc rgb '#b0b0b0' lw 0.5",
@@ -55,6 +56,7 @@ void draw_frame(Script& script) {
   script.line("set object circle at 0,0 size 1 front fs empty border lc rgb '{}' lw 1.5",
               kFrameColor);
   script.line("set style textbox 1 opaque margins 0.6,0.4 fc rgb '#ffffff' noborder");
+  if (!named) return;
   for (const double zenith : {30.0, 60.0}) {
     script.line("set label '{:.0f}°' at {} center front boxed bs 1 font ',9'", zenith,
                 polar_point(zenith, 90));
@@ -111,8 +113,9 @@ void draw_map(Script& script, double left, const std::string& name, const Polari
   write_pixels(script, name, sky, color_of);
   script.begin_axes({left, kFooter, kMap, kMap});
   script.line("set xrange [-1.01:1.01]; set yrange [-1.01:1.01]");
-  if (name == "angle") draw_directions(script, sky);
-  draw_frame(script);
+  const bool with_directions = name == "angle";
+  if (with_directions) draw_directions(script, sky);
+  draw_frame(script, !with_directions);
   draw_sun(script, sky.sun_zenith * kDegreesPerRadian);
   draw_neutral_points(script, sky.neutral_points);
   script.line("plot ${} using 1:2:3:4:5 with rgbimage notitle", name);

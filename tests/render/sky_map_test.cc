@@ -224,11 +224,16 @@ TEST(SkyMap, LayersOfPolarisationLeaveOutTheDisc) {
   SkyMapOptions options = sun_at(60);
   options.stokes = true;
   options.ground = false;
-  const SkyMap without = map_of("equirectangular", 32, options);
-  EXPECT_EQ(without.layers, (std::vector<std::string>{"stokes.Q", "stokes.U", "dolp", "aolp"}));
+  const auto projection = make_map_projection("equirectangular", 32);
+  const auto map = [&] {
+    return sky_map(model(), Atmosphere<double>{}, spectral_channels(spectra(), {450}), *projection,
+                   options);
+  };
+  const SkyMap without = map();
   options.sun_disc = true;
   options.angle = PolarisationAngle::kIau;
-  const SkyMap with = map_of("equirectangular", 32, options);
+  const SkyMap with = map();
+  EXPECT_NE(with.pixels, without.pixels);
   for (std::size_t i = 0; i < with.layer_values.size(); i += 4) {
     ASSERT_EQ(with.layer_values[i], without.layer_values[i]);
     ASSERT_EQ(with.layer_values[i + 1], -without.layer_values[i + 1]);
@@ -236,6 +241,20 @@ TEST(SkyMap, LayersOfPolarisationLeaveOutTheDisc) {
   }
   EXPECT_EQ(with.layer_values[static_cast<std::size_t>(4 * 64 * 24) + 2], 0);
   EXPECT_GT(with.layer_values[static_cast<std::size_t>(4 * 64 * 2) + 2], 0.2);
+}
+
+TEST(SkyMap, LayersOfPolarisationOfColourAreThoseOfLuminance) {
+  SkyMapOptions options = sun_at(60);
+  options.stokes = true;
+  const SkyMap map = map_of("equirectangular", 16, options);
+  EXPECT_EQ(map.layers, (std::vector<std::string>{"stokes.Q", "stokes.U", "dolp", "aolp"}));
+  const std::size_t pixel = 32 * 2 + 5;
+  const float* const layer = &map.layer_values[4 * pixel];
+  const double luminance = static_cast<double>(map.pixels[3 * pixel + 1]);
+  constexpr double kFloat = 1e-5;
+  EXPECT_NEAR(std::hypot(static_cast<double>(layer[0]), static_cast<double>(layer[1])) / luminance,
+              static_cast<double>(layer[2]), kFloat);
+  EXPECT_GT(layer[2], 0.05);
 }
 
 }  // namespace
