@@ -120,7 +120,9 @@ void add_fit_command(CLI::App& app) {
       "\n"
       "What is fitted by default depends on the quantity of the reference alone: a relative\n"
       "luminance with --link log --scale profiled --pointing stated, an absolute luminance or a\n"
-      "spectral radiance with --link linear --scale fixed --pointing azimuth.\n"
+      "spectral radiance with --link linear --scale fixed --pointing azimuth. Columns q_over_i "
+      "and\n"
+      "u_over_i, or dolp, of a CSV of samples are fitted beside them, linear and without a scale.\n"
       "\n" +
       standard_sky_list() + "\n" + parameter_list() +
       "\nExamples:\n"

@@ -271,6 +271,14 @@ std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const Spectra
   return std::make_unique<ReferenceModel>(options);
 }
 
+void add_iau_option(CLI::App& command, bool& iau, CLI::Option* stokes) {
+  command
+      .add_flag("--iau", iau,
+                "Count U and the angle counter-clockwise, as the International Astronomical\n"
+                "Union does")
+      ->needs(stokes);
+}
+
 Transfer transfer_of(bool scalar) { return scalar ? Transfer::kScalar : Transfer::kVector; }
 
 Transfer transfer_for(const refs::Reference& reference, bool scalar) {

@@ -93,6 +93,11 @@ std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const Spectra
 // --scalar: the models `reference` and `tables` without polarisation.
 void add_scalar_option(CLI::App& command, bool& scalar);
 Transfer transfer_of(bool scalar);
+// What --scalar expects beside an option that asks for polarisation.
+inline constexpr const char* kScalarStokes =
+    "expected without --stokes: Stokes parameters are those of polarised light";
+// --iau beside `stokes`, the option that asks for polarisation.
+void add_iau_option(CLI::App& command, bool& iau, CLI::Option* stokes);
 // A reference that was computed without polarisation is compared with a model without.
 Transfer transfer_for(const refs::Reference& reference, bool scalar);
 

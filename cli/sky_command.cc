@@ -245,9 +245,7 @@ void run_sky(const SkyOptions& options) {
   table.orders = options.orders;
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--model", options.model, "expected reference with --orders");
-  if (options.stokes && options.scalar)
-    throw UsageError("--scalar", "",
-                     "expected without --stokes: Stokes parameters are those of polarised light");
+  if (options.stokes && options.scalar) throw UsageError("--scalar", "", kScalarStokes);
   if (options.stokes && options.wavelength.empty())
     throw UsageError("--wavelength-nm", "", "expected wavelengths with --stokes");
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
@@ -325,11 +323,7 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
           ->excludes(color)
           ->excludes(irradiance)
           ->excludes(sigma);
-  command
-      .add_flag("--iau", options.iau,
-                "Count U and the angle counter-clockwise, as the International Astronomical\n"
-                "Union does")
-      ->needs(stokes);
+  add_iau_option(command, options.iau, stokes);
   auto* const refraction = add_refraction_option(command, options.refraction);
   command
       .add_flag("--apparent-sun", options.apparent_sun,

@@ -5,20 +5,8 @@
 
 #include <cmath>
 #include <iterator>
-#include <limits>
-
-#include "model/numerics/angles.h"
 
 namespace skyfit::cli {
-
-// docs/theory (13.15).
-LinearPolarisation linear_polarisation(double i, double q, double u) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), polarised = std::hypot(q, u);
-  if (!(i > 0)) return {nan, nan};
-  if (!(polarised > 0)) return {0, nan};
-  const double angle = 0.5 * std::atan2(u, q) * kDegreesPerRadian;
-  return {polarised / i, angle <= -90 ? 90 : angle};
-}
 
 std::string stokes_header(std::string_view place) {
   return fmt::format(
@@ -30,7 +18,7 @@ std::string stokes_header(std::string_view place) {
 void append_stokes(std::string_view place, const StokesValues& stokes,
                    std::span<const WavelengthNode> nodes, int point, PolarisationAngle angle,
                    std::string& out) {
-  const double sign = angle == PolarisationAngle::kIau ? -1 : 1;
+  const double sign = sign_of_u(angle);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const int wave = static_cast<int>(k);
     const double i = stokes.i.at(point, wave), q = stokes.q.at(point, wave),

@@ -5,20 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "model/polarisation.h"
 #include "model/sky_model.h"
 
 namespace skyfit::cli {
-
-// In which sense U and the angle of polarisation are counted, as the observer sees them: clockwise
-// from up, or counter-clockwise as the International Astronomical Union counts.
-enum class PolarisationAngle { kClockwise, kIau };
-
-// Degree of linear polarisation, 0 .. 1, and its angle from the meridian plane in degrees, above
-// -90 to 90; NaN without light, and the angle without polarisation.
-struct LinearPolarisation {
-  double degree, angle_deg;
-};
-LinearPolarisation linear_polarisation(double i, double q, double u);
 
 // `place` names the columns of a place, with a comma at its end; so do the fields of
 // append_stokes().

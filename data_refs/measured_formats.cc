@@ -66,8 +66,9 @@ constexpr std::array<MeasuredFormat, 7> kFormats = {{
      "Tregenza 1987, the numbering of the patches", "sky_scan_145.csv",
      [](const SkyFile& file) { return is_patch_csv(file.line()); }, read_text<parse_patch_csv>},
     {kSampleCsv, "CSV of samples",
-     "any directions; luminance, relative luminance or spectral radiance", "of this project",
-     "clear_sky_two_suns.csv", [](const SkyFile&) { return true; }, read_samples},
+     "any directions; luminance, relative luminance or spectral radiance, and polarisation",
+     "of this project", "clear_sky_two_suns.csv", [](const SkyFile&) { return true; },
+     read_samples},
 }};
 
 const MeasuredFormat& format_of(const SkyFile& file) {

@@ -74,8 +74,11 @@ class SkyModel {
                              std::span<const SkyPoint> points,
                              std::span<const Parameter> derivatives) const = 0;
 
-  // radiance() with its polarisation, docs/theory (13.14). Throws std::invalid_argument by a model
-  // of scalar transfer, else as radiance() does.
+  // Whether stokes() gives them.
+  virtual bool gives_stokes() const { return false; }
+
+  // radiance() with its polarisation, docs/theory (13.14). Throws std::invalid_argument unless
+  // gives_stokes(), else as radiance() does.
   virtual StokesValues stokes(const Atmosphere<double>& atmosphere,
                               std::span<const WavelengthNode> wavelengths,
                               std::span<const SkyPoint> points,

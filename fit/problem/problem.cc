@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -239,11 +240,12 @@ bool may_swap_lobes(const FitOptions& options, const std::vector<FreeParameter>&
 }
 
 void add_datasets(const refs::Reference& reference, const SpectralData& spectra,
-                  const FitOptions& options, Problem& problem) {
+                  const SkyModel& model, const FitOptions& options, Problem& problem) {
   const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
   const auto selected = [&](int largest_channels) {
     return dataset(reference, spectra,
-                   {false, options.exclude_sun, problem.likelihood.noise, largest_channels});
+                   {false, options.exclude_sun, problem.likelihood.noise, largest_channels,
+                    model.gives_stokes()});
   };
   problem.fitted = selected(0);
   problem.medium = spectral ? selected(kMediumChannels) : problem.fitted;
@@ -287,6 +289,15 @@ std::vector<std::string> assumptions(const refs::Reference& reference, const Fit
                   "sea's level, {} hPa, by default (elevation_m, --site-pressure-hpa)",
                   kStandardPressureHpa));
   return notes;
+}
+
+std::optional<std::string> polarisation_left_out(const refs::Reference& reference,
+                                                 const SkyModel& model) {
+  const bool measured = std::ranges::any_of(
+      reference.samples, [](const refs::Sample& s) { return !s.polarisation.empty(); });
+  if (!measured || model.gives_stokes()) return {};
+  return fmt::format("readings of polarisation are left out: the model {}{} gives none",
+                     model.name(), model.transfer() == Transfer::kScalar ? " (scalar)" : "");
 }
 
 // The start as the options say, with what is fixed; parameters that it lacks are left out.
@@ -356,7 +367,9 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
   problem.model = &model;
   problem.likelihood = likelihood_of(options, reference);
   problem.assumptions = assumptions(reference, options);
-  add_datasets(reference, spectra, options, problem);
+  if (const auto note = polarisation_left_out(reference, model))
+    problem.assumptions.push_back(*note);
+  add_datasets(reference, spectra, model, options, problem);
   const Atmosphere<double> given = given_atmosphere(reference, options);
   const bool evaluate_only = options.free && options.free->empty();
   const Atmosphere<double> base =

@@ -38,6 +38,7 @@ class ReferenceModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
+  bool gives_stokes() const override { return transfer() == Transfer::kVector; }
   StokesValues stokes(const Atmosphere<double>& atmosphere,
                       std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                       std::span<const Parameter> derivatives) const override;

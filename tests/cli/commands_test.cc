@@ -57,6 +57,10 @@ TEST_F(CommandsTest, SkyMapIsWrittenWithItsSun) {
               HasSubstr("diffuse horizontal: "));
   EXPECT_THAT(files(), UnorderedElementsAre("sky.hdr", "sun.json"));
   EXPECT_NEAR(json::parse(read("sun.json"))["zenith_deg"].get<double>(), 40, 1e-9);
+  const Outcome no_layers =
+      run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--stokes", "--out", "sky.hdr"});
+  EXPECT_EQ(no_layers.status, 2);
+  EXPECT_THAT(no_layers.err, HasSubstr("expected with an .exr file"));
   const Outcome wrong = run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--projection",
                              "mercator", "--out", "sky.exr"});
   EXPECT_EQ(wrong.status, 2);
