@@ -70,6 +70,7 @@ void add_commands(CLI::App& app) {
   add_classify_command(app);
   add_compare_command(app);
   add_completion_command(app);
+  add_man_command(app);
   add_doctor_command(app);
   for (CLI::App* const command : app.get_subcommands({})) command->fallthrough();
   app.footer(

@@ -168,12 +168,26 @@ std::string place(double altitude, double sun, double view, double azimuth) {
   return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth);
 }
 
-void print_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
-                  const SkyTable& table, PolarisationAngle angle) {
+void leave_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
+                  const SkyTable& table, const SkyOptions& options) {
+  const PolarisationAngle angle =
+      options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise;
   constexpr std::size_t kParameters = 3;  // I, Q, U
   const std::vector<SkyPoint> points = points_of(grid, kParameters);
   const StokesValues stokes = model.stokes(atmosphere, table.nodes, points, {});
   check_light(stokes.i, table.nodes, points);
+  if (!options.netcdf.empty()) {
+    std::vector<double> all;
+    for (int p = 0; p < stokes.i.points; ++p) {
+      for (int w = 0; w < stokes.i.wavelengths; ++w) {
+        const auto row = stokes_row(stokes, p, w, angle);
+        all.insert(all.end(), row.begin(), row.end());
+      }
+    }
+    fit::write_netcdf(options.netcdf, sky_netcdf("Polarised sky of " + options.preset,
+                                                 grid.axes(true), stokes_columns(), all));
+    return;
+  }
   print(stokes_header(place_columns(grid)));
   int point = 0;
   std::string text;
@@ -258,8 +272,7 @@ void run_sky(const SkyOptions& options) {
   const auto model = sky_model_named(options.model, spectra, options.threads,
                                      transfer_of(options.scalar), options.refraction);
   if (options.stokes) {
-    print_stokes(*model, preset.atmosphere, grid, table,
-                 options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise);
+    leave_stokes(*model, preset.atmosphere, grid, table, options);
   } else if (options.irradiance) {
     leave_irradiance(*model, preset.atmosphere, grid, table, options);
   } else {

@@ -24,6 +24,8 @@ sky = ["sky", "--preset", "earth-clear", "--sun-zenith-deg", "30,60", "--view-ze
 for options, column, axes in [
     ([*sky, "--wavelength-nm", "450,550"], "radiance_per_irradiance_sr",
      ("altitude", "sun_zenith", "view_zenith", "relative_azimuth", "wavelength")),
+    ([*sky, "--wavelength-nm", "450,550", "--stokes"], "degree_of_linear_polarisation",
+     ("altitude", "sun_zenith", "view_zenith", "relative_azimuth", "wavelength")),
     (sky, "luminance_cd_m2", ("altitude", "sun_zenith", "view_zenith", "relative_azimuth")),
     (["sky", "--preset", "earth-clear", "--sun-zenith-deg", "30,60", "--irradiance", "--wavelength-nm", "450,550"],
      "diffuse_horizontal_w_m2_nm", ("altitude", "sun_zenith", "wavelength")),
