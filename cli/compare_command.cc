@@ -17,6 +17,7 @@
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
 #include "data_refs/truth.h"
+#include "fit/exchange/result_netcdf.h"
 #include "fit/model_comparison.h"
 #include "fit/problem/sky_values.h"
 #include "model/base/whole_file.h"
@@ -35,12 +36,24 @@ constexpr const char* kFisheyeFile = "fisheye.png";
 constexpr const char* kOurs = "model:reference";
 
 struct CompareOptions {
-  std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out;
+  std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out,
+                         netcdf;
   std::string exclude_sun = "3";
   ImportArguments import;
   int starts = 4, threads = default_threads();
   bool fitted = false, scalar = false, force = false, json = false;
 };
+
+std::string variant_lines() {
+  std::string text;
+  for (const SkyModelEntry& entry : sky_models()) {
+    if (entry.variants.empty()) continue;
+    text += fmt::format("Variants of {0}, behind its name as in {0}:{1}:\n", entry.name,
+                        entry.variants.front().name) +
+            named_lines(entry.variants);
+  }
+  return text;
+}
 
 std::vector<std::string> model_names(const std::string& text) {
   std::vector<std::string> names;
@@ -200,6 +213,7 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
   const WholeDirectory out(
       options.out, {kTextFile, kCsvFile, kJsonFile, kFigureFiles[0], kFigureFiles[1], kFisheyeFile},
       options.force);
+  require_netcdf(options.netcdf);
   const std::vector<std::string> names = model_names(options.models);
   const Preset preset = preset_of(options);
   if (options.reference == kOurs && options.preset.empty())
@@ -228,6 +242,7 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
                                    options.threads),
                         {staging / kFisheyeFile});
   });
+  if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
   print(options.json ? json_text(json) : text);
 }
 
@@ -262,6 +277,7 @@ void add_compare_command(CLI::App& app) {
       ->capture_default_str();
   add_scalar_option(*command, options->scalar);
   add_result_options(*command, options->out, options->force, options->json, "comparison.json");
+  add_netcdf_option(*command, options->netcdf, "Write the values of all models");
   add_threads_option(*command, options->threads);
   command->footer(
       "Leaves comparison.txt, comparison.csv, comparison.json, comparison.svg, comparison.png and\n"
@@ -269,7 +285,7 @@ void add_compare_command(CLI::App& app) {
       "scattering alone, fitted, reaches it as well. Compare with truth and measurements "
       "first.\n\n"
       "Models:\n" +
-      named_lines(sky_models()) +
+      named_lines(sky_models()) + variant_lines() +
       "\nExamples:\n"
       "  skyfit compare --reference truth:earth-550nm-ground --out compared\n"
       "  skyfit compare --reference cie:12 --models reference,bodare,oneil --fitted --out "

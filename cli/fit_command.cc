@@ -15,6 +15,7 @@
 #include "cli/progress.h"
 #include "data_refs/absorption_bands.h"
 #include "data_refs/spectra.h"
+#include "fit/exchange/result_netcdf.h"
 #include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
 #include "fit/standard_sky.h"
@@ -40,11 +41,15 @@ FinishedFit fit_with_progress(const refs::Reference& reference, const SkyModel& 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
+  require_netcdf(arguments.netcdf);
   refs::Reference reference = load_references(arguments.reference, arguments.sun_zenith,
                                               arguments.sampling, arguments.import, command);
-  const auto model = make_sky_model(arguments.model, refs::standard_spectral_data(),
-                                    arguments.threads, transfer_for(reference, arguments.scalar));
+  const auto model =
+      sky_model_named(arguments.model, refs::standard_spectral_data(), arguments.threads,
+                      transfer_for(reference, arguments.scalar), arguments.refraction);
+  if (arguments.refraction) reference.notes.emplace_back("rays of the model are curved by air");
   fit::FitOptions options = fit_options(arguments, *model, command);
+  options.aerosol = known_aerosol(arguments, reference);
   if (const std::optional<int> type = fit::standard_sky_type(arguments.reference))
     options = fit::with_standard_sky(options, fit::standard_sky_kind(*type, *model), *model);
   const fit::CheckOptions checks = check_options(arguments);
@@ -53,6 +58,8 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   Figures figures;
   out.publish(
       [&](const std::filesystem::path& staging) { write_fit(staging, finished, *model, figures); });
+  if (!arguments.netcdf.empty())
+    fit::write_netcdf(arguments.netcdf, fit::netcdf_of(finished.result));
   if (!finished.result.converged) {
     warn(fmt::format("the fit stopped before it converged: {}", finished.result.termination));
   }
@@ -97,8 +104,10 @@ void add_fit_command(CLI::App& app) {
   command->add_option("--model", options->model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();
+  add_refraction_option(*command, options->refraction);
   add_scalar_option(*command, options->scalar);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
+  add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");
   add_threads_option(*command, options->threads);
   command->footer(
       "Leaves preset.json, report.txt, report.json and samples.csv in the directory; of relative\n"
@@ -111,7 +120,9 @@ void add_fit_command(CLI::App& app) {
       "\n"
       "What is fitted by default depends on the quantity of the reference alone: a relative\n"
       "luminance with --link log --scale profiled --pointing stated, an absolute luminance or a\n"
-      "spectral radiance with --link linear --scale fixed --pointing azimuth.\n"
+      "spectral radiance with --link linear --scale fixed --pointing azimuth. Columns q_over_i "
+      "and\n"
+      "u_over_i, or dolp, of a CSV of samples are fitted beside them, linear and without a scale.\n"
       "\n" +
       standard_sky_list() + "\n" + parameter_list() +
       "\nExamples:\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `skyfit plot`: the comparison figure of one or several finished fits.
+// `skyfit plot`: the figures of one or several finished fits, and the polarisation of a preset's
+// sky.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,16 +18,19 @@
 #include "model/sky_model.h"
 #include "render/plot/comparison.h"
 #include "render/plot/measured_figures.h"
+#include "render/plot/polarisation_maps.h"
 #include "render/plot/results.h"
 
 namespace skyfit::cli {
 namespace {
 
-constexpr std::string_view kComparison = "comparison";
+constexpr std::string_view kComparison = "comparison", kPolarisation = "polarisation";
 
 struct PlotOptions {
   std::vector<std::string> directories, out;
   std::string figure;
+  std::string sun_zenith, wavelength = "450", altitude = "0";  // of the polarisation
+  bool iau = false;
   std::string model;  // of the maps; empty: that of each fit
   int scan = 1;
   int threads = default_threads();
@@ -42,9 +46,43 @@ void draw_measured(const PlotOptions& options, const std::vector<std::filesystem
   plot::write_figure(plot::draw(figure, fits, options.scan), files);
 }
 
+// Of a preset, or of the one that a fit left.
+void draw_polarisation(const PlotOptions& options,
+                       const std::vector<std::filesystem::path>& files) {
+  constexpr double kHighest_m = 1e9;
+  if (options.directories.size() != 1) {
+    throw UsageError(
+        "--figure", kPolarisation,
+        fmt::format("expected one preset or directory, got {}", options.directories.size()));
+  }
+  if (options.sun_zenith.empty())
+    throw UsageError("--sun-zenith-deg", "", "expected an angle with --figure polarisation");
+  const double sun = parse_angle("--sun-zenith-deg", options.sun_zenith, 0, 180);
+  const double altitude_m =
+      parse_number_within("--altitude-m", options.altitude, 0, kHighest_m, "a height in metres");
+  const std::string& name = options.directories.front();
+  const Preset preset =
+      preset_named(std::filesystem::is_directory(name) ? name + "/preset.json" : name);
+  const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
+  const auto& table = spectra.ozone_cross_section.wavelength_nm;
+  const double nm = parse_number_within("--wavelength-nm", options.wavelength, table.front(),
+                                        table.back(), "a wavelength in nm that the tables hold,");
+  const auto model = make_sky_model(options.model.empty() ? "reference" : options.model, spectra,
+                                    options.threads, Transfer::kVector);
+  const plot::PolarisedSky sky = plot::polarised_sky(
+      *model, preset.atmosphere, spectral_nodes(spectra, {nm}).front(), altitude_m, sun);
+  plot::write_figure(plot::polarisation_figure(
+                         "Polarisation of the sky of " + preset.name, sky,
+                         options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise),
+                     files);
+}
+
 void run_plot(const PlotOptions& options) {
   require_output_files(options.out, {".svg", ".png", ".pdf"});
   const std::vector<std::filesystem::path> files(options.out.begin(), options.out.end());
+  if (options.figure == kPolarisation) return draw_polarisation(options, files);
+  if (!options.sun_zenith.empty())
+    throw UsageError("--sun-zenith-deg", options.sun_zenith, "expected with --figure polarisation");
   const bool comparison = options.figure == kComparison;
   const auto absolute = std::ranges::count_if(options.directories, [](const std::string& d) {
     return has_absolute_values(read_fit(d).result);
@@ -74,8 +112,11 @@ void run_plot(const PlotOptions& options) {
 
 void add_plot_command(CLI::App& app) {
   const auto options = std::make_shared<PlotOptions>();
-  CLI::App* const command = app.add_subcommand("plot", "Draws the figure of finished fits.");
-  command->add_option("directories", options->directories, "What skyfit fit left")
+  CLI::App* const command = app.add_subcommand(
+      "plot", "Draws the figure of finished fits, or the polarisation of a preset's sky.");
+  command
+      ->add_option("directories", options->directories,
+                   "What skyfit fit left; with --figure polarisation also a preset")
       ->required()
       ->type_name("DIR");
   command->add_option("--out", options->out, "The figure; may be repeated")
@@ -84,7 +125,8 @@ void add_plot_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--figure", options->figure,
-                   fmt::format("{}, or one of those of absolute and spectral skies", kComparison))
+                   fmt::format("{}, {}, or one of those of absolute and spectral skies",
+                               kComparison, kPolarisation))
       ->type_name("NAME");
   command
       ->add_option("--model", options->model,
@@ -93,6 +135,21 @@ void add_plot_command(CLI::App& app) {
   command->add_option("--scan", options->scan, "The scan of --figure spectra, from 1")
       ->check(CLI::Range(1, 1000000).description(""))
       ->capture_default_str();
+  auto* const sun = command
+                        ->add_option("--sun-zenith-deg", options->sun_zenith,
+                                     "Sun zenith angle of --figure polarisation, 0 to 180")
+                        ->type_name("ANGLE");
+  command->add_option("--wavelength-nm", options->wavelength, "Of --figure polarisation")
+      ->type_name("NM")
+      ->needs(sun)
+      ->capture_default_str();
+  command
+      ->add_option("--altitude-m", options->altitude,
+                   "Height of the observer above the ground, of --figure polarisation")
+      ->type_name("LENGTH")
+      ->needs(sun)
+      ->capture_default_str();
+  add_iau_option(*command, options->iau, sun);
   add_threads_option(*command, options->threads);
   command->footer(
       "Reference, fit and start in the principal plane, one panel per sun position, "
@@ -102,7 +159,17 @@ void add_plot_command(CLI::App& app) {
       "Figures of fits of absolute and spectral skies:\n" +
       named_lines(plot::measured_figures()) +
       "\n"
+      "--figure polarisation maps degree and angle of linear polarisation over the sky of a "
+      "preset, "
+      "or\n"
+      "of the one that a fit left, and marks the neutral points of Arago, Babinet and Brewster "
+      "where "
+      "Q\n"
+      "changes its sign along the sun's vertical circle. Its conventions are those of skyfit sky "
+      "--stokes.\n"
+      "\n"
       "Examples:\n"
+      "  skyfit plot earth-clear --figure polarisation --sun-zenith-deg 70 --out polarisation.pdf\n"
       "  skyfit plot one-lobe two-lobes --out comparison.pdf\n"
       "  skyfit plot measured --figure spectra --scan 2 --out spectra.png");
   command->callback([options] { run_plot(*options); });

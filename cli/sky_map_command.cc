@@ -24,7 +24,7 @@ struct SkyMapArguments {
   std::string preset, projection = "equirectangular", size = "512", out, sun_file;
   std::string sun_zenith, sun_azimuth = "0", altitude = "0", wavelengths, primaries = "rec709";
   std::string sun = "in", ground = "filled", model = "reference";
-  bool scalar = false;
+  bool scalar = false, stokes = false, iau = false;
   int threads = default_threads();
 };
 
@@ -42,6 +42,8 @@ SkyMapOptions options_of(const SkyMapArguments& arguments) {
   options.sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 180);
   options.sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
   options.sun_disc = choice("--sun", arguments.sun, "in", "out");
+  options.stokes = arguments.stokes;
+  options.angle = arguments.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise;
   options.ground = choice("--ground", arguments.ground, "filled", "black");
   return options;
 }
@@ -79,6 +81,14 @@ void add_metadata(const Preset& preset, const SkyMapArguments& arguments,
                   {"skyfit:sun_disc", arguments.sun},
                   {"skyfit:ground", arguments.ground},
                   {"skyfit:altitude_m", fmt::format("{:.9g}", options.altitude_m)}};
+  if (options.stokes) {
+    map.metadata.emplace_back(
+        "skyfit:stokes",
+        fmt::format(
+            "meridian plane of the view; Q > 0 along it; U > 0 and aolp (deg) {} from up as "
+            "the observer sees it; of diffuse light",
+            arguments.iau ? "counter-clockwise" : "clockwise"));
+  }
 }
 
 void print_summary(const SkyMap& map, const std::string& file) {
@@ -95,6 +105,9 @@ void run_sky_map(const SkyMapArguments& arguments) {
   const bool spectral = !arguments.wavelengths.empty();
   require_output_files({arguments.out}, spectral ? std::vector<std::string>{".exr"}
                                                  : std::vector<std::string>{".exr", ".hdr"});
+  if (arguments.stokes && arguments.out.ends_with(".hdr"))
+    throw UsageError("--stokes", "", "expected with an .exr file, which has layers");
+  if (arguments.stokes && arguments.scalar) throw UsageError("--scalar", "", kScalarStokes);
   if (!arguments.sun_file.empty())
     require_output_files({arguments.sun_file}, {".json"}, "--sun-file");
   const Primaries primaries = parse_primaries(arguments.primaries);
@@ -161,6 +174,9 @@ void add_sky_map_command(CLI::App& app) {
   option("--primaries", arguments->primaries, "Of the colour, cd/m^2: rec709, rec2020 or xyz",
          "NAME");
   option("--model", arguments->model, "Sky model", "NAME");
+  auto* const stokes = command.add_flag(
+      "--stokes", arguments->stokes, "Also write layers of polarisation into the .exr, see below");
+  add_iau_option(command, arguments->iau, stokes);
   add_scalar_option(command, arguments->scalar);
   add_threads_option(command, arguments->threads);
   command.footer(
@@ -169,12 +185,26 @@ void add_sky_map_command(CLI::App& app) {
       "irradiance\n"
       "that the map gives is printed beside the model's.\n"
       "\n"
+      "--stokes writes stokes.Q and stokes.U (cd/m^2 of luminance, or W m^-2 sr^-1 nm^-1), dolp, "
+      "the "
+      "degree\n"
+      "of linear polarisation (0 to 1), and aolp, its angle in degrees; with --wavelength-nm each "
+      "with "
+      "the\n"
+      "wavelength behind its name (dolp.450nm). They are those of diffuse light, without the sun's "
+      "disc;\n"
+      "the reference plane is the meridian plane of a pixel's direction, with the signs of skyfit "
+      "sky\n"
+      "--stokes.\n"
+      "\n"
       "Examples:\n"
       "  skyfit sky-map earth-clear --sun-zenith-deg 40 --size 1024 --out sky.exr\n"
       "  skyfit sky-map fitted/preset.json --sun-zenith-deg 60 --sun out --sun-file sun.json "
       "--out sky.hdr\n"
       "  skyfit sky-map earth-clear --sun-zenith-deg 30 --projection octahedral "
-      "--wavelength-nm 450,550,650 --out sky.exr");
+      "--wavelength-nm 450,550,650 --out sky.exr\n"
+      "  skyfit sky-map earth-clear --sun-zenith-deg 70 --projection fisheye --stokes --out "
+      "sky.exr");
   command.callback([arguments] { run_sky_map(*arguments); });
 }
 

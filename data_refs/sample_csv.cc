@@ -54,6 +54,14 @@ void expect_columns(const CsvTable& table) {
       kValueColumns, [&](const ValueColumn& column) { return table.has(column.name); });
   expect(values == 1,
          "exactly one of luminance_cd_m2, relative_luminance and spectral_radiance_w_m2_sr_nm");
+  for (const PolarisationColumn& column : kPolarisationColumns) {
+    expect(table.has(column.name) || !table.has(column.sigma),
+           fmt::format("{} with {}", column.name, column.sigma));
+  }
+  expect(!table.has(polarisation_column(Polarisation::kDegree)) ||
+             (!table.has(polarisation_column(Polarisation::kQ)) &&
+              !table.has(polarisation_column(Polarisation::kU))),
+         "either dolp or q_over_i and u_over_i, which say the same");
   expect(table.has(kWavelength) == (value_column(table).quantity == Quantity::kSpectralRadiance),
          "wavelength_nm with a spectral radiance, and only there");
 }
@@ -81,6 +89,8 @@ class SampleReader {
     if (table_.has(kWavelength))
       sample.wavelength_nm = checked(record, kWavelength, "a number > 0", positive);
     if (table_.has(kSigma)) sample.sigma = checked(record, kSigma, "a number > 0", positive);
+    for (const PolarisationColumn& column : kPolarisationColumns)
+      add_reading(record, column, sample);
     if (table_.has(kDirection)) {
       sample.direction =
           static_cast<int>(checked(record, kDirection, "a whole number >= 0", [](double x) {
@@ -104,6 +114,20 @@ class SampleReader {
     const double value = table_.number(record, column);
     if (!holds(value)) table_.fail_value(record, column, expectation);
     return value;
+  }
+
+  void add_reading(const CsvRecord& record, const PolarisationColumn& column,
+                   Sample& sample) const {
+    if (!table_.has(column.name) || table_.text(record, column.name).empty()) return;
+    const bool degree = column.what == Polarisation::kDegree;
+    const double value =
+        checked(record, column.name, degree ? "0 to 1, or nothing" : "-1 to 1, or nothing",
+                [&](double x) { return x >= (degree ? 0 : -1) && x <= 1; });
+    PolarisationReading reading{column.what, value, {}};
+    if (table_.has(column.sigma)) {
+      reading.sigma = checked(record, column.sigma, "a number > 0", [](double x) { return x > 0; });
+    }
+    sample.polarisation.push_back(reading);
   }
 
   double view_zenith_deg(const CsvRecord& record, bool is_unused) const {
@@ -203,9 +227,13 @@ Reference parse_sample_csv(std::string_view text, std::string_view source,
     throw std::invalid_argument(
         fmt::format("{}: {} samples with a weight > 0, expected at least 1", source, used));
   }
+  std::size_t readings = 0;
+  for (const Sample& sample : reference.samples) readings += sample.polarisation.size();
   reference.description =
-      fmt::format("{} samples of {} in {} scans from {}", reference.samples.size(),
-                  quantity_name(reference.quantity), reader.scans().size(), source);
+      fmt::format("{} samples of {}{} in {} scans from {}", reference.samples.size(),
+                  quantity_name(reference.quantity),
+                  readings > 0 ? fmt::format(" and {} readings of polarisation", readings) : "",
+                  reader.scans().size(), source);
   reference.scans = reader.scans();
   return reference;
 }

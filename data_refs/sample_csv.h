@@ -11,6 +11,11 @@
 //   spectral_radiance_w_m2_sr_nm  > 0, with wavelength_nm > 0
 // Optional:
 //   sigma                 > 0: one standard deviation in the unit of the value
+//   q_over_i, u_over_i    -1 .. 1: Q / I and U / I in the meridian plane of the view, U > 0
+//                         clockwise from up, as `skyfit sky --stokes` prints them; an empty field
+//                         was not measured
+//   dolp                  0 .. 1: the degree of linear polarisation, with neither of the two
+//   q_over_i_sigma, u_over_i_sigma, dolp_sigma   > 0: one standard deviation of each
 //   weight                >= 0, 1 when absent; 0 leaves the sample out, which may then have any
 //                         value and a view zenith to 180
 //   zero_weight_reason    why the weight is 0

@@ -31,6 +31,18 @@ constexpr std::string_view value_column(Quantity quantity) {
   return std::ranges::find(kValueColumns, quantity, &ValueColumn::quantity)->name;
 }
 
+struct PolarisationColumn {
+  std::string_view name, sigma;
+  Polarisation what;
+};
+inline constexpr std::array kPolarisationColumns = {
+    PolarisationColumn{"q_over_i", "q_over_i_sigma", Polarisation::kQ},
+    PolarisationColumn{"u_over_i", "u_over_i_sigma", Polarisation::kU},
+    PolarisationColumn{"dolp", "dolp_sigma", Polarisation::kDegree}};
+constexpr std::string_view polarisation_column(Polarisation what) {
+  return std::ranges::find(kPolarisationColumns, what, &PolarisationColumn::what)->name;
+}
+
 inline constexpr std::array kColumns = {kSunZenith,
                                         kViewZenith,
                                         kRelativeAzimuth,
@@ -41,6 +53,12 @@ inline constexpr std::array kColumns = {kSunZenith,
                                         kValueColumns[2].name,
                                         kWavelength,
                                         kSigma,
+                                        kPolarisationColumns[0].name,
+                                        kPolarisationColumns[0].sigma,
+                                        kPolarisationColumns[1].name,
+                                        kPolarisationColumns[1].sigma,
+                                        kPolarisationColumns[2].name,
+                                        kPolarisationColumns[2].sigma,
                                         kWeight,
                                         kReason,
                                         kDirection,

@@ -75,6 +75,36 @@ void add_direction_columns(const Reference& reference, std::vector<OutputColumn>
        }});
 }
 
+const PolarisationReading* reading_of(const Sample& sample, Polarisation what) {
+  const auto at = std::ranges::find(sample.polarisation, what, &PolarisationReading::what);
+  return at == sample.polarisation.end() ? nullptr : &*at;
+}
+
+// Empty where it was not measured.
+void add_polarisation_columns(const std::vector<Sample>& samples,
+                              std::vector<OutputColumn>& columns) {
+  for (const PolarisationColumn& column : kPolarisationColumns) {
+    const Polarisation what = column.what;
+    const auto is_read = [=](const Sample& s) { return reading_of(s, what) != nullptr; };
+    const auto has_sigma = [=](const Sample& s) {
+      const PolarisationReading* const reading = reading_of(s, what);
+      return reading != nullptr && reading->sigma;
+    };
+    if (!std::ranges::any_of(samples, is_read)) continue;
+    columns.push_back({column.name, [=](const Sample& s) {
+                         const PolarisationReading* const reading = reading_of(s, what);
+                         return reading ? fmt::format("{:.9g}", reading->value) : std::string();
+                       }});
+    const bool all_have_sigma =
+        std::ranges::all_of(samples, [&](const Sample& s) { return !is_read(s) || has_sigma(s); });
+    if (!all_have_sigma) continue;
+    columns.push_back({column.sigma, [=](const Sample& s) {
+                         const PolarisationReading* const reading = reading_of(s, what);
+                         return reading ? fmt::format("{:.9g}", *reading->sigma) : std::string();
+                       }});
+  }
+}
+
 std::vector<OutputColumn> output_columns(const Reference& reference) {
   const auto any = [&](const auto& holds) { return std::ranges::any_of(reference.samples, holds); };
   const auto all = [&](const auto& holds) { return std::ranges::all_of(reference.samples, holds); };
@@ -87,6 +117,7 @@ std::vector<OutputColumn> output_columns(const Reference& reference) {
       {value_column(reference.quantity), [=](const Sample& s) { return number(s.value); }});
   if (all([](const Sample& s) { return s.sigma.has_value(); }))
     columns.push_back({kSigma, [=](const Sample& s) { return number(*s.sigma); }});
+  add_polarisation_columns(reference.samples, columns);
   columns.push_back({kWeight, [=](const Sample& s) { return number(s.weight); }});
   if (any([](const Sample& s) { return !s.zero_weight_reason.empty(); }))
     columns.push_back(

@@ -20,6 +20,16 @@ enum class Quantity {
   kSpectralRadiance    // W m^-2 sr^-1 nm^-1, at Sample::wavelength_nm
 };
 
+// What a polarimeter reads beside the radiance, a pure number: Q / I and U / I in the meridian
+// plane of the view as StokesValues has them (model/sky_model.h), or the degree of linear
+// polarisation.
+enum class Polarisation { kQ, kU, kDegree };
+struct PolarisationReading {
+  Polarisation what;
+  double value;                 // -1 .. 1, a degree 0 .. 1
+  std::optional<double> sigma;  // one standard deviation
+};
+
 // Angles in radians; azimuth 0 looks toward the sun's azimuth.
 struct Sample {
   double sun_zenith = 0;
@@ -33,6 +43,7 @@ struct Sample {
   int scan = 0;                    // samples of one scan share one sun position's luminance scale
   // How far the sun has gone since the scan's begin, radians clockwise, where a scan takes minutes.
   double sun_azimuth_since = 0;
+  std::vector<PolarisationReading> polarisation = {};  // of the same light; at most one of each
   int direction = 0;  // its number in a measured scan; many wavelengths share one
 };
 

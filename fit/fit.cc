@@ -179,13 +179,14 @@ class Fit {
     result_.start_name = options_.start ? options_.start->name : "defaults";
     result_.version = SKYFIT_VERSION;
     result_.samples_left_out = refs::samples_left_out(result_.reference);
-    result_.samples = static_cast<int>(problem.fitted.samples.size());
+    result_.samples = static_cast<int>(radiances(problem.fitted).size());
     result_.directions = static_cast<int>(problem.fitted.lines_of_sight.size());
     result_.sigma_factor = noise_.factor;
     result_.effective_samples = noise_.effective_samples;
     double squares = 0;
-    for (const Sample& sample : problem.fitted.samples)
-      squares += std::pow(sample.sigma / sample.value, 2);
+    for (const Sample& sample : problem.fitted.samples) {
+      if (!sample.polarisation) squares += std::pow(sample.sigma / sample.value, 2);
+    }
     result_.sigma_percent = 100 * noise_.factor * std::sqrt(squares / result_.samples);
   }
 
@@ -199,6 +200,7 @@ class Fit {
     const refs::Reference& counted = result_.reference;
     result_.start_errors = errors_of(counted, result_.start_model, spectra_);
     result_.errors = errors_of(counted, result_.model, spectra_);
+    describe_polarisation(problem, start, fitted);
     result_.start_rms = rms_summary(reference_, result_.start_model, options_.exclude_sun);
     result_.rms = rms_summary(reference_, result_.model, options_.exclude_sun);
     for (std::size_t s = 0; s < problem.fitted.scans.size(); ++s) {
@@ -215,9 +217,36 @@ class Fit {
           std::ranges::count(problem.fitted.lines_of_sight, scan, &LineOfSight::scan));
       outcome.samples =
           static_cast<int>(std::ranges::count_if(problem.fitted.samples, [&](const Sample& sample) {
-            return problem.fitted.scan_of(sample) == scan;
+            return !sample.polarisation && problem.fitted.scan_of(sample) == scan;
           }));
       result_.scans.push_back(outcome);
+    }
+  }
+
+  // What the readings of polarisation are off, by their kind.
+  void describe_polarisation(const Problem& problem, const SkyState& start,
+                             const SkyState& fitted) {
+    const Dataset data = only_samples(problem.fitted, polarisations(problem.fitted));
+    if (data.samples.empty()) return;
+    const Eigen::VectorXd at_start = sky_values(*problem.model, data, start, {}).value,
+                          at_end = sky_values(*problem.model, data, fitted, {}).value;
+    result_.model_evaluations += 2;
+    for (const auto what :
+         {refs::Polarisation::kQ, refs::Polarisation::kU, refs::Polarisation::kDegree}) {
+      PolarisationErrors errors{what};
+      for (std::size_t i = 0; i < data.samples.size(); ++i) {
+        const Sample& reading = data.samples[i];
+        if (reading.polarisation != what) continue;
+        const auto row = static_cast<Eigen::Index>(i);
+        ++errors.readings;
+        errors.start_rms += std::pow(at_start(row) - reading.value, 2);
+        errors.rms += std::pow(at_end(row) - reading.value, 2);
+        errors.sigma += std::pow(noise_.factor * reading.sigma, 2);
+      }
+      if (errors.readings == 0) continue;
+      for (double* const sum : {&errors.start_rms, &errors.rms, &errors.sigma})
+        *sum = 100 * std::sqrt(*sum / errors.readings);
+      result_.polarisation.push_back(errors);
     }
   }
 
@@ -243,14 +272,15 @@ class Fit {
     const Whitened white = whiten(problem.fitted, problem.likelihood, values, noise_.factor);
     const Uncertainty uncertain = uncertainty_at(problem, scaled, white);
     describe_unknowns(problem, fitted, uncertain);
-    const double freedom =
-        result_.samples - static_cast<double>(problem.unknowns.size()) - problem.profiled_scales();
+    const double freedom = static_cast<double>(problem.fitted.samples.size()) -
+                           static_cast<double>(problem.unknowns.size()) - problem.profiled_scales();
     result_.chi_square_per_dof =
         freedom > 0 ? white.residual.squaredNorm() * std::pow(noise_.factor, 2) / freedom : kNan;
     const std::vector<double> weights = problem.loss_weights(white.residual);
     result_.loss_weight.assign(result_.model.size(), kNan);
     result_.sigma.assign(result_.model.size(), kNan);
     for (const Sample& sample : problem.fitted.samples) {
+      if (sample.polarisation) continue;
       result_.loss_weight[sample.index] = weights[static_cast<std::size_t>(sample.line_of_sight)];
       result_.sigma[sample.index] = sample.sigma * noise_.independent_factor;
     }

@@ -30,8 +30,9 @@ void check_point(std::string_view model, const SkyPoint& p) {
 
 StokesValues SkyModel::stokes(const Atmosphere<double>&, std::span<const WavelengthNode>,
                               std::span<const SkyPoint>, std::span<const Parameter>) const {
-  throw std::invalid_argument(fmt::format(
-      "{} model: gives no Stokes parameters: it is a model of scalar transfer", name()));
+  throw std::invalid_argument(
+      fmt::format("{} model: gives no Stokes parameters: it is a model of {}", name(),
+                  transfer() == Transfer::kScalar ? "scalar transfer" : "radiance alone"));
 }
 
 ScatteredLight SkyModel::scattered_light(const Atmosphere<double>&, std::span<const WavelengthNode>,

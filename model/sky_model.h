@@ -62,6 +62,8 @@ class SkyModel {
   virtual std::string_view name() const = 0;
   // The models of the literature know no polarisation.
   virtual Transfer transfer() const { return Transfer::kScalar; }
+  // Whether rays are curved: view angles are then the apparent ones, suns the true ones.
+  virtual bool refracts() const { return false; }
 
   // Diffuse radiance per unit solar irradiance (1/sr): scattered light and light reflected by the
   // ground, the sun's disc not. `derivatives` lists the parameters to differentiate by; their order
@@ -72,8 +74,11 @@ class SkyModel {
                              std::span<const SkyPoint> points,
                              std::span<const Parameter> derivatives) const = 0;
 
-  // radiance() with its polarisation, docs/theory (13.14). Throws std::invalid_argument by a model
-  // of scalar transfer, else as radiance() does.
+  // Whether stokes() gives them.
+  virtual bool gives_stokes() const { return false; }
+
+  // radiance() with its polarisation, docs/theory (13.14). Throws std::invalid_argument unless
+  // gives_stokes(), else as radiance() does.
   virtual StokesValues stokes(const Atmosphere<double>& atmosphere,
                               std::span<const WavelengthNode> wavelengths,
                               std::span<const SkyPoint> points,

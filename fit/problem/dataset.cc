@@ -140,7 +140,7 @@ std::vector<std::size_t> in_order(const refs::Reference& reference,
 }
 
 void add_samples(Dataset& data, const refs::Reference& reference,
-                 const std::vector<std::size_t>& samples, const NoiseModel& noise) {
+                 const std::vector<std::size_t>& samples, const Selection& selection) {
   std::map<double, int> channel_of;
   for (std::size_t c = 0; c < data.channels.size(); ++c)
     channel_of[data.channels[c].wavelength_nm] = static_cast<int>(c);
@@ -154,8 +154,25 @@ void add_samples(Dataset& data, const refs::Reference& reference,
     last = direction;
     data.samples.push_back({i, static_cast<int>(data.lines_of_sight.size()) - 1,
                             static_cast<int>(data.views.size()) - 1, channel->second, sample.value,
-                            sigma_of(sample, noise)});
+                            sigma_of(sample, selection.noise)});
+    if (!selection.with_polarisation) continue;
+    for (const refs::PolarisationReading& reading : sample.polarisation) {
+      data.samples.push_back(data.samples.back());
+      data.samples.back().value = reading.value;
+      data.samples.back().sigma =
+          reading.sigma.value_or(kPolarisationSigma) / std::sqrt(sample.weight);
+      data.samples.back().polarisation = reading.what;
+    }
   }
+}
+
+std::vector<int> indices_of(const Dataset& data, bool polarised) {
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    if (data.samples[i].polarisation.has_value() == polarised)
+      indices.push_back(static_cast<int>(i));
+  }
+  return indices;
 }
 
 }  // namespace
@@ -189,8 +206,17 @@ Dataset dataset(const refs::Reference& reference, const SpectralData& spectra,
     add_luminance_channel(data, selection.largest_channels > 0 ? coarse_luminance_rule(spectra)
                                                                : luminance_rule(spectra));
   }
-  add_samples(data, reference, used, selection.noise);
+  add_samples(data, reference, used, selection);
   return data;
+}
+
+std::vector<int> radiances(const Dataset& data) { return indices_of(data, false); }
+std::vector<int> polarisations(const Dataset& data) { return indices_of(data, true); }
+
+Dataset only_samples(const Dataset& data, const std::vector<int>& indices) {
+  Dataset result{data.nodes, data.channels, data.scans, data.lines_of_sight, data.views, {}};
+  for (const int i : indices) result.samples.push_back(data.samples[static_cast<std::size_t>(i)]);
+  return result;
 }
 
 Dataset only_scan(Dataset data, int scan) {

@@ -5,6 +5,10 @@
 // value of a sample = sum_k weight[k] * radiance per unit solar irradiance at node k, over the
 // square of the sun's distance in au. A spectral radiance has one node, weighted with the sun's
 // irradiance at 1 au there; a luminance has those of a luminance rule.
+//
+// A reading of polarisation is a sample of its own in the channel of its radiance: Q / I, U / I or
+// sqrt(Q^2 + U^2) / I of the sums of that weight. Neither the sun's distance nor a scale matters to
+// it.
 #pragma once
 
 #include <optional>
@@ -51,6 +55,7 @@ struct Sample {
   std::size_t index;  // in the reference
   int line_of_sight, view, channel;
   double value, sigma;  // in the reference's unit; sigma includes the sample's weight
+  std::optional<refs::Polarisation> polarisation = {};  // what is read; nothing: the radiance
 };
 
 struct Dataset {
@@ -59,7 +64,7 @@ struct Dataset {
   std::vector<ScanInfo> scans;              // all of the reference, also those without a sample
   std::vector<LineOfSight> lines_of_sight;  // by scan
   std::vector<View> views;                  // those of a line of sight follow each other
-  std::vector<Sample> samples;              // by line of sight, then channel
+  std::vector<Sample> samples;  // by line of sight, channel, and polarisation after radiance
   int scan_of(const Sample& sample) const {
     return lines_of_sight[static_cast<std::size_t>(sample.line_of_sight)].scan;
   }
@@ -72,11 +77,15 @@ struct NoiseModel {
   double floor = 0;  // in the reference's unit
 };
 
+// Sigma of a reading of polarisation that states none: one percentage point.
+inline constexpr double kPolarisationSigma = 0.01;
+
 struct Selection {
   bool with_weightless = false;  // also samples of weight 0, those near the sun and negative ones
   double exclude_sun = 0;        // radians
   NoiseModel noise;
   int largest_channels = 0;  // > 0: at most so many wavelengths, evenly chosen, for a search
+  bool with_polarisation = false;
 };
 
 SkyPoint sky_point(const refs::Sample& sample);
@@ -86,6 +95,12 @@ SkyPoint sky_point(const refs::Sample& sample);
 // out.
 Dataset dataset(const refs::Reference& reference, const SpectralData& spectra,
                 const Selection& selection);
+// Indices of the samples that are radiances or luminances, and those that are readings of
+// polarisation.
+std::vector<int> radiances(const Dataset& data);
+std::vector<int> polarisations(const Dataset& data);
+// The samples of these indices, which ascend.
+Dataset only_samples(const Dataset& data, const std::vector<int>& indices);
 // The samples of one scan.
 Dataset only_scan(Dataset data, int scan);
 

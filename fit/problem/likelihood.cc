@@ -75,6 +75,31 @@ void profile_linear_scale(const std::vector<int>& scan, const Eigen::VectorXd& w
   }
 }
 
+// docs/theory (11.4).
+Whitened whiten_radiances(const Dataset& data, const Likelihood& likelihood,
+                          const SampleValues& values, double factor) {
+  const auto count = static_cast<Eigen::Index>(data.samples.size());
+  Eigen::VectorXd sigma(count), value(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    sigma(i) = data.samples[static_cast<std::size_t>(i)].sigma;
+    value(i) = data.samples[static_cast<std::size_t>(i)].value;
+  }
+  Whitened white{values.value, values.derivative,
+                 Eigen::VectorXd::Ones(static_cast<Eigen::Index>(data.scans.size()))};
+  if (likelihood.link == Link::kLog) take_logarithms(data, white, sigma, value);
+  const Eigen::VectorXd weight = sigma.cwiseAbs2().cwiseInverse();
+  const bool profiled = likelihood.scale == Scale::kProfiled;
+  if (profiled && likelihood.link == Link::kLinear)
+    profile_linear_scale(scans_of_samples(data), weight, value, white.residual, white);
+  white.residual -= value;
+  if (profiled && likelihood.link == Link::kLog)
+    profile_log_scale(scans_of_samples(data), weight, white);
+  const Eigen::VectorXd inverse = (factor * sigma).cwiseInverse();
+  white.residual = white.residual.cwiseProduct(inverse);
+  white.jacobian_per_unit = inverse.asDiagonal() * white.jacobian_per_unit;
+  return white;
+}
+
 }  // namespace
 
 std::string_view link_name(Link link) { return link == Link::kLog ? "log" : "linear"; }
@@ -101,28 +126,23 @@ Scale default_scale(refs::Quantity quantity) {
   return quantity == refs::Quantity::kRelativeLuminance ? Scale::kProfiled : Scale::kFixed;
 }
 
-// docs/theory (11.4).
 Whitened whiten(const Dataset& data, const Likelihood& likelihood, const SampleValues& values,
                 double factor) {
-  const auto count = static_cast<Eigen::Index>(data.samples.size());
-  Eigen::VectorXd sigma(count), value(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    sigma(i) = data.samples[static_cast<std::size_t>(i)].sigma;
-    value(i) = data.samples[static_cast<std::size_t>(i)].value;
+  const std::vector<int> readings = polarisations(data);
+  if (readings.empty()) return whiten_radiances(data, likelihood, values, factor);
+  const std::vector<int> others = radiances(data);
+  const Whitened of_radiances =
+      whiten_radiances(only_samples(data, others), likelihood,
+                       {values.value(others), values.derivative(others, Eigen::all)}, factor);
+  Whitened white{values.value, values.derivative, of_radiances.scale};
+  white.residual(others) = of_radiances.residual;
+  white.jacobian_per_unit(others, Eigen::all) = of_radiances.jacobian_per_unit;
+  for (const int i : readings) {
+    const Sample& reading = data.samples[static_cast<std::size_t>(i)];
+    const double sigma = factor * reading.sigma;
+    white.residual(i) = (values.value(i) - reading.value) / sigma;
+    white.jacobian_per_unit.row(i) = values.derivative.row(i) / sigma;
   }
-  Whitened white{values.value, values.derivative,
-                 Eigen::VectorXd::Ones(static_cast<Eigen::Index>(data.scans.size()))};
-  if (likelihood.link == Link::kLog) take_logarithms(data, white, sigma, value);
-  const Eigen::VectorXd weight = sigma.cwiseAbs2().cwiseInverse();
-  const bool profiled = likelihood.scale == Scale::kProfiled;
-  if (profiled && likelihood.link == Link::kLinear)
-    profile_linear_scale(scans_of_samples(data), weight, value, white.residual, white);
-  white.residual -= value;
-  if (profiled && likelihood.link == Link::kLog)
-    profile_log_scale(scans_of_samples(data), weight, white);
-  const Eigen::VectorXd inverse = (factor * sigma).cwiseInverse();
-  white.residual = white.residual.cwiseProduct(inverse);
-  white.jacobian_per_unit = inverse.asDiagonal() * white.jacobian_per_unit;
   return white;
 }
 

@@ -14,6 +14,9 @@
 //            weighted mean of the logarithms, or sum(w model value) / sum(w model^2). The Jacobian
 //            is that of the profiled residuals (variable projection, Golub & Pereyra 1973).
 //
+// A reading of polarisation has the linear link without a scale, whatever the others have, and its
+// own sigma.
+//
 // sigma^2 = floor^2 + (relative value)^2 where the reference states none, over the square root of
 // the sample's weight. A loss acts on the mean square of a line of sight's residuals; the profiled
 // scale is that of plain squares.

@@ -2,6 +2,7 @@
 #include "fit/problem/sky_values.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -20,7 +21,44 @@ struct Group {
   std::vector<Eigen::Index> samples;
   std::vector<int> index_of_node;  // of all nodes, within `nodes`
   std::vector<WavelengthNode> nodes;
+  bool polarised = false;  // some sample is a reading of polarisation
 };
+
+// Of a sample, or its derivative; Q and U are 0 where no sample needs them.
+struct Light {
+  double i = 0, q = 0, u = 0;
+};
+
+// `factor` from the weighted radiance to the instrument's.
+double value_of(const Sample& sample, const Light& light, double factor) {
+  if (!sample.polarisation) return factor * light.i;
+  switch (*sample.polarisation) {
+    case refs::Polarisation::kQ:
+      return light.q / light.i;
+    case refs::Polarisation::kU:
+      return light.u / light.i;
+    case refs::Polarisation::kDegree:
+      break;
+  }
+  return std::hypot(light.q, light.u) / light.i;
+}
+
+// docs/theory (11.7). Where nothing is polarised the degree has no derivative, and 0 stands for it.
+double derivative_of(const Sample& sample, const Light& light, const Light& by, double factor) {
+  if (!sample.polarisation) return factor * by.i;
+  const double q = light.q / light.i, u = light.u / light.i, q_by = (by.q - q * by.i) / light.i,
+               u_by = (by.u - u * by.i) / light.i;
+  switch (*sample.polarisation) {
+    case refs::Polarisation::kQ:
+      return q_by;
+    case refs::Polarisation::kU:
+      return u_by;
+    case refs::Polarisation::kDegree:
+      break;
+  }
+  const double degree = std::hypot(q, u);
+  return degree > 0 ? (q * q_by + u * u_by) / degree : 0;
+}
 
 // What is measured under one sun of a scan; a sample that is missing does not part its direction
 // from the others.
@@ -60,6 +98,7 @@ std::vector<Group> groups_of(const Dataset& data, const SkyState& state) {
     }
     if (group.views.empty() || group.views.back() != index) group.views.push_back(index);
     group.samples.push_back(static_cast<Eigen::Index>(r));
+    group.polarised = group.polarised || data.samples[r].polarisation.has_value();
   }
   std::vector<Group> result;
   for (auto& [key, group] : groups) result.push_back(std::move(group));
@@ -112,13 +151,32 @@ class Evaluation {
     }
   }
 
+  // at(values, node) of I, Q and U.
   template <class At>
-  double weighted(const Group& group, const Sample& sample, const At& at) const {
+  Light weighted(const Group& group, const Sample& sample, const StokesValues& sky,
+                 const At& at) const {
     const Channel& channel = data_.channels[static_cast<std::size_t>(sample.channel)];
-    double sum = 0;
-    for (std::size_t k = 0; k < channel.node.size(); ++k)
-      sum += channel.weight[k] * at(group.index_of_node[static_cast<std::size_t>(channel.node[k])]);
+    Light sum;
+    for (std::size_t k = 0; k < channel.node.size(); ++k) {
+      const int node = group.index_of_node[static_cast<std::size_t>(channel.node[k])];
+      sum.i += channel.weight[k] * at(sky.i, node);
+      if (!sample.polarisation) continue;
+      sum.q += channel.weight[k] * at(sky.q, node);
+      sum.u += channel.weight[k] * at(sky.u, node);
+    }
     return sum;
+  }
+
+  Light light_at(const Group& group, const Sample& sample, const StokesValues& sky,
+                 int point) const {
+    return weighted(group, sample, sky,
+                    [&](const SkyValues& values, int node) { return values.at(point, node); });
+  }
+
+  StokesValues light(const Group& group, const std::vector<SkyPoint>& points,
+                     const std::vector<Parameter>& wanted) const {
+    if (group.polarised) return model_.stokes(atmosphere(group), group.nodes, points, wanted);
+    return {model_.radiance(atmosphere(group), group.nodes, points, wanted), {}, {}};
   }
 
   void add_atmosphere(const Group& group) {
@@ -133,15 +191,17 @@ class Evaluation {
     }
     std::vector<SkyPoint> points;
     for (const int view : group.views) points.push_back(point(view, Instrument::kAzimuthOffset, 0));
-    const SkyValues sky = model_.radiance(atmosphere(group), group.nodes, points, wanted);
+    const StokesValues sky = light(group, points, wanted);
     for_samples(group, [&](Eigen::Index r, const Sample& sample, int view, double factor) {
-      result_.value(r) =
-          factor * weighted(group, sample, [&](int node) { return sky.at(view, node); });
+      const Light seen = light_at(group, sample, sky, view);
+      result_.value(r) = value_of(sample, seen, factor);
       for (std::size_t u = 0; u < unknowns_.size(); ++u) {
         if (slice[u] < 0 || !unknowns_[u].applies_to(data_.scan_of(sample))) continue;
+        const Light by = weighted(group, sample, sky, [&](const SkyValues& values, int node) {
+          return values.derivative_at(slice[u], view, node);
+        });
         result_.derivative(r, static_cast<Eigen::Index>(u)) =
-            factor * weighted(group, sample,
-                              [&](int node) { return sky.derivative_at(slice[u], view, node); });
+            derivative_of(sample, seen, by, factor);
       }
     });
   }
@@ -167,7 +227,7 @@ class Evaluation {
         for (const int view : group.views) points.push_back(point(view, angle, step));
       }
     }
-    const SkyValues sky = model_.radiance(atmosphere(group), group.nodes, points, {});
+    const StokesValues sky = light(group, points, {});
     for_samples(group, [&](Eigen::Index r, const Sample& sample, int view, double factor) {
       const int scan = data_.scan_of(sample);
       for (std::size_t u = 0; u < unknowns_.size(); ++u) {
@@ -176,9 +236,9 @@ class Evaluation {
         if (angle == angles.end() || !unknowns_[u].applies_to(scan)) continue;
         const int below = static_cast<int>(angle - angles.begin()) * 2 * views + view;
         result_.derivative(r, static_cast<Eigen::Index>(u)) =
-            factor / (2 * kPointingStep) * weighted(group, sample, [&](int node) {
-              return sky.at(below + views, node) - sky.at(below, node);
-            });
+            (value_of(sample, light_at(group, sample, sky, below + views), factor) -
+             value_of(sample, light_at(group, sample, sky, below), factor)) /
+            (2 * kPointingStep);
       }
     });
   }
@@ -189,7 +249,7 @@ class Evaluation {
       if (id == nullptr || *id != Instrument::kScale) continue;
       for (std::size_t r = 0; r < data_.samples.size(); ++r) {
         const int scan = data_.scan_of(data_.samples[r]);
-        if (!unknowns_[u].applies_to(scan)) continue;
+        if (!unknowns_[u].applies_to(scan) || data_.samples[r].polarisation) continue;
         const auto sample = static_cast<Eigen::Index>(r);
         result_.derivative(sample, static_cast<Eigen::Index>(u)) =
             result_.value(sample) / state_.instrument[static_cast<std::size_t>(scan)]

@@ -22,6 +22,14 @@ struct Errors {
   double mean_bias = 0;  // mean of the luminances' model / value - 1
 };
 
+// Of the fitted readings of one kind of polarisation, in percentage points: root mean squares of
+// model - value, and of sigma with the fit's factor.
+struct PolarisationErrors {
+  refs::Polarisation what;
+  int readings = 0;
+  double start_rms = 0, rms = 0, sigma = 0;
+};
+
 // `model`: one value per sample of the reference; samples without one (NaN) do not count. Of one
 // scan (the reference's number) or of all (-1).
 Errors errors_of(const refs::Reference& reference, const std::vector<double>& model,

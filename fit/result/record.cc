@@ -29,6 +29,19 @@ json rms_json(const RmsSummary& rms) {
           {"sun_zenith_up_to_70_deg", finite_or_null(rms.sun_below_70)}};
 }
 
+// By the columns of a CSV of samples.
+json polarisation_json(const Result& result) {
+  json kinds = json::object();
+  for (const PolarisationErrors& errors : result.polarisation) {
+    kinds[std::string(refs::sample_csv::polarisation_column(errors.what))] = {
+        {"readings", errors.readings},
+        {"rms_percentage_points_start", errors.start_rms},
+        {"rms_percentage_points", errors.rms},
+        {"sigma_percentage_points", errors.sigma}};
+  }
+  return kinds;
+}
+
 json reference_json(const Result& result) {
   json suns = json::array();
   for (const ScanOutcome& scan : result.scans)
@@ -187,6 +200,7 @@ json record_of(const Result& result) {
                  {"findings", findings_json(result)},
                  {"wall_seconds", result.wall_seconds}};
   record.update(errors_json(result.errors));
+  if (!result.polarisation.empty()) record["polarisation"] = polarisation_json(result);
   return record;
 }
 

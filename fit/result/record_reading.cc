@@ -65,6 +65,20 @@ RmsSummary rms_from(const PresetReader& record) {
           record.number_or_nan("sun_zenith_up_to_70_deg")};
 }
 
+// Nothing where none was fitted.
+void read_polarisation(const PresetReader& record, Result& result) {
+  if (!record.has("polarisation")) return;
+  const PresetReader kinds = record.object("polarisation");
+  for (const refs::sample_csv::PolarisationColumn& column :
+       refs::sample_csv::kPolarisationColumns) {
+    if (!kinds.has(column.name)) continue;
+    const PresetReader row = kinds.object(column.name);
+    result.polarisation.push_back(
+        {column.what, count_from(row, "readings"), row.number("rms_percentage_points_start"),
+         row.number("rms_percentage_points"), row.number("sigma_percentage_points")});
+  }
+}
+
 void read_likelihood(const PresetReader& record, Result& result) {
   Likelihood& likelihood = result.likelihood;
   likelihood.link = named(record, "link", {Link::kLog, Link::kLinear}, link_name);
@@ -254,6 +268,7 @@ void read_record(const PresetReader& record, Result& result) {
   result.errors = errors_from(record);
   result.start_rms = rms_from(record.object("rms_log_percent_start"));
   result.rms = rms_from(record.object("rms_log_percent_fitted"));
+  read_polarisation(record, result);
   read_unknowns(record, result);
   read_numbers(record, result);
   int scan = 0;

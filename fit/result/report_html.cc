@@ -164,6 +164,14 @@ void add_errors(xml_node body, const Result& result) {
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     row(scan_name(result, s), result.scans[s].errors);
   add(body, "p", errors_meaning(), "small");
+  if (result.polarisation.empty()) return;
+  xml_node readings = add_table(
+      body, {"Polarisation, RMS in percentage points", "readings", "start", "fitted", "one sigma"});
+  for (const PolarisationErrors& e : result.polarisation) {
+    add_row(readings,
+            {std::string(polarisation_name(e.what)), std::to_string(e.readings),
+             number_text(e.start_rms, 4), number_text(e.rms, 4), number_text(e.sigma, 3)});
+  }
 }
 
 void add_unknowns(xml_node body, const Result& result) {

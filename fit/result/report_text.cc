@@ -79,6 +79,19 @@ std::string errors_text(const Result& result) {
   return text + errors_meaning() + "\n";
 }
 
+std::string polarisation_text(const Result& result) {
+  if (result.polarisation.empty()) return "";
+  constexpr std::string_view kRow = "{:<44}{:>12}{:>12}{:>12}{:>12}\n";
+  std::string text = fmt::format(kRow, "Polarisation, RMS in percentage points", "readings",
+                                 "start", "fitted", "one sigma");
+  for (const PolarisationErrors& errors : result.polarisation) {
+    text += fmt::format(kRow, polarisation_name(errors.what), errors.readings,
+                        number_text(errors.start_rms, 4), number_text(errors.rms, 4),
+                        number_text(errors.sigma, 3));
+  }
+  return text + "\n";
+}
+
 std::string rms_text(const Result& result) {
   const auto row = [](std::string_view name, double start, double fitted) {
     return fmt::format("{:<52}{:>12}{:>12}\n", name, number_text(start), number_text(fitted));
@@ -306,8 +319,22 @@ std::string prior_text(const UnknownRow& row) {
   return prior ? fmt::format("{:.4g}+-{:.3g}", prior->mean / unit, prior->sigma / unit) : "none";
 }
 
+std::string_view polarisation_name(refs::Polarisation what) {
+  switch (what) {
+    case refs::Polarisation::kQ:
+      return "Q / I";
+    case refs::Polarisation::kU:
+      return "U / I";
+    case refs::Polarisation::kDegree:
+      break;
+  }
+  return "degree of linear polarisation";
+}
+
 std::string sigma_text(const Result& result) {
   std::string text;
+  int readings = 0;
+  for (const PolarisationErrors& errors : result.polarisation) readings += errors.readings;
   if (result.likelihood.noise_is_known) {
     text = fmt::format(
         "One sigma is from the known noise ({:.3g} % root mean square) and the priors; chi^2 per "
@@ -316,10 +343,12 @@ std::string sigma_text(const Result& result) {
   } else {
     text = fmt::format(
         "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "
-        "assumed.\nCorrelated as the residuals are, {} samples count as {:.3g} independent ones. "
-        "chi^2 per degree of\nfreedom under the assumed noise: {:.4g}.\n",
-        result.sigma_percent, result.sigma_factor, result.samples, result.effective_samples,
-        result.chi_square_per_dof);
+        "assumed.\nCorrelated as the residuals are, {} samples{} count as {:.3g} independent "
+        "ones.\n"
+        "chi^2 per degree of freedom under the assumed noise: {:.4g}.\n",
+        result.sigma_percent, result.sigma_factor, result.samples + readings,
+        readings > 0 ? fmt::format(" ({} of polarisation)", readings) : "",
+        result.effective_samples, result.chi_square_per_dof);
   }
   return text +
          "\"not identifiable\": the data say less about the unknown than its prior (without one: "
@@ -364,10 +393,11 @@ std::string brief_report(const Result& result) {
 }
 
 std::string full_report(const Result& result, const Checks& checks) {
-  return header(result) + reference_remarks(result) + errors_text(result) + rms_text(result) +
-         scales_text(result) + unknowns_text(result) + pulled_text(pulled_priors(result)) +
-         downweighted_text(result) + correlation_text(result) + findings_text(result) +
-         starts_text(result) + profiles_text(checks.profiles) +
+  return header(result) + reference_remarks(result) + errors_text(result) +
+         polarisation_text(result) + rms_text(result) + scales_text(result) +
+         unknowns_text(result) + pulled_text(pulled_priors(result)) + downweighted_text(result) +
+         correlation_text(result) + findings_text(result) + starts_text(result) +
+         profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
          hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }

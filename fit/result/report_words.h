@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fit/result/result.h"
@@ -18,6 +19,8 @@ std::string scan_name(const Result& result, std::size_t scan);
 // "at lower bound", "not identifiable" or nothing.
 std::string remark_text(const UnknownRow& row);
 std::string prior_text(const UnknownRow& row);
+// "Q / I", "U / I" or "degree of linear polarisation".
+std::string_view polarisation_name(refs::Polarisation what);
 // What one sigma is made of; lines of at most 100 columns.
 std::string sigma_text(const Result& result);
 // What "RMS of log", "luminance", "spectral" and "own" errors are.

@@ -45,7 +45,7 @@ struct ScanOutcome {
   // sample.
   InstrumentState instrument;
   Errors start_errors, errors;
-  int samples = 0, directions = 0;  // that were fitted
+  int samples = 0, directions = 0;  // that were fitted; without readings of polarisation
 };
 
 struct Result {
@@ -73,6 +73,7 @@ struct Result {
   double chi_square_per_dof = 0;  // with the factor left out
   Errors start_errors, errors;
   RmsSummary start_rms, rms;
+  std::vector<PolarisationErrors> polarisation;  // of each kind that was fitted
   std::vector<ScanOutcome> scans;
   // Per sample of the reference, with the instrument; NaN outside the model's spectra and in a scan
   // without scale.
@@ -84,6 +85,7 @@ struct Result {
   std::vector<StartSummary> starts;
   bool converged = false;
   std::string termination;  // Ceres' word for it
+  // Without the readings of polarisation.
   int samples = 0, directions = 0, iterations = 0, model_evaluations = 0,
       derivative_evaluations = 0;  // of all starts
   double wall_seconds = 0;

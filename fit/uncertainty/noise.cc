@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <vector>
 
 namespace skyfit::fit {
@@ -128,31 +130,9 @@ double share_of_wavelengths(const Dataset& data, double correlation) {
   return wavelengths / pairs;
 }
 
-}  // namespace
-
-// docs/theory (12.1) and (12.4).
-Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
-                     const Eigen::VectorXd& residual, int unknowns) {
-  const auto count = static_cast<double>(data.samples.size());
-  Noise noise;
-  noise.length = length_of(data, residual);
-  noise.wavelength_correlation = wavelength_correlation(data, residual);
-  const double of_wavelengths = share_of_wavelengths(data, noise.wavelength_correlation);
-  const double of_all = share_of_directions(data, noise.length) * of_wavelengths;
-  noise.effective_samples = std::max(1.0, count * of_all);
-  const double freedom = std::max(1.0, count - unknowns);
-  noise.independent_factor = std::sqrt(std::max(residual.squaredNorm() / freedom, 1e-12));
-  if (likelihood.link == Link::kLinear) {
-    noise.factor = noise.independent_factor / std::sqrt(of_wavelengths);
-  } else {
-    noise.factor = std::max(noise.independent_factor * std::sqrt(count / noise.effective_samples),
-                            kSmallestSigma / likelihood.noise.relative);
-  }
-  return noise;
-}
-
-Eigen::MatrixXd times_correlation(const Dataset& data, const Noise& noise,
-                                  const Eigen::MatrixXd& columns) {
+// Of samples of one kind.
+Eigen::MatrixXd times_correlation_of_kind(const Dataset& data, const Noise& noise,
+                                          const Eigen::MatrixXd& columns) {
   const auto channels = static_cast<Eigen::Index>(data.channels.size());
   const auto lines = static_cast<Eigen::Index>(data.lines_of_sight.size());
   Eigen::MatrixXd along(channels, channels);
@@ -178,6 +158,45 @@ Eigen::MatrixXd times_correlation(const Dataset& data, const Noise& noise,
     for (std::size_t i = 0; i < data.samples.size(); ++i)
       result(static_cast<Eigen::Index>(i), column) =
           grid(data.samples[i].line_of_sight, data.samples[i].channel);
+  }
+  return result;
+}
+
+}  // namespace
+
+// docs/theory (12.1) and (12.4).
+Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
+                     const Eigen::VectorXd& residual, int unknowns) {
+  const auto count = static_cast<double>(data.samples.size());
+  const std::vector<int> indices = radiances(data);
+  const Dataset others = only_samples(data, indices);
+  const Eigen::VectorXd of_radiances = residual(indices);
+  Noise noise;
+  noise.length = length_of(others, of_radiances);
+  noise.wavelength_correlation = wavelength_correlation(others, of_radiances);
+  const double of_wavelengths = share_of_wavelengths(others, noise.wavelength_correlation);
+  const double of_all = share_of_directions(data, noise.length) * of_wavelengths;
+  noise.effective_samples = std::max(1.0, count * of_all);
+  const double freedom = std::max(1.0, count - unknowns);
+  noise.independent_factor = std::sqrt(std::max(residual.squaredNorm() / freedom, 1e-12));
+  if (likelihood.link == Link::kLinear) {
+    noise.factor = noise.independent_factor / std::sqrt(of_wavelengths);
+  } else {
+    noise.factor = std::max(noise.independent_factor * std::sqrt(count / noise.effective_samples),
+                            kSmallestSigma / likelihood.noise.relative);
+  }
+  return noise;
+}
+
+Eigen::MatrixXd times_correlation(const Dataset& data, const Noise& noise,
+                                  const Eigen::MatrixXd& columns) {
+  std::map<std::optional<refs::Polarisation>, std::vector<int>> kinds;
+  for (std::size_t i = 0; i < data.samples.size(); ++i)
+    kinds[data.samples[i].polarisation].push_back(static_cast<int>(i));
+  Eigen::MatrixXd result(columns.rows(), columns.cols());
+  for (const auto& [kind, indices] : kinds) {
+    result(indices, Eigen::all) =
+        times_correlation_of_kind(only_samples(data, indices), noise, columns(indices, Eigen::all));
   }
   return result;
 }

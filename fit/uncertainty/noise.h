@@ -6,6 +6,9 @@
 // neighbours among the lines of sight (their mean residuals), r from neighbouring wavelengths of a
 // line of sight.
 //
+// Readings of polarisation count among the samples but not in length and r; between them and
+// radiances the correlation is taken as 0, among those of one kind as among radiances.
+//
 // N_eff = N * (share of independent lines of sight) * (share of independent wavelengths): of n, n^2
 // over the sum of the correlations of all pairs. White noise gives N.
 //

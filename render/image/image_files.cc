@@ -69,6 +69,18 @@ std::vector<float> in_primaries(const std::vector<float>& xyz, const ColorSpace&
   return result;
 }
 
+// [pixel][a + b] of [pixel][a] and [pixel][b].
+std::vector<float> interleaved(const std::vector<float>& first, std::size_t a,
+                               const std::vector<float>& second, std::size_t b) {
+  std::vector<float> result;
+  result.reserve(first.size() + second.size());
+  for (auto p = first.begin(), q = second.begin(); p != first.end();) {
+    for (std::size_t k = 0; k < a; ++k) result.push_back(*p++);
+    for (std::size_t k = 0; k < b; ++k) result.push_back(*q++);
+  }
+  return result;
+}
+
 }  // namespace
 
 void write_exr_file(const Frame& frame, const fs::path& file) {
@@ -93,6 +105,7 @@ void write_exr_file(const Frame& frame, const fs::path& file) {
   if (const auto& layers = frame.layers) {
     add("inscatter.", layers->in_scatter, "RGB");
     add("reflected.", layers->reflected, "RGB");
+    add("direct.", layers->direct, "RGB");
     add("transmittance.", layers->transmittance, "RGB");
     add("normal.", layers->normal, "XYZ");
     add("albedo.", layers->albedo, "RGB");
@@ -118,18 +131,24 @@ void write_exr_file(const Frame& frame, const fs::path& file) {
 }
 
 void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file) {
-  OIIO::ImageSpec spec(map.width, map.height, static_cast<int>(map.channels.size()),
+  const std::size_t colors = map.channels.size(), layers = map.layers.size();
+  OIIO::ImageSpec spec(map.width, map.height, static_cast<int>(colors + layers),
                        OIIO::TypeDesc::FLOAT);
   spec.channelnames = map.channels;
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
   for (const auto& [name, value] : map.metadata) spec.attribute(name, value);
-  if (!map.is_xyz) return write_whole(file, spec, OIIO::TypeDesc::FLOAT, map.pixels.data());
-  const ColorSpace& space = color_space(primaries);
-  spec.channelnames = {"R", "G", "B"};
-  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
-                 space.chromaticities.data());
-  write_whole(file, spec, OIIO::TypeDesc::FLOAT, in_primaries(map.pixels, space).data());
+  std::vector<float> pixels = map.pixels;
+  if (map.is_xyz) {
+    const ColorSpace& space = color_space(primaries);
+    spec.channelnames = {"R", "G", "B"};
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                   space.chromaticities.data());
+    pixels = in_primaries(map.pixels, space);
+  }
+  spec.channelnames.insert(spec.channelnames.end(), map.layers.begin(), map.layers.end());
+  if (layers > 0) pixels = interleaved(pixels, colors, map.layer_values, layers);
+  write_whole(file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
 void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions& tone) {

@@ -21,6 +21,18 @@ constexpr std::array<Rgb, 9> kRedBlue = {{{33, 102, 172},
                                           {214, 96, 77},
                                           {178, 24, 43}}};
 
+// The colours of kRedBlue, with one in the place of white; both ends are the same.
+constexpr Rgb kBlack = {32, 32, 32};
+constexpr std::array<Rgb, 9> kHalfTurn = {{kBlack,
+                                           {17, 54, 96},
+                                           kRedBlue[0],
+                                           kRedBlue[2],
+                                           kRedBlue[4],
+                                           kRedBlue[6],
+                                           kRedBlue[8],
+                                           {96, 24, 36},
+                                           kBlack}};
+
 constexpr std::array<Rgb, 9> kViridis = {{{68, 1, 84},
                                           {71, 44, 122},
                                           {59, 81, 139},
@@ -60,6 +72,10 @@ std::string diverging_color(double value, double limit) {
 
 std::string sequential_color(double share) {
   return blended(kViridis, std::clamp(share, 0.0, 1.0));
+}
+
+std::string half_turn_color(double angle_deg) {
+  return blended(kHalfTurn, std::remainder(angle_deg, 180.0) / 180 + 0.5);
 }
 
 double round_up(double value) {

@@ -37,6 +37,10 @@ std::string diverging_color(double value, double limit);
 // Walt 2015, read at nine places).
 std::string sequential_color(double share);
 
+// Colour of a direction that is the same after half a turn: near white at 0 deg, red at 45, nearly
+// black at 90, blue at 135 (-45).
+std::string half_turn_color(double angle_deg);
+
 // The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten, >= value > 0.
 double round_up(double value);
 

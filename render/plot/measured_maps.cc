@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/base/text.h"
+#include "render/plot/color_scale.h"
 #include "render/plot/hemisphere_maps.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/script.h"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double kCell = 330, kHeader = 92, kFooter = 84, kTitle = 30, kLabel = 176;
 constexpr std::size_t kMaxRows = 6;
-constexpr int kScaleSteps = 80;
 
 // A scan's name in lines that the column of names holds, broken at spaces; of a longer word the
 // end stays.
@@ -114,40 +114,18 @@ void draw_map(Script& script, const Box& box, const Row& row, const ColorOf& col
   script.line("plot NaN notitle");
 }
 
-template <class ColorAt>
-void draw_scale(Script& script, const Box& box, const std::vector<Tick>& ticks,
-                std::string_view title, const ColorAt& color_at) {
-  script.begin_axes(box);
-  script.line("set border 15 lc rgb '{}' lw 0.8; set xrange [0:1]; set yrange [0:1]", kFrameColor);
-  for (int i = 0; i < kScaleSteps; ++i) {
-    const double left = static_cast<double>(i) / kScaleSteps;
-    const std::string color = color_at(left + 0.5 / kScaleSteps);
-    script.line(
-        "set object rectangle from {:.9g},0 to {:.9g},1 behind fs solid border lc rgb '{}' fc rgb "
-        "'{}'",
-        left, left + 1.0 / kScaleSteps, color, color);
-  }
-  std::string tics;
-  for (const Tick& tick : ticks) {
-    if (tick.label.empty()) continue;
-    tics += fmt::format("{}'{}' {:.6g}", tics.empty() ? "" : ", ", tick.label, tick.position);
-  }
-  script.line("set xtics ({}) scale 0.5 nomirror textcolor rgb '#202020' offset 0,0.3", tics);
-  script.text_label(box.left + box.width / 2, box.bottom - 36, title, "center font ',12'");
-  script.line("plot NaN notitle");
-}
-
 void draw_scales(Script& script, const Range& range, double limit) {
   std::vector<Tick> luminance = log_ticks(range.lower / 1000, range.upper / 1000);
   for (Tick& tick : luminance) tick.position = range.share(tick.position * 1000);
-  draw_scale(script, {kLabel + 0.35 * kCell, 52, 1.3 * kCell, 14}, luminance,
-             "luminance, kcd m⁻² (logarithmic)", [](double at) { return sequential_color(at); });
+  draw_color_scale(script, {kLabel + 0.35 * kCell, 52, 1.3 * kCell, 14}, luminance,
+                   "luminance, kcd m⁻² (logarithmic)",
+                   [](double at) { return sequential_color(at); });
   std::vector<Tick> ratio;
   for (const double at : {0.0, 0.25, 0.5, 0.75, 1.0})
     ratio.push_back({at, fmt::format("{:.3g}", limit * (2 * at - 1))});
-  draw_scale(script, {kLabel + 2.1 * kCell, 52, 0.8 * kCell, 14}, ratio,
-             "model / measured − 1, %; grey: not fitted",
-             [](double at) { return diverging_color(2 * at - 1, 1); });
+  draw_color_scale(script, {kLabel + 2.1 * kCell, 52, 0.8 * kCell, 14}, ratio,
+                   "model / measured − 1, %; grey: not fitted",
+                   [](double at) { return diverging_color(2 * at - 1, 1); });
 }
 
 void draw_row(Script& script, const MeasuredOutcome& outcome, const Row& row, double top,

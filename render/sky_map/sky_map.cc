@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <string_view>
 
 #include "model/base/module_file.h"
 #include "model/numerics/angles.h"
@@ -29,6 +31,9 @@ Axis cross(const Axis& a, const Axis& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+constexpr std::string_view kLayerNames[] = {"stokes.Q", "stokes.U", "dolp", "aolp"};
+constexpr std::size_t kLayers = std::size(kLayerNames);
+
 class MapPainter {
  public:
   MapPainter(const LightGrid& grid, const MapProjection& projection, const SkyMapOptions& options,
@@ -49,6 +54,27 @@ class MapPainter {
           add(x + (i + 0.5) / parts, y + (j + 0.5) / parts, 1.0 / (parts * parts), light);
       }
       for (std::size_t c = 0; c < channels_; ++c) out[c] = static_cast<float>(light[c]);
+    }
+  }
+
+  // Of row y, whose light is in `light`, [layer].
+  void paint_polarisation(int y, const MapChannels& channels, const float* light,
+                          float* out) const {
+    for (int x = 0; x < projection_.width(); ++x, light += channels_) {
+      const auto d = projection_.direction(x + 0.5, y + 0.5);
+      const double zenith = d ? zenith_of(*d) : 0;
+      const bool is_seen = d && (options_.ground || zenith <= grid_.horizon());
+      const auto q_u = is_seen ? grid_.polarisation(zenith, azimuth_of(*d))
+                               : std::vector<std::array<double, 2>>(channels.polarised.size());
+      for (std::size_t c = 0; c < q_u.size(); ++c, out += kLayers) {
+        const double q = q_u[c][0], u = sign_of_u(options_.angle) * q_u[c][1];
+        const double i = static_cast<double>(light[channels.polarised[c]]);
+        const LinearPolarisation linear = linear_polarisation(1, q, u);
+        out[0] = static_cast<float>(q * i);
+        out[1] = static_cast<float>(u * i);
+        out[2] = static_cast<float>(linear.degree);
+        out[3] = linear.degree > 0 ? static_cast<float>(linear.angle_deg) : 0.0F;
+      }
     }
   }
 
@@ -96,10 +122,14 @@ class MapPainter {
   void add(double x, double y, double share, std::vector<double>& light) const {
     const auto d = projection_.direction(x, y);
     if (!d) return;
-    const double zenith = std::acos(std::clamp((*d)[2], -1.0, 1.0));
+    const double zenith = zenith_of(*d);
     if (zenith > grid_.horizon() && !options_.ground) return;
-    grid_.add(zenith, std::atan2((*d)[0], (*d)[1]) - options_.sun_azimuth, share, light);
+    grid_.add(zenith, azimuth_of(*d), share, light);
   }
+
+  static double zenith_of(const Axis& d) { return std::acos(std::clamp(d[2], -1.0, 1.0)); }
+  // From the sun's, clockwise from above.
+  double azimuth_of(const Axis& d) const { return std::atan2(d[0], d[1]) - options_.sun_azimuth; }
 
   void add_beam(const Axis& d, double share, const std::vector<double>& irradiance,
                 std::vector<float>& pixels) const {
@@ -152,14 +182,15 @@ std::vector<double> weighted(const MapChannels& channels, const SkyValues& value
 
 MapChannels xyz_channels(const SpectralData& data) {
   const XyzRule rule = xyz_rule(data);
-  return {{"X", "Y", "Z"}, rule.nodes, {rule.weight.begin(), rule.weight.end()}};
+  return {{"X", "Y", "Z"}, rule.nodes, {rule.weight.begin(), rule.weight.end()}, {1}};
 }
 
 MapChannels spectral_channels(const SpectralData& data, const std::vector<double>& wavelengths_nm) {
-  MapChannels channels{{}, spectral_nodes(data, wavelengths_nm), {}};
+  MapChannels channels{{}, spectral_nodes(data, wavelengths_nm), {}, {}};
   for (std::size_t k = 0; k < wavelengths_nm.size(); ++k) {
     channels.names.push_back(fmt::format("{:g}nm", wavelengths_nm[k]));
     channels.weight.emplace_back(wavelengths_nm.size());
+    channels.polarised.push_back(k);
     channels.weight.back()[k] = data.solar_irradiance.at(wavelengths_nm[k]);
   }
   return channels;
@@ -175,6 +206,15 @@ SkyMap sky_map(const SkyModel& model, const Atmosphere<double>& atmosphere,
   map.is_xyz = channels.names == std::vector<std::string>{"X", "Y", "Z"};
   const std::size_t row = channels.names.size() * static_cast<std::size_t>(map.width);
   map.pixels.resize(row * static_cast<std::size_t>(map.height));
+  if (options.stokes) {
+    for (const std::size_t c : channels.polarised) {
+      for (const std::string_view name : kLayerNames)
+        map.layers.push_back(map.is_xyz ? std::string(name)
+                                        : fmt::format("{}.{}", name, channels.names[c]));
+    }
+  }
+  const std::size_t layer_row = map.layers.size() * static_cast<std::size_t>(map.width);
+  map.layer_values.resize(layer_row * static_cast<std::size_t>(map.height));
   const SkyValues irradiance =
       model.irradiance(atmosphere, channels.nodes, options.altitude_m, options.sun_zenith, {});
   map.direct_normal = weighted(channels, irradiance, kDirectNormal);
@@ -182,7 +222,12 @@ SkyMap sky_map(const SkyModel& model, const Atmosphere<double>& atmosphere,
   const LightGrid grid(model, atmosphere, channels, options);
   const MapPainter painter(grid, projection, options, channels.names.size());
   for (int y = 0; y < map.height; ++y) {
-    painter.paint_row(y, &map.pixels[static_cast<std::size_t>(y) * row]);
+    float* const light = &map.pixels[static_cast<std::size_t>(y) * row];
+    painter.paint_row(y, light);
+    if (options.stokes) {
+      painter.paint_polarisation(y, channels, light,
+                                 &map.layer_values[static_cast<std::size_t>(y) * layer_row]);
+    }
     options.progress((y + 1.0) / map.height);
   }
   map.map_horizontal = map_irradiance(map, projection);

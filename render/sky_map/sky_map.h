@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/polarisation.h"
 #include "model/sky_model.h"
 #include "render/color_space.h"
 #include "render/sky_map/projection.h"
@@ -20,6 +21,7 @@ struct MapChannels {
   std::vector<std::string> names;
   std::vector<WavelengthNode> nodes;
   std::vector<std::vector<double>> weight;  // [channel][node]
+  std::vector<std::size_t> polarised;  // channels whose polarisation SkyMapOptions::stokes asks for
 };
 
 // X, Y, Z in cd/m^2 (irradiances: lx), by xyz_rule().
@@ -31,7 +33,9 @@ struct SkyMapOptions {
   double altitude_m = 0;
   double sun_zenith = 0, sun_azimuth = 0;  // radians, azimuth clockwise from north
   bool sun_disc = true;
-  bool ground = true;  // else what lies below the horizon is black
+  bool ground = true;   // else what lies below the horizon is black
+  bool stokes = false;  // also the layers of polarisation
+  PolarisationAngle angle = PolarisationAngle::kClockwise;
   std::function<void(double)> progress = [](double) {};
 };
 
@@ -40,6 +44,10 @@ struct SkyMap {
   std::vector<std::string> channels;
   std::vector<float> pixels;  // [pixel][channel], rows from above
   bool is_xyz = false;
+  // Polarisation: for each polarised channel stokes.Q and stokes.U in its unit, dolp (0 .. 1) and
+  // aolp (degrees), of luminance under these names, of a wavelength with ".550nm" behind them.
+  std::vector<std::string> layers;
+  std::vector<float> layer_values;  // [pixel][layer]
   std::vector<std::pair<std::string, std::string>> metadata;
   // [channel]: of the beam on a plane that faces the sun; of the sky's diffuse light on a
   // horizontal plane, by the model's own quadrature and as the sum over the map's pixels.
@@ -50,7 +58,10 @@ struct SkyMap {
 // direction of their centres. Light is interpolated between the model's values every half degree in
 // zenith angle (a quarter within 12 deg of the sun's, 0.1 within 2 of the horizon) and every degree
 // in azimuth (0.25 within 12). The disc has the star's limb darkening and exactly the beam's
-// irradiance. Throws as SkyModel::radiance() does.
+// irradiance. Degree and angle of polarisation are those of the diffuse light in the direction of a
+// pixel's centre, by (13.15) of docs/theory in the meridian plane of that direction; Q and U are
+// those of the pixel's diffuse light with that polarisation. All are 0 where there is no light, or
+// nothing polarised. Throws as SkyModel::radiance() does, with `stokes` as SkyModel::stokes().
 SkyMap sky_map(const SkyModel& model, const Atmosphere<double>& atmosphere,
                const MapChannels& channels, const MapProjection& projection,
                const SkyMapOptions& options);

@@ -51,12 +51,31 @@ TEST_F(CommandsTest, CompletionKnowsCommandsAndOptions) {
   }
 }
 
+TEST_F(CommandsTest, ManualPagesNameCommandsAndOptions) {
+  output({"man", "--out-dir", "man"});
+  const std::string all = read("man/skyfit.1");
+  for (const char* command : {"fit", "sky", "sky\\-map", "render", "campaign"})
+    EXPECT_THAT(all, HasSubstr(std::string(".BR skyfit\\-") + command + " (1)\n"));
+  const std::string fit = read("man/skyfit-fit.1");
+  EXPECT_THAT(fit, HasSubstr(".TH skyfit-fit 1"));
+  EXPECT_THAT(fit, HasSubstr(".B \\-\\-lobes INT\nLobes of the aerosol's phase function"));
+  EXPECT_THAT(fit, HasSubstr("Examples:\n  skyfit fit \\-\\-reference cie:12"));
+  EXPECT_EQ(output({"man", "fit"}), fit);
+  const Outcome unknown = run({"man", "fitt"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("expected one of fit, "));
+}
+
 TEST_F(CommandsTest, SkyMapIsWrittenWithItsSun) {
   EXPECT_THAT(output({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--size", "16", "--out",
                       "sky.hdr", "--sun-file", "sun.json"}),
               HasSubstr("diffuse horizontal: "));
   EXPECT_THAT(files(), UnorderedElementsAre("sky.hdr", "sun.json"));
   EXPECT_NEAR(json::parse(read("sun.json"))["zenith_deg"].get<double>(), 40, 1e-9);
+  const Outcome no_layers =
+      run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--stokes", "--out", "sky.hdr"});
+  EXPECT_EQ(no_layers.status, 2);
+  EXPECT_THAT(no_layers.err, HasSubstr("expected with an .exr file"));
   const Outcome wrong = run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--projection",
                              "mercator", "--out", "sky.exr"});
   EXPECT_EQ(wrong.status, 2);

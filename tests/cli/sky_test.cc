@@ -2,7 +2,8 @@
 // `skyfit sky --color` is the sum over the spectrum that `skyfit sky --wavelength-nm` prints, and
 // `--sigma` is what a covariance of the parameters makes of numerical derivatives of the values,
 // and
-// `--orders` splits them. `--stokes` gives the same light with its polarisation.
+// `--orders` splits them. `--stokes` gives the same light with its polarisation, which
+// `skyfit plot` draws.
 #include <array>
 #include <cmath>
 #include <map>
@@ -100,6 +101,22 @@ TEST_F(SkyTest, StokesNeedsWavelengthsAndAModelOfPolarisedLight) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_refusal(arguments, {"Stokes", "scalar"});
   }
+}
+
+TEST_F(SkyTest, PolarisationIsDrawn) {
+  const std::vector<std::string> plot = {"plot", "earth-clear", "--out", "p.svg"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    auto arguments = plot;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const Outcome drawn = run(with({"--figure", "polarisation", "--sun-zenith-deg", "70"}));
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_NE(read("p.svg").find("Babinet"), std::string::npos);
+  expect_refusal(with({"--figure", "polarisation"}), {"--sun-zenith-deg"});
+  expect_refusal(with({"--sun-zenith-deg", "70"}), {"--figure polarisation"});
+  expect_refusal(with({"--figure", "polarisation", "--sun-zenith-deg", "70", "--model", "nielsen"}),
+                 {"Stokes", "scalar"});
 }
 
 // Opposite a low sun, scalar light of the horizon is too dark in the blue.

@@ -54,6 +54,37 @@ TEST(SampleCsv, ReadsEveryColumn) {
   EXPECT_EQ(reference.samples[2].scan, 0);
 }
 
+TEST(SampleCsv, ReadsPolarisationWhereItWasMeasured) {
+  const Reference reference = parse_sample_csv(
+      kHeader +
+          ",q_over_i,q_over_i_sigma,u_over_i\n30,60,90,4000,-0.25,0.01,0.5\n30,10,90,4000,,,\n",
+      "sky.csv");
+  EXPECT_EQ(reference.description,
+            "2 samples of luminance and 2 readings of polarisation in 1 scans from sky.csv");
+  const auto& readings = reference.samples[0].polarisation;
+  ASSERT_EQ(readings.size(), 2u);
+  EXPECT_EQ(readings[0].what, Polarisation::kQ);
+  EXPECT_EQ(readings[0].value, -0.25);
+  EXPECT_EQ(readings[0].sigma, 0.01);
+  EXPECT_EQ(readings[1].what, Polarisation::kU);
+  EXPECT_EQ(readings[1].value, 0.5);
+  EXPECT_FALSE(readings[1].sigma);
+  EXPECT_TRUE(reference.samples[1].polarisation.empty());
+}
+
+TEST(SampleCsv, FaultsOfPolarisationAreNamed) {
+  EXPECT_THAT(complaint(kHeader + ",dolp\n30,60,90,4000,55\n"),
+              StartsWith("sky.csv:2: dolp = \"55\": expected 0 to 1"));
+  EXPECT_THAT(complaint(kHeader + ",q_over_i\n30,60,90,4000,-1.5\n"),
+              StartsWith("sky.csv:2: q_over_i = \"-1.5\": expected -1 to 1"));
+  EXPECT_THAT(complaint(kHeader + ",u_over_i,u_over_i_sigma\n30,60,90,4000,0.1,0\n"),
+              StartsWith("sky.csv:2: u_over_i_sigma = \"0\": expected a number > 0"));
+  EXPECT_THAT(complaint(kHeader + ",dolp_sigma\n30,60,90,4000,0.1\n"),
+              HasSubstr("expected dolp with dolp_sigma"));
+  EXPECT_THAT(complaint(kHeader + ",dolp,q_over_i\n30,60,90,4000,0.1,0.1\n"),
+              HasSubstr("either dolp or q_over_i and u_over_i"));
+}
+
 TEST(SampleCsv, AzimuthsOfSunAndViewBecomeTheirDifference) {
   const Reference reference = parse_sample_csv(
       "view_azimuth_deg,sun_azimuth_deg,view_zenith_deg,sun_zenith_deg,relative_luminance\n10,350,"

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "data_refs/spectra.h"
+#include "model/polarisation.h"
 #include "model/solver/reference_model.h"
 #include "tests/model/truth.h"
 
@@ -187,40 +188,51 @@ TEST(Stokes, IsSymmetricAboutTheSunsVertical) {
   EXPECT_GT(std::abs(left.u.value[0]), 1e-4);
 }
 
-// Zenith angle, along the sun's vertical between two view zenith angles (negative: beyond the
-// zenith), at which Q changes its sign.
-double neutral_point(const Atmosphere<double>& a, double sun_deg, double low, double high) {
-  const auto q = [&](double view) {
-    const SkyPoint p{0, sun_deg * kDegree, std::abs(view) * kDegree,
-                     view < 0 ? std::numbers::pi : 0};
-    return ReferenceModel({}).stokes(a, {&kNode, 1}, {&p, 1}, {}).q.value[0];
-  };
-  const bool rises = q(high) > q(low);
-  if ((q(high) > 0) == (q(low) > 0)) return NAN;
-  for (int k = 0; k < 30; ++k) {
-    const double middle = 0.5 * (low + high);
-    ((q(middle) > 0) == rises ? high : low) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 // Coulson 1988, Polarization and Intensity of Light in the Atmosphere, chapters 5 and 6: Babinet's
 // and Brewster's points lie 10 to 25 deg above and below the sun at middle heights, Arago's 18 to
 // 25 deg above the antisolar point when the sun is low.
 TEST(Stokes, HasTheNeutralPoints) {
   Atmosphere<double> a = stokes_case("rayleigh400").atmosphere;
   a.at("rayleigh").amount = 0.02e-3;  // 490 nm, optical depth 0.16
-  const double babinet = neutral_point(a, 50, 0, 49), brewster = neutral_point(a, 50, 51, 85);
-  std::cout << "sun zenith 50: Babinet " << 50 - babinet << " deg above, Brewster " << brewster - 50
-            << " deg below the sun\n";
-  EXPECT_GT(50 - babinet, 10);
-  EXPECT_LT(50 - babinet, 25);
-  EXPECT_GT(brewster - 50, 10);
-  EXPECT_LT(brewster - 50, 25);
-  const double arago = neutral_point(a, 85, -88, -45);
-  std::cout << "sun zenith 85: Arago " << 95 - (-arago) << " deg above the antisolar point\n";
-  EXPECT_GT(95 + arago, 18);
-  EXPECT_LT(95 + arago, 25);
+  const auto points_under = [&](double sun_deg) {
+    std::map<NeutralPointKind, double> deg;
+    for (const NeutralPoint& point :
+         neutral_points(ReferenceModel({}), a, kNode, 0, sun_deg * kDegree)) {
+      std::cout << "sun zenith " << sun_deg << ": " << neutral_point_name(point.kind) << " "
+                << point.distance / kDegree << " deg\n";
+      EXPECT_TRUE(deg.emplace(point.kind, point.distance / kDegree).second);
+    }
+    return deg;
+  };
+  const auto middle = points_under(50);
+  ASSERT_EQ(middle.size(), 2u);
+  for (const auto kind : {NeutralPointKind::kBabinet, NeutralPointKind::kBrewster}) {
+    EXPECT_GT(middle.at(kind), 10);
+    EXPECT_LT(middle.at(kind), 25);
+  }
+  const auto low = points_under(85);  // Brewster's is below the horizon
+  ASSERT_EQ(low.size(), 2u);
+  EXPECT_GT(low.at(NeutralPointKind::kBabinet), 10);
+  EXPECT_LT(low.at(NeutralPointKind::kBabinet), 25);
+  EXPECT_GT(low.at(NeutralPointKind::kArago), 18);
+  EXPECT_LT(low.at(NeutralPointKind::kArago), 25);
+}
+
+// Between the directions that are computed, Q vanishes where neutral_points() says.
+TEST(Stokes, NeutralPointsHaveNoPolarisation) {
+  const Atmosphere<double> a = stokes_case("clear440_depol").atmosphere;
+  const ReferenceModel model({});
+  const double sun = 62 * kDegree;
+  const auto points = neutral_points(model, a, kNode, 0, sun);
+  ASSERT_GE(points.size(), 2u);
+  for (const NeutralPoint& point : points) {
+    const SkyPoint at{0, sun, point.view_zenith, point.relative_azimuth};
+    const StokesValues light = model.stokes(a, {&kNode, 1}, {&at, 1}, {});
+    constexpr double kQuarterDegree = 1e-4;  // of Q linear between directions, of I
+    EXPECT_LT(linear_polarisation(light.i.value[0], light.q.value[0], light.u.value[0]).degree,
+              kQuarterDegree)
+        << neutral_point_name(point.kind);
+  }
 }
 
 TEST(Stokes, OfScalarTransferIsRefused) {

@@ -182,5 +182,80 @@ TEST(SkyMap, WavelengthsAreSpectralRadiances) {
   }
 }
 
+// Also in the half of the sky where U changes its sign; the degree and the angle belong to Q and U.
+TEST(SkyMap, LayersOfPolarisationAreTheModels) {
+  SkyMapOptions options = sun_at(60);
+  options.stokes = true;
+  const std::vector<double> nm = {450, 650};
+  const int size = 128;
+  const auto projection = make_map_projection("octahedral", size);
+  const MapChannels channels = spectral_channels(spectra(), nm);
+  const SkyMap map = sky_map(model(), Atmosphere<double>{}, channels, *projection, options);
+  EXPECT_EQ(map.layers, (std::vector<std::string>{"stokes.Q.450nm", "stokes.U.450nm", "dolp.450nm",
+                                                  "aolp.450nm", "stokes.Q.650nm", "stokes.U.650nm",
+                                                  "dolp.650nm", "aolp.650nm"}));
+  for (const auto& [x, y] : {std::pair{40, 50}, {90, 50}, {70, 95}, {50, 80}}) {
+    const Axis d = *projection->direction(x + 0.5, y + 0.5);
+    const SkyPoint point{0, options.sun_zenith, std::acos(d[2]),
+                         options.sun_azimuth - std::atan2(d[0], d[1])};
+    const StokesValues light =
+        model().stokes(Atmosphere<double>{}, channels.nodes, {&point, 1}, {});
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto node = static_cast<int>(k);
+      const std::size_t pixel = static_cast<std::size_t>(y) * size + static_cast<std::size_t>(x);
+      const float* const layer = &map.layer_values[pixel * 8 + 4 * k];
+      const double i = light.i.at(0, node), sun = channels.weight[k][k];
+      const LinearPolarisation linear =
+          linear_polarisation(i, light.q.at(0, node), light.u.at(0, node));
+      constexpr double kBetweenDirections = 1e-3, kAngle_deg = 0.5;
+      EXPECT_NEAR(static_cast<double>(layer[0]) / (sun * i), light.q.at(0, node) / i,
+                  kBetweenDirections);
+      EXPECT_NEAR(static_cast<double>(layer[1]) / (sun * i), light.u.at(0, node) / i,
+                  kBetweenDirections);
+      EXPECT_NEAR(static_cast<double>(layer[2]), linear.degree, kBetweenDirections);
+      EXPECT_NEAR(static_cast<double>(layer[3]), linear.angle_deg, kAngle_deg);
+      EXPECT_GT(std::abs(light.u.at(0, node)), 10 * kBetweenDirections * i);
+    }
+  }
+}
+
+// The disc's light is not polarised; the sense of the angle is a sign of U; black stays black.
+TEST(SkyMap, LayersOfPolarisationLeaveOutTheDisc) {
+  SkyMapOptions options = sun_at(60);
+  options.stokes = true;
+  options.ground = false;
+  const auto projection = make_map_projection("equirectangular", 32);
+  const auto map = [&] {
+    return sky_map(model(), Atmosphere<double>{}, spectral_channels(spectra(), {450}), *projection,
+                   options);
+  };
+  const SkyMap without = map();
+  options.sun_disc = true;
+  options.angle = PolarisationAngle::kIau;
+  const SkyMap with = map();
+  EXPECT_NE(with.pixels, without.pixels);
+  for (std::size_t i = 0; i < with.layer_values.size(); i += 4) {
+    ASSERT_EQ(with.layer_values[i], without.layer_values[i]);
+    ASSERT_EQ(with.layer_values[i + 1], -without.layer_values[i + 1]);
+    ASSERT_EQ(with.layer_values[i + 2], without.layer_values[i + 2]);
+  }
+  EXPECT_EQ(with.layer_values[static_cast<std::size_t>(4 * 64 * 24) + 2], 0);
+  EXPECT_GT(with.layer_values[static_cast<std::size_t>(4 * 64 * 2) + 2], 0.2);
+}
+
+TEST(SkyMap, LayersOfPolarisationOfColourAreThoseOfLuminance) {
+  SkyMapOptions options = sun_at(60);
+  options.stokes = true;
+  const SkyMap map = map_of("equirectangular", 16, options);
+  EXPECT_EQ(map.layers, (std::vector<std::string>{"stokes.Q", "stokes.U", "dolp", "aolp"}));
+  const std::size_t pixel = 32 * 2 + 5;
+  const float* const layer = &map.layer_values[4 * pixel];
+  const double luminance = static_cast<double>(map.pixels[3 * pixel + 1]);
+  constexpr double kFloat = 1e-5;
+  EXPECT_NEAR(std::hypot(static_cast<double>(layer[0]), static_cast<double>(layer[1])) / luminance,
+              static_cast<double>(layer[2]), kFloat);
+  EXPECT_GT(layer[2], 0.05);
+}
+
 }  // namespace
 }  // namespace skyfit
