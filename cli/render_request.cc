@@ -119,11 +119,11 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
 
 }  // namespace
 
-RenderRequest render_request(const RenderOptions& options, const CLI::App& command) {
+RenderRequest frame_request(const RenderOptions& options, const CLI::App& command) {
   check_combinations(command);
   const bool is_file = command.count("--sequence") > 0;
   const bool is_day = options.time.find("..") != std::string::npos;
-  if (!is_file && command.count("--preset") == 0)
+  if (!is_file && !options.atmosphere && command.count("--preset") == 0)
     throw UsageError("--preset", "", "expected a shipped preset or a preset file");
   require_mode(command, is_day, is_file || is_day);
   RenderRequest request;
@@ -148,7 +148,6 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
     request.strip = parse_strip(options.strip, start.preset);
   }
   check_cameras(request);
-  check_outputs(options, request);
   request.scene = parse_scene(options, command);
   request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
   request.model = options.model;
@@ -157,6 +156,12 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
     throw UsageError("--orders", std::to_string(options.orders), "expected the model reference");
   request.stats = options.stats;
   request.threads = options.threads;
+  return request;
+}
+
+RenderRequest render_request(const RenderOptions& options, const CLI::App& command) {
+  RenderRequest request = frame_request(options, command);
+  check_outputs(options, request);
   return request;
 }
 

@@ -51,7 +51,8 @@ std::string room_of(const std::string& path, std::span<const RoomRule> rules) {
 // such as dlfcn.h.
 bool is_system_header(const std::string& name) {
   static const std::regex system(
-      "[a-z0-9_]+|(dlfcn|unistd|fcntl|signal|spawn|stdlib|string|immintrin)\\.h|sys/[a-z]+\\.h");
+      "[a-z0-9_]+|(dlfcn|link|unistd|fcntl|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
+      "[a-z]+\\.h");
   return std::regex_match(name, system);
 }
 
@@ -126,6 +127,11 @@ std::span<const RoomRule> room_rules() {
        kModelRooms + std::vector<std::string>{"model", "data_refs", "fit", "render", "render/plot"},
        kMath + std::vector<std::string>{"CLI"},
        kMathLibraries + std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli"}},
+      {"python",
+       kModelRooms + std::vector<std::string>{"model", "data_refs", "fit", "render", "cli"},
+       kMath + std::vector<std::string>{"CLI", "pybind11"},
+       kMathLibraries +
+           std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli", "pybind11::"}},
   };
   return rules;
 }
