@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/inputs.h"
@@ -32,25 +33,22 @@ void set(Preset& preset, const std::string& name, double value) {
   preset = std::move(changed);
 }
 
-std::vector<std::string> parameter_names(const Preset& preset) {
-  std::vector<std::string> names;
-  for (const Parameter& parameter : parameters_of(preset.atmosphere))
-    names.push_back(parameter.name());
-  return names;
-}
-
-py::dict info_of(const Preset& preset, const std::string& name) {
-  const Parameter parameter = parameter_named(preset, name);
-  const ParameterInfo info = parameter_info(parameter);
-  py::dict row;
-  row["value"] = get_parameter(preset.atmosphere, parameter);
-  row["unit"] = std::string(info.unit);
-  row["bounds"] = py::make_tuple(info.lower, info.upper);
-  row["prior"] = info.prior ? py::object(py::make_tuple(info.prior->mean, info.prior->sigma))
-                            : py::object(py::none());
-  row["free_by_default"] = info.free_by_default;
-  row["meaning"] = info.meaning;
-  return row;
+// By name.
+py::dict parameters_by_name(const Preset& preset) {
+  py::dict rows;
+  for (const Parameter& parameter : parameters_of(preset.atmosphere)) {
+    const ParameterInfo info = parameter_info(parameter);
+    py::dict row;
+    row["value"] = get_parameter(preset.atmosphere, parameter);
+    row["unit"] = std::string(info.unit);
+    row["bounds"] = py::make_tuple(info.lower, info.upper);
+    row["prior"] = info.prior ? py::object(py::make_tuple(info.prior->mean, info.prior->sigma))
+                              : py::object(py::none());
+    row["free_by_default"] = info.free_by_default;
+    row["meaning"] = info.meaning;
+    rows[py::str(info.name)] = row;
+  }
+  return rows;
 }
 
 }  // namespace
@@ -60,10 +58,14 @@ void bind_preset(py::module_& module) {
              "Names of the shipped presets, which Preset(name) loads.");
   py::class_<Preset>(module, "Preset",
                      "An atmosphere with everything that a model needs: planet, star, ground and "
-                     "constituents (docs/preset.md).")
-      .def(
-          py::init([](const std::string& name_or_file) { return cli::preset_named(name_or_file); }),
-          py::arg("name_or_file"))
+                     "constituents (docs/preset.md).\n\nPreset(name_or_file) loads a shipped "
+                     "preset or a file. Parameters are read and set by name, "
+                     "preset[\"mie.scattering\"] = 4e-6, in the unit that parameters() states; "
+                     "setting one drops the record of a fit, which is of other values.")
+      .def(py::init([](const std::filesystem::path& name_or_file) {
+             return cli::preset_named(name_or_file.string());
+           }),
+           py::arg("name_or_file"))
       .def_static("_parse", [](const std::string& text,
                                const std::string& source) { return parse_preset(text, source); })
       .def_readwrite("name", &Preset::name, "Its name.")
@@ -75,12 +77,16 @@ void bind_preset(py::module_& module) {
       .def("__setitem__", &set)
       .def("__contains__",
            [](const Preset& preset, const std::string& name) {
-             return std::ranges::count(parameter_names(preset), name) > 0;
+             return std::ranges::count(parameters_of(preset.atmosphere), name, &Parameter::name) >
+                    0;
            })
       .def("__copy__", [](const Preset& preset) { return preset; })
       .def("__deepcopy__", [](const Preset& preset, const py::dict&) { return preset; })
-      .def("_parameter_names", &parameter_names)
-      .def("_info", &info_of)
+      .def(
+          "copy", [](const Preset& preset) { return preset; },
+          "Another preset with the same values.")
+      .def("parameters", &parameters_by_name,
+           "Value, unit, bounds, prior and meaning of every parameter, by name.")
       .def("to_json", &preset_to_json, "The text of a preset file of version 2.")
       .def(
           "save",

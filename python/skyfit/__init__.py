@@ -22,6 +22,7 @@ from ._skyfit import (
     Comparison,
     Fit,
     Frame,
+    Preset,
     Reference,
     default_threads,
     models,
@@ -29,7 +30,6 @@ from ._skyfit import (
     reference_names,
     views,
 )
-from ._skyfit import Preset as _Preset
 
 __version__ = _skyfit.__version__
 __all__ = [
@@ -101,55 +101,22 @@ class Arrays(_Mapping):
         return "<skyfit.Arrays\n" + "\n".join(rows) + ">"
 
 
-class Preset(_Preset):
-    """An atmosphere with everything that a model needs (docs/preset.md).
+def _from_json(text_or_dict, source="preset"):
+    """From the text of a preset file, or what json.loads() makes of it.
 
-    ``Preset(name_or_file)`` loads a shipped preset or a file. Parameters are read and set by name,
-    ``preset["mie.scattering"] = 4e-6``, in the unit that ``parameters()`` states; setting one drops
-    the record of a fit, which is of other values.
+    `source` is the name that messages show.
     """
+    text = text_or_dict if isinstance(text_or_dict, str) else _json.dumps(text_or_dict)
+    return Preset._parse(text, source)
 
-    @classmethod
-    def from_json(cls, text_or_dict, source="preset"):
-        """From the text of a preset file, or what json.loads() makes of it.
 
-        `source` is the name that messages show.
-        """
-        text = text_or_dict if isinstance(text_or_dict, str) else _json.dumps(text_or_dict)
-        return cls._of(_Preset._parse(text, source))
-
-    @classmethod
-    def _of(cls, preset):
-        result = cls.__new__(cls)
-        _Preset.__init__(result, preset)
-        return result
-
-    def copy(self):
-        """Another preset with the same values."""
-        return type(self)._of(self)
-
-    __copy__ = copy
-
-    def __deepcopy__(self, memo):
-        return self.copy()
-
-    def __reduce__(self):
-        return type(self).from_json, (self.to_json(),)
-
-    def __init__(self, name_or_file):
-        super().__init__(_os.fspath(name_or_file))
-
-    def parameters(self):
-        """Value, unit, bounds, prior and meaning of every parameter, by name."""
-        return {name: self._info(name) for name in self._parameter_names()}
-
-    def to_dict(self):
-        """What json.loads() makes of to_json()."""
-        return _json.loads(self.to_json())
+Preset.from_json = staticmethod(_from_json)
+Preset.to_dict = lambda self: _json.loads(self.to_json())
+Preset.to_dict.__doc__ = "What json.loads() makes of to_json()."
 
 
 def _preset(preset):
-    return preset if isinstance(preset, _Preset) else Preset(preset)
+    return preset if isinstance(preset, Preset) else Preset(preset)
 
 
 def _word(value):

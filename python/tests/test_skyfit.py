@@ -258,33 +258,31 @@ def test_a_fit_of_arrays_is_that_of_the_reference(small_fit):
         at["view_zenith_deg"],
         at["relative_azimuth_deg"],
         quantity="relative luminance",
+        name="cie:12",  # by which a standard sky is known
     )
-    # A standard sky is known by its name; what its kind fixes is not fitted here either.
     options = {k: v for k, v in FIT.items() if k != "sun_zenith_deg"}
-    fixed = skyfit.fit(again, **options, preset=small_fit.preset)
-    assert fixed.converged
-    assert len(fixed.samples["model"]) == len(sky)
+    angles = 1e-9  # of degrees and back
+    for name, value in skyfit.fit(again, **options).parameters.items():
+        assert value == pytest.approx(small_fit.parameters[name], rel=angles)
 
 
 def test_a_measured_sky_is_read():
-    files = sorted(EXAMPLES.glob("*.csv"))
-    assert files, EXAMPLES
-    sky = skyfit.read(EXAMPLES / "luminances.csv") if (EXAMPLES / "luminances.csv").exists() else skyfit.read(files[0])
-    assert len(sky) == len(sky.samples["value"]) > 0
+    sky = skyfit.read(EXAMPLES / "SAMPLES")
+    rows = [line for line in (EXAMPLES / "SAMPLES").read_text().splitlines() if line[:1].isdigit()]
+    assert len(sky) == len(sky.samples["value"]) == len(rows) > 0
 
 
 def test_compare_is_that_of_the_program(tmp_path):
-    ours = skyfit.compare("truth:earth-550nm-ground", models=["reference", "preetham"])
+    ours = skyfit.compare("truth:earth-550nm-ground", models=["reference", "oneil"])
     run(
-        "compare", "--reference", "truth:earth-550nm-ground", "--models", "reference,preetham",
+        "compare", "--reference", "truth:earth-550nm-ground", "--models", "reference,oneil",
         "--out", tmp_path / "compared",
     )  # fmt: skip
     theirs = json.loads((tmp_path / "compared" / "comparison.json").read_text())
 
     def errors(report):
-        return [
-            {k: v for k, v in row.items() if "seconds" not in k} for row in report["models"]
-        ]
+        times = {"precompute_s", "time_per_direction_us"}
+        return [{k: v for k, v in row.items() if k not in times} for row in report["models"]]
 
     assert errors(ours.report_dict) == errors(theirs)
     assert ours.values("reference").shape == (len(ours.reference),)
@@ -320,19 +318,19 @@ def test_other_threads_run_during_work():
     thread = threading.Thread(target=tick)
     thread.start()
     begin = time.perf_counter()
-    skyfit.sky("earth-clear", [[30], [50]], VIEWS, threads=1)
+    skyfit.sky("earth-clear", np.linspace(0, 85, 30)[:, None], VIEWS, wavelength_nm=range(400, 700, 10))
     end = time.perf_counter()
     done.set()
     thread.join()
-    during = [t for t in ticks if begin < t < end]
-    assert np.max(np.diff([begin, *during, end])) < 0.5 * (end - begin)
+    # With the lock held there would be at most one, before the work begins.
+    assert len([tick for tick in ticks if begin < tick < end]) > 3
 
 
 def test_an_interrupted_fit_raises_and_the_next_one_is_whole(small_fit):
     timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        skyfit.fit("cie:12", starts=64)
+        skyfit.fit("cie:12", starts=100_000)  # hours
     timer.join()
     again = skyfit.fit("cie:12", **FIT)
     assert without_time(again.report_dict) == without_time(small_fit.report_dict)
