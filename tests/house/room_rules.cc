@@ -131,7 +131,7 @@ std::span<const RoomRule> room_rules() {
        kModelRooms + std::vector<std::string>{"model", "data_refs", "fit", "render", "cli"},
        kMath + std::vector<std::string>{"CLI", "pybind11"},
        kMathLibraries +
-           std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli", "pybind11::"}},
+           std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli", "pybind11::", "Python::"}},
   };
   return rules;
 }
