@@ -45,10 +45,13 @@ void parse(CLI::App& command, std::string_view call, const Options& options,
                                               keyword,
                                               fmt::join(keywords(command, refused), ", ")));
     }
+    const bool is_flag = option->get_items_expected_max() == 0;
+    if (is_flag != values.empty()) {
+      throw std::invalid_argument(fmt::format("{}(): {}: expected {}", call, keyword,
+                                              is_flag ? "True or False" : "a value"));
+    }
     const bool may_repeat = option->get_items_expected_max() > 1;
-    if (values.empty()) {
-      if (option->get_items_expected_max() > 0)
-        throw std::invalid_argument(fmt::format("{}(): {}: expected a value", call, keyword));
+    if (is_flag) {
       words.push_back(option_name(keyword));
     } else if (may_repeat) {
       for (const std::string& value : values)

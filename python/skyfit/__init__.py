@@ -260,7 +260,7 @@ def irradiance(
     scalar=False,
     threads=None,
 ):
-    """Direct normal, direct, diffuse and global horizontal irradiance, as `skyfit sky --irradiance`.
+    """Direct normal and horizontal, diffuse and global irradiance, as `skyfit sky --irradiance`.
 
     In lx, or in W m^-2 nm^-1 at wavelengths. Shapes and options are those of sky().
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The examples of docs/python.md run, one after another, and the stubs name what the package has."""
+"""The examples of docs/python.md run in their order, and the stubs name what the package has."""
 
 import ast
 import os
