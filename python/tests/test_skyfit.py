@@ -8,6 +8,7 @@ import io
 import json
 import os
 import pickle
+import re
 import signal
 import subprocess
 import threading
@@ -303,12 +304,16 @@ def test_render_is_that_of_the_program(frame, tmp_path):
     assert frame.rgb.shape == (18, 32, 3) and frame.rgb.dtype == np.float32
     assert frame.luminance.shape == frame.depth_m.shape == (18, 32)
     assert not frame.rgb.flags.owndata  # a view of the frame's memory
-    frame.save(tmp_path / "ours.png")
+    frame.save(tmp_path / "ours.exr")
     run(
         "render", "--preset", "earth-clear", "--view", "sunset", "--size", "32x18",
-        "--samples-per-side", 1, "--out", tmp_path / "theirs.png",
+        "--samples-per-side", 1, "--out", tmp_path / "theirs.exr",
     )  # fmt: skip
-    assert (tmp_path / "ours.png").read_bytes() == (tmp_path / "theirs.png").read_bytes()
+    date = rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d"  # when the file was written
+    ours, theirs = (
+        re.sub(date, b"", (tmp_path / name).read_bytes()) for name in ("ours.exr", "theirs.exr")
+    )
+    assert ours == theirs
 
 
 def test_arrays_hold_the_memory_that_they_show():
