@@ -56,6 +56,7 @@ void add_commands(CLI::App& app) {
       ->trigger_on_parse();
   add_fit_command(app);
   add_report_command(app);
+  add_campaign_command(app);
   add_sky_command(app);
   add_sky_map_command(app);
   add_export_command(app);
@@ -69,6 +70,7 @@ void add_commands(CLI::App& app) {
   add_classify_command(app);
   add_compare_command(app);
   add_completion_command(app);
+  add_man_command(app);
   add_doctor_command(app);
   for (CLI::App* const command : app.get_subcommands({})) command->fallthrough();
   app.footer(

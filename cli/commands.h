@@ -9,11 +9,13 @@ namespace skyfit::cli {
 
 void add_fit_command(CLI::App& app);
 void add_report_command(CLI::App& app);
+void add_campaign_command(CLI::App& app);
 void add_sky_command(CLI::App& app);
 void add_sky_map_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_import_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
+void add_man_command(CLI::App& app);
 void add_doctor_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);

@@ -16,6 +16,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
+#include "fit/exchange/result_netcdf.h"
 #include "fit/model_comparison.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
@@ -30,6 +31,17 @@ constexpr const char *kTextFile = "comparison.txt", *kCsvFile = "comparison.csv"
                      *kJsonFile = "comparison.json";
 constexpr const char* kFigureFiles[] = {"comparison.svg", "comparison.png"};
 constexpr const char* kFisheyeFile = "fisheye.png";
+
+std::string variant_lines() {
+  std::string text;
+  for (const SkyModelEntry& entry : sky_models()) {
+    if (entry.variants.empty()) continue;
+    text += fmt::format("Variants of {0}, behind its name as in {0}:{1}:\n", entry.name,
+                        entry.variants.front().name) +
+            named_lines(entry.variants);
+  }
+  return text;
+}
 
 const std::optional<fit::ModelErrors>& shown(const fit::ModelComparison& row) {
   return row.fitted ? row.fitted : row.unfitted;
@@ -110,6 +122,7 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
   const WholeDirectory out(
       options.out, {kTextFile, kCsvFile, kJsonFile, kFigureFiles[0], kFigureFiles[1], kFisheyeFile},
       options.force);
+  require_netcdf(options.netcdf);
   const CompareRequest request = compare_request(options);
   const auto& [preset, reference, names] = request;
   if (options.reference != kOurs) warn_of_unused_options(command, options.reference);
@@ -142,6 +155,7 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
                                    options.threads),
                         {staging / kFisheyeFile});
   });
+  if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
   print(options.json ? json_text(json) : text);
 }
 
@@ -153,13 +167,14 @@ void add_compare_command(CLI::App& app) {
       app.add_subcommand("compare", "Compares sky models with a reference, side by side.");
   add_compare_options(*command, *options);
   add_result_options(*command, options->out, options->force, options->json, "comparison.json");
+  add_netcdf_option(*command, options->netcdf, "Write the values of all models");
   command->footer(
       "Leaves comparison.txt, comparison.csv, comparison.json, comparison.svg, comparison.png and\n"
       "fisheye.png in the directory. Agreement with a CIE sky says little about a model: single\n"
       "scattering alone, fitted, reaches it as well. Compare with truth and measurements "
       "first.\n\n"
       "Models:\n" +
-      named_lines(sky_models()) +
+      named_lines(sky_models()) + variant_lines() +
       "\nExamples:\n"
       "  skyfit compare --reference truth:earth-550nm-ground --out compared\n"
       "  skyfit compare --reference cie:12 --models reference,bodare,oneil --fitted --out "

@@ -19,7 +19,8 @@ namespace skyfit::cli {
 inline constexpr const char* kOurs = "model:reference";
 
 struct CompareOptions {
-  std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out;
+  std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out,
+                         netcdf;
   std::string exclude_sun = "3";
   ImportArguments import;
   int starts = 4, threads = default_threads();

@@ -14,6 +14,7 @@
 #include "cli/fit_request.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "fit/exchange/result_netcdf.h"
 #include "fit/problem/free_parameters.h"
 #include "fit/standard_sky.h"
 #include "model/base/whole_file.h"
@@ -33,6 +34,7 @@ FinishedFit fit_with_progress(FitRequest& request) {
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
+  require_netcdf(arguments.netcdf);
   FitRequest request = fit_request(arguments,
                                    load_references(arguments.reference, arguments.sun_zenith,
                                                    arguments.sampling, arguments.import, command),
@@ -42,6 +44,8 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   out.publish([&](const std::filesystem::path& staging) {
     write_fit(staging, finished, *request.model, figures);
   });
+  if (!arguments.netcdf.empty())
+    fit::write_netcdf(arguments.netcdf, fit::netcdf_of(finished.result));
   if (!finished.result.converged) {
     warn(fmt::format("the fit stopped before it converged: {}", finished.result.termination));
   }
@@ -84,6 +88,7 @@ void add_fit_command(CLI::App& app) {
       ->type_name("NAME|FILE,FILE");
   add_fit_options(*command, *options);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
+  add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");
   add_fit_model_options(*command, *options);
   command->footer(
       "Leaves preset.json, report.txt, report.json and samples.csv in the directory; of relative\n"

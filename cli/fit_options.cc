@@ -107,6 +107,16 @@ void add_problem_options(CLI::App& command, FitArguments& options) {
   command.add_option("--prior", options.prior, "Gaussian prior, which replaces the default one")
       ->type_name("NAME=MEAN:SIGMA")
       ->allow_extra_args(false);
+  command
+      .add_option("--aeronet-aod", options.aeronet_aod,
+                  "Aerosol optical depths of AERONET around the time of the scans: start and prior "
+                  "of\nthe aerosol's optical depth at 550 nm and Angstrom exponent")
+      ->type_name("FILE");
+  command
+      .add_option("--aeronet-inversion", options.aeronet_inversion,
+                  "An inversion of AERONET: the same of the single scattering albedo, and of the\n"
+                  "optical depth without --aeronet-aod; its asymmetry factor to compare")
+      ->type_name("FILE");
   command.add_flag("--no-priors", options.no_priors, "Drop the default priors");
   command.add_option("--preset", options.preset, "Start from this preset")->type_name("FILE|NAME");
   add_site_pressure_option(command, options.site_pressure);
@@ -207,6 +217,7 @@ void add_fit_model_options(CLI::App& command, FitArguments& arguments) {
   command.add_option("--model", arguments.model, "Sky model")
       ->type_name("NAME")
       ->capture_default_str();
+  add_refraction_option(command, arguments.refraction);
   add_scalar_option(command, arguments.scalar);
   add_threads_option(command, arguments.threads);
 }
@@ -239,6 +250,27 @@ fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model
   read_likelihood(arguments, result);
   fit::validate(result);
   return result;
+}
+
+std::optional<refs::AerosolKnowledge> known_aerosol(const FitArguments& arguments,
+                                                    const refs::Reference& reference) {
+  std::optional<refs::AerosolKnowledge> known;
+  for (const auto& [option, file] :
+       {std::pair{"--aeronet-aod", arguments.aeronet_aod},
+        std::pair{"--aeronet-inversion", arguments.aeronet_inversion}}) {
+    if (file.empty()) continue;
+    std::vector<refs::Instant> times;
+    for (const refs::Scan& scan : reference.scans) {
+      if (const auto time = refs::instant(scan.time_utc, 0)) times.push_back(*time);
+    }
+    if (times.empty() || times.size() < reference.scans.size())
+      throw UsageError(option, file,
+                       "expected with scans whose time is known (local_time, utc_offset_h)");
+    const refs::AerosolKnowledge more =
+        refs::aerosol_at(refs::load_aerosol_records(file), times, file);
+    known = known ? refs::joined(*known, more) : more;
+  }
+  return known;
 }
 
 fit::CheckOptions check_options(const FitArguments& arguments) {

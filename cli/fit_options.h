@@ -17,9 +17,10 @@ namespace skyfit::cli {
 
 struct FitArguments {
   std::string reference, sampling = "principal", sun_zenith = "0:80:10", model = "reference";
-  bool scalar = false;
-  std::string free, preset, site_pressure, out, exclude_sun = "3";
+  bool scalar = false, refraction = false;
+  std::string free, preset, site_pressure, out, netcdf, exclude_sun = "3";
   std::string per_scan, link, scale, pointing, noise, loss, ground, hold_out;
+  std::string aeronet_aod, aeronet_inversion;
   std::vector<std::string> fix, bounds, prior, profiles;
   ImportArguments import;
   int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
@@ -35,6 +36,10 @@ void add_fit_model_options(CLI::App& command, FitArguments& arguments);
 // Throw UsageError, and std::invalid_argument where options contradict each other.
 fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model,
                             const CLI::App& command);
+// The aerosol that files of AERONET state for the scans of the reference; nothing where no such
+// file was given.
+std::optional<refs::AerosolKnowledge> known_aerosol(const FitArguments& arguments,
+                                                    const refs::Reference& reference);
 fit::CheckOptions check_options(const FitArguments& arguments);
 
 // `skyfit fit --reference cie:all`: all standard skies, each by itself, with one table and one

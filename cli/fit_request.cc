@@ -6,16 +6,18 @@
 #include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
 #include "fit/standard_sky.h"
-#include "model/registry.h"
 
 namespace skyfit::cli {
 
 FitRequest fit_request(const FitArguments& arguments, refs::Reference reference,
                        const CLI::App& command) {
   FitRequest request;
-  request.model = make_sky_model(arguments.model, refs::standard_spectral_data(), arguments.threads,
-                                 transfer_for(reference, arguments.scalar));
+  request.model =
+      sky_model_named(arguments.model, refs::standard_spectral_data(), arguments.threads,
+                      transfer_for(reference, arguments.scalar), arguments.refraction);
+  if (arguments.refraction) reference.notes.emplace_back("rays of the model are curved by air");
   request.options = fit_options(arguments, *request.model, command);
+  request.options.aerosol = known_aerosol(arguments, reference);
   if (const std::optional<int> type = fit::standard_sky_type(reference.name)) {
     request.options = fit::with_standard_sky(
         request.options, fit::standard_sky_kind(*type, *request.model), *request.model);

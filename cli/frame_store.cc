@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstdint>
-#include <fstream>
 #include <stdexcept>
 
 #include "cli/render_session.h"
+#include "model/base/content_hash.h"
 #include "model/base/input_file.h"
 #include "model/base/whole_file.h"
 #include "model/version.h"
@@ -22,33 +20,17 @@ using nlohmann::ordered_json;
 constexpr const char* kManifest = "frames.json";
 constexpr int kManifestVersion = 1;
 
-// FNV-1a, 64 bit: the same on every machine.
-class Hash {
- public:
-  void add(const char* bytes, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      state_ = (state_ ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
-  }
-  std::string text() const { return fmt::format("{:016x}", state_); }
-
- private:
-  std::uint64_t state_ = 0xcbf29ce484222325u;
-};
-
 std::string hash_of(const std::string& text) {
-  Hash hash;
-  hash.add(text.data(), text.size());
+  ContentHash hash;
+  hash.add(text);
   return hash.text();
 }
 
 // Of a file's content; of no file: "".
 std::string hash_of_file(const fs::path& file) {
   if (file.empty()) return {};
-  Hash hash;
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 1 << 16> block;
-  while (in.read(block.data(), block.size()) || in.gcount() > 0)
-    hash.add(block.data(), static_cast<std::size_t>(in.gcount()));
+  ContentHash hash;
+  hash.add_file(file);
   return hash.text();
 }
 

@@ -16,6 +16,8 @@
 #include "data_refs/perez_sky.h"
 #include "data_refs/table_csv.h"
 #include "fit/exchange/engines.h"
+#include "model/registry.h"
+#include "model/solver/reference_model.h"
 
 namespace skyfit::cli {
 namespace {
@@ -226,6 +228,15 @@ void add_result_options(CLI::App& command, std::string& out, bool& force, bool& 
   command.add_flag("--json", json, fmt::format("Print {} to stdout", file));
 }
 
+void add_netcdf_option(CLI::App& command, std::string& netcdf, const std::string& what) {
+  command.add_option("--netcdf", netcdf, what + " as a NetCDF-4 file by the CF conventions")
+      ->type_name("FILE.nc");
+}
+
+void require_netcdf(const std::string& netcdf) {
+  if (!netcdf.empty()) require_output_files({netcdf}, {".nc"}, "--netcdf");
+}
+
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void add_threads_option(CLI::App& command, int& threads) {
@@ -239,6 +250,25 @@ void add_scalar_option(CLI::App& command, bool& scalar) {
                    "Leave the polarisation of light out of the models reference and tables:\n"
                    "a quarter of the time less, and radiances off by up to 13 % in the blue,\n"
                    "4 % in the green (docs/accuracy.md)");
+}
+
+CLI::Option* add_refraction_option(CLI::App& command, bool& refraction) {
+  return command.add_flag(
+      "--refraction", refraction,
+      "Rays of the model reference are curved by air: view angles are those that are seen,\n"
+      "suns stand where they would without air");
+}
+
+std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const SpectralData& spectra,
+                                          int threads, Transfer transfer, bool refraction) {
+  if (!refraction) return make_sky_model(name, spectra, threads, transfer);
+  if (name != "reference")
+    throw UsageError("--model", name, "expected reference with --refraction");
+  ReferenceOptions options;
+  options.threads = threads;
+  options.transfer = transfer;
+  options.refraction = true;
+  return std::make_unique<ReferenceModel>(options);
 }
 
 void add_iau_option(CLI::App& command, bool& iau, CLI::Option* stokes) {

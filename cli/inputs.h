@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "data_refs/references.h"
 #include "model/atmosphere/preset.h"
 #include "model/base/input_file.h"
+#include "model/sky_model.h"
 #include "render/color_space.h"
 
 namespace skyfit::cli {
@@ -72,9 +74,21 @@ bool is_shipped_reference(const std::string& name);
 void add_result_options(CLI::App& command, std::string& out, bool& force, bool& json,
                         const std::string& file);
 
+// --netcdf FILE; `what` says of what. require_netcdf() throws before long work where the file that
+// was given, if any, cannot be written.
+void add_netcdf_option(CLI::App& command, std::string& netcdf, const std::string& what);
+void require_netcdf(const std::string& netcdf);
+
 // Threads to use when the user names no number: those of the machine.
 int default_threads();
 void add_threads_option(CLI::App& command, int& threads);
+
+// --refraction: rays of the model `reference` are curved by air.
+CLI::Option* add_refraction_option(CLI::App& command, bool& refraction);
+// A model of the registry, or `reference` with refraction. Throws UsageError where another is to
+// refract.
+std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const SpectralData& spectra,
+                                          int threads, Transfer transfer, bool refraction);
 
 // --scalar: the models `reference` and `tables` without polarisation.
 void add_scalar_option(CLI::App& command, bool& scalar);

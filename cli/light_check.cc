@@ -64,6 +64,7 @@ void check_light(const Frame& frame) {
   if (!frame.layers) return;
   check_pixels(frame.layers->in_scatter, 3, frame.width, "inscatter");
   check_pixels(frame.layers->reflected, 3, frame.width, "reflected light");
+  check_pixels(frame.layers->direct, 3, frame.width, "direct light");
   check_pixels(frame.layers->transmittance, 3, frame.width, "transmittance");
 }
 

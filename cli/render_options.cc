@@ -2,11 +2,13 @@
 #include "cli/render_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <utility>
 
 #include "cli/arguments.h"
+#include "model/registry.h"
 
 namespace skyfit::cli {
 namespace {
@@ -98,6 +100,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       .option("--wind-m-s", options.wind, "SPEED",
               "Wind over the sea, 12.5 m above it, 0 to 30: how rough the sea is")
       ->capture_default_str();
+  group
+      .option("--atmosphere", options.atmosphere, "on|off",
+              "off: the planet without its air, in the sun's light alone")
+      ->capture_default_str();
   group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
 }
 
@@ -123,8 +129,9 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
               "Brightens the PNG by powers of two, on top of the exposure")
       ->capture_default_str();
   group
-      .option("--tone", options.tone, "filmic|exponential",
-              "Tone curve of the PNG: a fit of the ACES curve, or 1 - exp(-K L)")
+      .option("--tone", options.tone, "filmic|exponential|clip",
+              "Tone curve of the PNG: a fit of the ACES curve, 1 - exp(-K L), or none: K L cut off "
+              "at 1")
       ->capture_default_str();
   group
       .option("--view-transform", options.view_transform, "hue|channels",
@@ -195,6 +202,9 @@ constexpr Pair kExcludes[] = {
     {"--sequence", "--time"},
     {"--sequence", "--strip"},
     {"--strip", "--out-dir"},
+    {"--atmosphere", "--strip"},
+    {"--panels", "--strip"},
+    {"--panels", "--out-dir"},
     {"--exposure", "--adaptation-s"},
 };
 
@@ -211,12 +221,20 @@ void check_combinations(const CLI::App& command) {
     if (given(option) && given(other)) fail(option, fmt::format("expected without {}", other));
 }
 
+std::string drawing_models() {
+  std::vector<std::string_view> names;
+  for (const SkyModelEntry& entry : sky_models())
+    if (entry.draws_frames) names.push_back(entry.name);
+  return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
 void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--preset", options.preset, "Shipped preset or preset file")
       ->type_name("FILE|NAME");
   command
       .add_option("--model", options.model,
-                  "Sky model: reference, bruneton, bodare, hillaire, schafhitzel or oneil")
+                  fmt::format("Sky model: {}. Variants (NAME:VARIANT): skyfit compare --help",
+                              drawing_models()))
       ->type_name("NAME")
       ->capture_default_str();
   add_scalar_option(command, options.scalar);
@@ -233,6 +251,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_flag(
       "--layers", options.layers,
       "Add to the EXR: light of the air and of the ground, transmittance, normal, albedo");
+  command.add_flag("--panels", options.panels,
+                   "Beside each PNG the parts of the picture as PNGs, as frame.depth.png; an EXR "
+                   "then holds them, too");
   command.add_flag("--stats", options.stats, "Print triangles, blocks and the time of every pass");
   add_threads_option(command, options.threads);
   add_camera_options(command, options);

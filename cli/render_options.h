@@ -25,7 +25,7 @@ struct RenderOptions {
   int frames = 0;
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
-  std::string moon, second_sun, clouds, wind = "5";
+  std::string moon, second_sun, clouds, wind = "5", atmosphere = "on";
   std::vector<std::string> meshes;
   // Picture
   std::string size = "1280x720", aerial = "volume", exposure, exposure_ev = "0", tone = "filmic";
@@ -33,11 +33,14 @@ struct RenderOptions {
   std::string primaries = "rec709";
   int samples_per_side = FrameOptions{}.samples_per_side;
   int orders = 0;  // 0: all
-  bool scalar = false, shadows = false, layers = false, gpu = false, stats = false;
+  bool scalar = false, shadows = false, layers = false, panels = false, gpu = false, stats = false;
   std::vector<std::string> out;
   int threads = default_threads();
-  std::optional<Preset> atmosphere;  // in the place of --preset, of a caller that has it in memory
+  std::optional<Preset> start;  // in the place of --preset, of a caller that has it in memory
 };
+
+// The models that draw frames, in a sentence.
+std::string drawing_models();
 
 void add_render_options(CLI::App& command, RenderOptions& options);
 

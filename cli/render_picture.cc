@@ -34,7 +34,7 @@ void render_picture(const RenderRequest& request) {
       progress.show(kTablesShare + (1 - kTablesShare) * done, "frame");
     });
   }
-  write_frame_files(frame, paths(request.out), request.tone);
+  write_frame_files(frame, paths(request.out), request.tone, request.panels);
   if (request.stats) print(StatisticsTable().row(0, frame.statistics));
 }
 
@@ -67,7 +67,7 @@ void render_strip(const RenderRequest& request) {
   Frame whole = side_by_side(frames, kGap);
   whole.metadata.emplace_back(
       "skyfit:strip", fmt::format("{} [{}]: {}", info.name, info.unit, fmt::join(values, ", ")));
-  write_frame_files(whole, paths(request.out), request.tone);
+  write_frame_files(whole, paths(request.out), request.tone, false);
   print(fmt::format("from left to right, {} [{}]:\n", info.name, info.unit));
   for (int i = 0; i < count; ++i) print(fmt::format("  {:>3}  {}\n", i, values[i]));
   if (request.stats) print(statistics);

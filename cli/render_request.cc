@@ -13,6 +13,7 @@
 #include "cli/render_arguments.h"
 #include "model/base/input_file.h"
 #include "model/base/text.h"
+#include "model/registry.h"
 
 namespace skyfit::cli {
 namespace {
@@ -113,6 +114,10 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
   const auto require_exr = [&](bool wanted, const char* option, const std::string& value) {
     if (wanted && !has_exr) throw UsageError(option, value, "expected an output that ends in .exr");
   };
+  const bool has_png =
+      std::ranges::any_of(options.out, [](const auto& name) { return name.ends_with(".png"); });
+  if (options.panels && !has_png)
+    throw UsageError("--panels", "true", "expected an output that ends in .png");
   require_exr(options.layers, "--layers", "true");
   require_exr(request.frame.primaries != Primaries::kRec709, "--primaries", options.primaries);
 }
@@ -123,7 +128,7 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   check_combinations(command);
   const bool is_file = command.count("--sequence") > 0;
   const bool is_day = options.time.find("..") != std::string::npos;
-  if (!is_file && !options.atmosphere && command.count("--preset") == 0)
+  if (!is_file && !options.start && command.count("--preset") == 0)
     throw UsageError("--preset", "", "expected a shipped preset or a preset file");
   require_mode(command, is_day, is_file || is_day);
   RenderRequest request;
@@ -147,13 +152,27 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
     if (is_day) throw UsageError("--strip", options.strip, "expected no sequence beside it");
     request.strip = parse_strip(options.strip, start.preset);
   }
+  if (options.atmosphere == "off") {
+    for (Keyframe& keyframe : request.sequence.keyframes) {
+      keyframe.preset.atmosphere.constituents.clear();
+      keyframe.preset.fit = nullptr;
+    }
+  } else if (options.atmosphere != "on") {
+    throw UsageError("--atmosphere", options.atmosphere, "expected on or off");
+  }
   check_cameras(request);
   request.scene = parse_scene(options, command);
   request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
+  if (!sky_model_entry(options.model).draws_frames) {
+    throw UsageError(
+        "--model", options.model,
+        fmt::format("expected {}; skyfit compare draws the skies of all models", drawing_models()));
+  }
   request.model = options.model;
   request.light = {transfer_of(options.scalar), options.orders};
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--orders", std::to_string(options.orders), "expected the model reference");
+  request.panels = options.panels;
   request.stats = options.stats;
   request.threads = options.threads;
   return request;

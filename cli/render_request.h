@@ -32,6 +32,7 @@ struct RenderRequest {
   std::vector<std::string> out;         // of a picture
   std::string out_dir;                  // of a sequence
   std::vector<std::string> extensions;  // of its frames: .png, .exr
+  bool panels = false;                  // beside each PNG of a picture
   bool stats = false;
   int threads = 1;
 };

@@ -97,7 +97,7 @@ FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) 
   frame.wind_m_s = parse_number("--wind-m-s", options.wind);
   if (!(frame.wind_m_s >= 0 && frame.wind_m_s <= 30))
     throw UsageError("--wind-m-s", options.wind, "expected m/s from 0 to 30");
-  frame.layers = options.layers;
+  frame.layers = options.layers || options.panels;
   if (options.aerial != "pixel" && options.aerial != "volume")
     throw UsageError("--aerial", options.aerial, "expected pixel or volume");
   frame.aerial =
@@ -122,9 +122,15 @@ ToneOptions parse_tone(const RenderOptions& options, const CLI::App& command) {
     if (!(*tone.exposure > 0 && *tone.exposure <= 1e12))
       throw UsageError("--exposure", options.exposure, "expected m^2/cd > 0, at most 1e12");
   }
-  if (options.tone != "filmic" && options.tone != "exponential")
-    throw UsageError("--tone", options.tone, "expected filmic or exponential");
-  tone.curve = options.tone == "filmic" ? ToneCurve::kFilmic : ToneCurve::kExponential;
+  if (options.tone == "filmic") {
+    tone.curve = ToneCurve::kFilmic;
+  } else if (options.tone == "exponential") {
+    tone.curve = ToneCurve::kExponential;
+  } else if (options.tone == "clip") {
+    tone.curve = ToneCurve::kClip;
+  } else {
+    throw UsageError("--tone", options.tone, "expected filmic, exponential or clip");
+  }
   if (options.view_transform != "hue" && options.view_transform != "channels")
     throw UsageError("--view-transform", options.view_transform, "expected hue or channels");
   tone.transform = options.view_transform == "hue" ? ViewTransform::kHue : ViewTransform::kChannels;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_session.h"
 
+#include <fmt/format.h>
+
 #include "cli/light_check.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/lowered_ground.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "model/tables/tables.h"
+#include "render/panels.h"
 
 namespace skyfit::cli {
 
@@ -54,10 +57,22 @@ void write_frame(const Frame& frame, const std::filesystem::path& file, const To
 }
 
 void write_frame_files(const Frame& frame, const std::vector<std::filesystem::path>& files,
-                       const ToneOptions& tone) {
-  WholeFiles whole(files);
-  for (std::size_t i = 0; i < files.size(); ++i)
-    whole.make(i, [&](const std::filesystem::path& file) { write_frame(frame, file, tone); });
+                       const ToneOptions& tone, bool panels) {
+  using Write = std::function<void(const std::filesystem::path& file)>;
+  std::vector<std::filesystem::path> targets;
+  std::vector<Write> writes;
+  for (const std::filesystem::path& file : files) {
+    targets.push_back(file);
+    writes.emplace_back([&](const auto& to) { write_frame(frame, to, tone); });
+    if (!panels || file.extension() != ".png") continue;
+    for (const PanelEntry& panel : frame_panels()) {
+      targets.push_back(
+          std::filesystem::path(file).replace_extension(fmt::format(".{}.png", panel.name)));
+      writes.emplace_back([&](const auto& to) { write_panel(panel, frame, to, tone); });
+    }
+  }
+  WholeFiles whole(targets);
+  for (std::size_t i = 0; i < targets.size(); ++i) whole.make(i, writes[i]);
   whole.publish();
 }
 

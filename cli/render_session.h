@@ -38,9 +38,9 @@ class RenderSession {
 // Writes PNG or EXR, by the extension.
 void write_frame(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone);
 
-// All files appear, or none.
+// All files appear, or none. `panels`: beside each PNG those of its parts, name.PANEL.png.
 void write_frame_files(const Frame& frame, const std::vector<std::filesystem::path>& files,
-                       const ToneOptions& tone);
+                       const ToneOptions& tone, bool panels);
 
 // The timeline that the keyframes ask for.
 std::vector<TimelineStep> timeline_of(const Sequence& sequence);

@@ -10,10 +10,12 @@
 #include "cli/inputs.h"
 #include "cli/light_check.h"
 #include "cli/output.h"
+#include "cli/sky_netcdf.h"
 #include "cli/sky_table.h"
 #include "cli/stokes_table.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/derived.h"
+#include "model/atmosphere/refraction.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
 #include "model/solver/reference_model.h"
@@ -29,15 +31,44 @@ constexpr double kMaxAltitude = 1e12;  // metres, beyond any atmosphere
 
 struct SkyOptions {
   std::string preset, site_pressure, model = "reference";
-  std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength;
+  std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength, netcdf;
   bool luminance = false, color = false, irradiance = false, sigma = false;
-  bool stokes = false, iau = false, scalar = false;
+  bool stokes = false, iau = false, scalar = false, refraction = false, apparent_sun = false;
   int orders = 0;
   int threads = default_threads();
 };
 
 struct SkyGrid {
   std::vector<double> altitude_m, sun_zenith_deg, view_zenith_deg, azimuth_deg;
+  std::vector<double> wavelength_nm;  // empty: luminances
+  // Of suns that are stated as they are seen; at 550 nm.
+  std::optional<Refraction> refraction;
+
+  // Where the sun stands without air, radians.
+  double true_sun_zenith(double altitude, double sun_deg) const {
+    const double zenith = radians(sun_deg);
+    if (!refraction) return zenith;
+    return zenith + refraction->bending(refraction->refractive_height(altitude), zenith);
+  }
+  const char* sun_column() const { return refraction ? "apparent_sun_zenith" : "sun_zenith"; }
+
+  // Of the observers, or of their directions.
+  std::vector<GridAxis> axes(bool directions) const {
+    std::vector<GridAxis> all = {
+        {"altitude", "height of the observer above the ground", "m", altitude_m},
+        {sun_column(),
+         refraction ? "zenith angle of the sun as it is seen" : "zenith angle of the sun", "degree",
+         sun_zenith_deg}};
+    if (directions) {
+      all.push_back(
+          {"view_zenith", "zenith angle of the line of sight", "degree", view_zenith_deg});
+      all.push_back({"relative_azimuth", "azimuth of the line of sight from the sun's", "degree",
+                     azimuth_deg});
+    }
+    if (!wavelength_nm.empty())
+      all.push_back({"wavelength", "wavelength in air", "nm", wavelength_nm});
+    return all;
+  }
 };
 
 SkyGrid parse_grid(const SkyOptions& options) {
@@ -59,7 +90,7 @@ SkyGrid parse_grid(const SkyOptions& options) {
   return grid;
 }
 
-SkyTable parse_table(const SkyOptions& options, const SpectralData& data) {
+SkyTable parse_table(const SkyOptions& options, const SpectralData& data, SkyGrid& grid) {
   if (options.wavelength.empty()) {
     if (options.irradiance) return illuminance_table(data);
     return options.color ? color_table(data) : luminance_table(data);
@@ -72,6 +103,7 @@ SkyTable parse_table(const SkyOptions& options, const SpectralData& data) {
   const std::vector<double> nm =
       parse_list_within("--wavelength-nm", options.wavelength, table.front(), table.back(),
                         "a wavelength in nm that the tables hold,");
+  grid.wavelength_nm = nm;
   return options.irradiance ? irradiance_table(data, nm) : radiance_table(data, nm);
 }
 
@@ -90,7 +122,8 @@ std::vector<SkyPoint> points_of(const SkyGrid& grid, std::size_t values) {
     for (const double sun : grid.sun_zenith_deg) {
       for (const double view : grid.view_zenith_deg) {
         for (const double azimuth : grid.azimuth_deg) {
-          points.push_back({altitude, radians(sun), radians(view), radians(azimuth)});
+          points.push_back(
+              {altitude, grid.true_sun_zenith(altitude, sun), radians(view), radians(azimuth)});
         }
       }
     }
@@ -111,32 +144,51 @@ void for_each_point(const SkyGrid& grid, const Row& row) {
   }
 }
 
+ReferenceOptions reference_options(const SkyOptions& options) {
+  ReferenceOptions result;
+  result.threads = options.threads;
+  result.transfer = transfer_of(options.scalar);
+  result.refraction = options.refraction;
+  return result;
+}
+
 // The light of each order of scattering at the points.
 std::vector<SkyValues> orders_of(const Atmosphere<double>& atmosphere, const SkyTable& table,
-                                 const std::vector<SkyPoint>& points, int threads,
-                                 Transfer transfer) {
+                                 const std::vector<SkyPoint>& points, ReferenceOptions options) {
   std::vector<SkyValues> orders;
-  ReferenceOptions options;
-  options.threads = threads;
-  options.transfer = transfer;
   for (options.order = 1; options.order <= table.orders; ++options.order)
     orders.push_back(ReferenceModel(options).radiance(atmosphere, table.nodes, points, {}));
   return orders;
 }
 
-constexpr const char* kPlaceColumns =
-    "altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,";
+std::string place_columns(const SkyGrid& grid) {
+  return fmt::format("altitude_m,{}_deg,view_zenith_deg,relative_azimuth_deg,", grid.sun_column());
+}
 std::string place(double altitude, double sun, double view, double azimuth) {
   return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth);
 }
 
-void print_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
-                  const SkyTable& table, PolarisationAngle angle) {
+void leave_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
+                  const SkyTable& table, const SkyOptions& options) {
+  const PolarisationAngle angle =
+      options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise;
   constexpr std::size_t kParameters = 3;  // I, Q, U
   const std::vector<SkyPoint> points = points_of(grid, kParameters);
   const StokesValues stokes = model.stokes(atmosphere, table.nodes, points, {});
   check_light(stokes.i, table.nodes, points);
-  print(stokes_header(kPlaceColumns));
+  if (!options.netcdf.empty()) {
+    std::vector<double> all;
+    for (int p = 0; p < stokes.i.points; ++p) {
+      for (int w = 0; w < stokes.i.wavelengths; ++w) {
+        const auto row = stokes_row(stokes, p, w, angle);
+        all.insert(all.end(), row.begin(), row.end());
+      }
+    }
+    fit::write_netcdf(options.netcdf, sky_netcdf("Polarised sky of " + options.preset,
+                                                 grid.axes(true), stokes_columns(), all));
+    return;
+  }
+  print(stokes_header(place_columns(grid)));
   int point = 0;
   std::string text;
   for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
@@ -146,14 +198,24 @@ void print_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, c
   });
 }
 
-void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
-               const SkyTable& table, int threads) {
+void leave_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
+               const SkyTable& table, const SkyOptions& options) {
   const std::vector<SkyPoint> points = points_of(grid, 1 + table.orders);
   const SkyValues sky = model.radiance(atmosphere, table.nodes, points, table.derivatives());
   check_light(sky, table.nodes, points);
   const std::vector<SkyValues> orders =
-      orders_of(atmosphere, table, points, threads, model.transfer());
-  print(header(table, kPlaceColumns));
+      orders_of(atmosphere, table, points, reference_options(options));
+  if (!options.netcdf.empty()) {
+    std::vector<double> all;
+    for (int p = 0; p < sky.points; ++p) {
+      const std::vector<double> values = place_values(table, sky, orders, p, 1);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    fit::write_netcdf(options.netcdf, sky_netcdf("Sky of " + options.preset, grid.axes(true),
+                                                 table.all_columns(), all));
+    return;
+  }
+  print(header(table, place_columns(grid)));
   int point = 0;
   fmt::memory_buffer text;
   for_each_point(grid, [&](double altitude, double sun, double view, double azimuth) {
@@ -163,27 +225,37 @@ void print_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
   });
 }
 
-void print_irradiance(const SkyModel& model, const Atmosphere<double>& atmosphere,
-                      const SkyGrid& grid, const SkyTable& table) {
+void leave_irradiance(const SkyModel& model, const Atmosphere<double>& atmosphere,
+                      const SkyGrid& grid, const SkyTable& table, const SkyOptions& options) {
   fmt::memory_buffer text;
+  std::vector<double> all;
   for (const double altitude : grid.altitude_m) {
     for (const double sun : grid.sun_zenith_deg) {
       const SkyValues irradiance =
-          model.irradiance(atmosphere, table.nodes, altitude, radians(sun), table.derivatives());
-      check_irradiance(irradiance, table.nodes, altitude, radians(sun));
+          model.irradiance(atmosphere, table.nodes, altitude, grid.true_sun_zenith(altitude, sun),
+                           table.derivatives());
+      check_irradiance(irradiance, table.nodes, altitude, grid.true_sun_zenith(altitude, sun));
       append_place(table, fmt::format("{:.9g},{:.9g},", altitude, sun), irradiance, {}, 0,
                    kIrradianceCount, text);
+      const std::vector<double> values = place_values(table, irradiance, {}, 0, kIrradianceCount);
+      all.insert(all.end(), values.begin(), values.end());
     }
   }
-  print(header(table, "altitude_m,sun_zenith_deg,"));
+  if (!options.netcdf.empty()) {
+    fit::write_netcdf(options.netcdf, sky_netcdf("Irradiance under " + options.preset,
+                                                 grid.axes(false), table.all_columns(), all));
+    return;
+  }
+  print(header(table, fmt::format("altitude_m,{}_deg,", grid.sun_column())));
   print({text.data(), text.size()});
 }
 
 void run_sky(const SkyOptions& options) {
-  const SkyGrid grid = parse_grid(options);
+  require_netcdf(options.netcdf);
+  SkyGrid grid = parse_grid(options);
   Preset preset = preset_named(options.preset);
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-  SkyTable table = parse_table(options, spectra);
+  SkyTable table = parse_table(options, spectra, grid);
   table.orders = options.orders;
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--model", options.model, "expected reference with --orders");
@@ -193,15 +265,18 @@ void run_sky(const SkyOptions& options) {
   if (options.sigma) table.covariance = fit::fitted_covariance(preset, options.preset);
   if (const auto pressure = parse_site_pressure(options.site_pressure))
     set_site_pressure(preset.atmosphere, *pressure);
-  const auto model =
-      make_sky_model(options.model, spectra, options.threads, transfer_of(options.scalar));
+  if (options.apparent_sun) {
+    constexpr double kGreen = 550;
+    grid.refraction.emplace(preset.atmosphere, kGreen);
+  }
+  const auto model = sky_model_named(options.model, spectra, options.threads,
+                                     transfer_of(options.scalar), options.refraction);
   if (options.stokes) {
-    print_stokes(*model, preset.atmosphere, grid, table,
-                 options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise);
+    leave_stokes(*model, preset.atmosphere, grid, table, options);
   } else if (options.irradiance) {
-    print_irradiance(*model, preset.atmosphere, grid, table);
+    leave_irradiance(*model, preset.atmosphere, grid, table, options);
   } else {
-    print_sky(*model, preset.atmosphere, grid, table, options.threads);
+    leave_sky(*model, preset.atmosphere, grid, table, options);
   }
 }
 
@@ -262,6 +337,11 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
           ->excludes(irradiance)
           ->excludes(sigma);
   add_iau_option(command, options.iau, stokes);
+  auto* const refraction = add_refraction_option(command, options.refraction);
+  command
+      .add_flag("--apparent-sun", options.apparent_sun,
+                "The sun zenith angles are those at which the sun is seen")
+      ->needs(refraction);
   add_scalar_option(command, options.scalar);
   command
       .add_option(
@@ -275,6 +355,7 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
       ->excludes(irradiance)
       ->excludes(sigma)
       ->excludes(stokes);
+  add_netcdf_option(command, options.netcdf, "Write, in place of the CSV, the table");
   add_threads_option(command, options.threads);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CSV of `skyfit sky`: which values it prints of a place, and with which uncertainty.
+// What `skyfit sky` leaves: which values of a place, and with which uncertainty.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,16 +32,23 @@ struct SkyLine {
   std::vector<NodeSum> sums;
 };
 
+struct SkyColumn {
+  std::string name;   // "luminance_cd_m2"
+  std::string units;  // by UDUNITS: "cd m-2"
+};
+
 // A place is a direction of the sky (one point), or an observer's horizontal plane (one point per
 // irradiance). It has one line, or one per wavelength.
 struct SkyTable {
-  std::string prefix_columns;        // of the prefixes of the lines
-  std::vector<std::string> columns;  // of the values of a line: points x sums
+  std::string prefix_columns;      // of the prefixes of the lines
+  std::vector<SkyColumn> columns;  // of the values of a line: points x sums
   std::vector<WavelengthNode> nodes;
   std::vector<SkyLine> lines;
   std::optional<fit::FittedCovariance> covariance;  // prints one sigma after each value
   int orders = 0;  // > 0: after each value prints that many orders of scattering, and the rest
 
+  // Those of the values, each followed by what is printed with it.
+  std::vector<SkyColumn> all_columns() const;
   std::vector<Parameter> derivatives() const {
     return covariance ? covariance->parameters : std::vector<Parameter>{};
   }
@@ -56,6 +63,10 @@ SkyTable irradiance_table(const SpectralData& data, const std::vector<double>& w
 // `place` names the columns of a place, with a comma at its end; so do the fields of
 // append_place().
 std::string header(const SkyTable& table, std::string_view place);
+
+// The numbers of those lines, line by line.
+std::vector<double> place_values(const SkyTable& table, const SkyValues& sky,
+                                 std::span<const SkyValues> orders, int first, int count);
 
 // The lines of the place whose points are first .. first + count - 1 of `sky`; `orders` holds the
 // same points of each order that the table prints.

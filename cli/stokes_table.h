@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CSV of `skyfit sky --stokes`: polarised light of every point and wavelength.
+// What `skyfit sky --stokes` leaves: polarised light of every point and wavelength.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "cli/sky_table.h"
 #include "model/polarisation.h"
 #include "model/sky_model.h"
 
 namespace skyfit::cli {
+
+// I, Q, U, degree and angle of linear polarisation. Where there is no light or no polarisation, the
+// degree or the angle is NaN.
+constexpr std::size_t kStokesColumns = 5;
+std::vector<SkyColumn> stokes_columns();
+std::array<double, kStokesColumns> stokes_row(const StokesValues& stokes, int point, int wavelength,
+                                              PolarisationAngle angle);
 
 // `place` names the columns of a place, with a comma at its end; so do the fields of
 // append_stokes().

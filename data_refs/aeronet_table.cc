@@ -41,12 +41,6 @@ bool holds_columns(std::string_view line) {
          (text.find("solar_zenith_angle") != text.npos || text.find(kSunZenith) != text.npos);
 }
 
-// What the web service adds.
-std::string without_tags(const std::string& line) {
-  static const std::regex tag(R"(<[^>]*>)");
-  return std::regex_replace(line, tag, "");
-}
-
 // The angle that a column's name holds, if it is one of radiances.
 std::optional<double> angle_of(const std::string& column, std::string_view title) {
   if (lower(column).find("scatter") != std::string::npos ||
@@ -85,6 +79,18 @@ std::optional<double> head_number(const std::string& line, const std::string& na
 }
 
 }  // namespace
+
+std::string without_tags(const std::string& line) {
+  static const std::regex tag(R"(<[^>]*>)");
+  return std::regex_replace(line, tag, "");
+}
+
+std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock) {
+  static const std::regex day_first(R"((\d{1,2})[:/.-](\d{1,2})[:/.-](\d{4}))");
+  std::smatch match;
+  if (!std::regex_match(date, match, day_first)) return {};
+  return instant(fmt::format("{}-{}-{}", match[3].str(), match[2].str(), match[1].str()), clock, 0);
+}
 
 bool AeronetTable::is_in(std::string_view text) {
   for (int line = 0; line < 30 && !text.empty(); ++line) {  // of a head without end
@@ -201,11 +207,8 @@ std::string AeronetTable::site(const AeronetLine& line) const {
 
 Instant AeronetTable::time(const AeronetLine& line) const {
   const std::size_t clock = *column(kTime), date = *column(kDate);
-  static const std::regex day_first(R"((\d{1,2})[:/.-](\d{1,2})[:/.-](\d{4}))");
-  std::smatch match;
-  if (!std::regex_match(line.fields[date], match, day_first)) fail(line, date, "dd:mm:yyyy");
-  const auto time = instant(fmt::format("{}-{}-{}", match[3].str(), match[2].str(), match[1].str()),
-                            line.fields[clock], 0);
+  const auto time = aeronet_instant(line.fields[date], line.fields[clock]);
+  if (!aeronet_instant(line.fields[date], "00:00:00")) fail(line, date, "dd:mm:yyyy");
   if (!time) fail(line, clock, "hh:mm:ss of a day that exists");
   return *time;
 }

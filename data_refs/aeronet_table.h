@@ -20,6 +20,12 @@
 
 namespace skyfit::refs {
 
+// What the web service adds to a line is taken away.
+std::string without_tags(const std::string& line);
+
+// Of "15:05:2024" and "06:30:00", UTC; nothing when they are no such instant.
+std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock);
+
 struct AeronetLine {
   int number;  // 1 is the first of the file
   std::vector<std::string> fields;

@@ -58,6 +58,7 @@ ImportOptions overlaid(const ImportOptions& first, const ImportOptions& second) 
     if (row.number != nullptr && !(result.*row.number)) result.*row.number = second.*row.number;
     if (row.text != nullptr && !(result.*row.text)) result.*row.text = second.*row.text;
   }
+  if (!result.columns) result.columns = second.columns;
   result.exclude_samples.insert(result.exclude_samples.end(), second.exclude_samples.begin(),
                                 second.exclude_samples.end());
   return result;
@@ -68,6 +69,7 @@ ImportOptions parse_sidecar(std::string_view json, std::string_view source) {
   const PresetReader root = document.root();
   std::vector<std::string_view> names = {kExclude, kNote};
   for (const ImportOptionRow& row : import_option_table()) names.push_back(row.name);
+  names.insert(names.end(), std::begin(kMappingFields), std::end(kMappingFields));
   root.expect_only(names);
   ImportOptions options;
   for (const ImportOptionRow& row : import_option_table()) {
@@ -82,6 +84,8 @@ ImportOptions parse_sidecar(std::string_view json, std::string_view source) {
     }
     if (!accepted) root.fail_value(row.name, row.expectation);
   }
+  if (std::ranges::any_of(kMappingFields, [&](std::string_view name) { return root.has(name); }))
+    options.columns = column_mapping(root);
   if (root.has(kExclude)) options.exclude_samples = exclusions(root.object(kExclude));
   return options;
 }

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data_refs/column_mapping.h"
 #include "model/base/input_file.h"
 
 namespace skyfit::refs {
@@ -35,6 +36,7 @@ struct ImportOptions {
   std::optional<std::string> projection, lens_polynomial, east, primaries, mask;
   std::optional<double> centre_x_px, centre_y_px, radius_px, north_deg;
   std::optional<double> lumen_per_watt, calibration, bin_deg;
+  std::optional<ColumnMapping> columns;  // of a text file with columns of its own, by a sidecar
   std::vector<ExcludedSample> exclude_samples;
   bool accept_sun = false;                       // though the light puts it elsewhere (sun_check.h)
   std::optional<std::filesystem::path> sidecar;  // in the place of the one beside the file

@@ -10,6 +10,7 @@
 #include "data_refs/aeronet_csv.h"
 #include "data_refs/csv.h"
 #include "data_refs/eko_csv.h"
+#include "data_refs/measured_sky.h"
 #include "data_refs/other_formats.h"
 #include "data_refs/patch_csv.h"
 #include "data_refs/sample_csv.h"
@@ -19,6 +20,7 @@
 #include "data_refs/spectral_scan_folder.h"
 #include "data_refs/sun_check.h"
 #include "model/base/input_file.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
@@ -71,6 +73,21 @@ constexpr std::array<MeasuredFormat, 7> kFormats = {{
      read_samples},
 }};
 
+// Of a scan whose mapped columns make a CSV of samples without a sun.
+std::vector<std::pair<std::string, double>> known_sun(const ImportOptions& facts,
+                                                      std::string_view source) {
+  const ColumnMapping& mapping = *facts.columns;
+  const bool has_values = mapping.has("luminance_cd_m2") || mapping.has("relative_luminance") ||
+                          mapping.has("spectral_radiance_w_m2_sr_nm");
+  if (!has_values || mapping.has("sun_zenith_deg")) return {};
+  const ScanSun sun = sun_of_scan(facts, source, mapping.has("view_azimuth_deg"));
+  std::vector<std::pair<std::string, double>> columns = {
+      {"sun_zenith_deg", sun.zenith / kRadiansPerDegree}};
+  if (mapping.has("view_azimuth_deg"))
+    columns.emplace_back("sun_azimuth_deg", sun.azimuth.value_or(0) / kRadiansPerDegree);
+  return columns;
+}
+
 const MeasuredFormat& format_of(const SkyFile& file) {
   return *std::ranges::find_if(kFormats, [&](const MeasuredFormat& f) { return f.matches(file); });
 }
@@ -100,7 +117,10 @@ std::span<const MeasuredFormat> measured_formats() { return kFormats; }
 Reference load_measured_sky(const std::filesystem::path& path, const ImportOptions& options) {
   validate(options);
   const ImportOptions facts = with_sidecar(options, path);
-  const SkyFile file(path);
+  SkyFile file(path);
+  if (facts.columns)
+    file.set_text(
+        mapped_text(file.text(), file.name(), *facts.columns, known_sun(facts, file.name())));
   const MeasuredFormat& format = format_of(file);
   Reference sky = format.read(file, facts);
   mask_unknown_wavelengths(sky);

@@ -27,6 +27,7 @@ class SkyFile {
   // Of a file. Throws std::invalid_argument when it is no text.
   const std::string& text() const;
   std::string_view line() const;  // the first that is no comment
+  void set_text(std::string text) { text_ = std::move(text); }
 
  private:
   std::filesystem::path path_;

@@ -21,9 +21,13 @@ constexpr std::array<OtherFormat, 11> kFormats = {{
     {R"(degree_of_polarization_for|degree of polarization)",
      "is a degree of polarisation of AERONET; skyfit reads AERONET's sky radiances, not yet these"},
     {R"(single_scattering_albedo\[|refractive_index|inversion|retrievals, version|ssa\d+-t)",
-     "is an inversion of AERONET; skyfit reads the sky radiances that it came from, not yet these"},
+     "is an inversion of AERONET; skyfit reads the sky radiances that it came from, and takes it "
+     "as "
+     "a prior by fit --aeronet-inversion"},
     {R"(aod_\d+nm|aot_\d+|[,_]aod_)",
-     "is aerosol optical depths of AERONET; skyfit reads AERONET's sky radiances, not yet these"},
+     "is aerosol optical depths of AERONET; skyfit reads AERONET's sky radiances, and takes these "
+     "as "
+     "a prior by fit --aeronet-aod"},
     {R"(^location,[^\n]*\n\s*design conditions)",
      "is an EnergyPlus weather file (EPW), which holds irradiances; skyfit reads skies with "
      "directions, and an hour of such a file as perez:FILE@YYYY-MM-DDTHH:MM"},

@@ -16,6 +16,7 @@
 #include "fit/problem/starts.h"
 #include "fit/result/errors.h"
 #include "fit/result/record.h"
+#include "model/base/text.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -178,14 +179,6 @@ nlohmann::json fields(const refs::Reference& reference, const ModelComparison& r
   return line;
 }
 
-// RFC 4180.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
 template <class Use>
 void for_each_line(const refs::Reference& reference, const std::vector<ModelComparison>& rows,
                    const Use& use) {
@@ -271,7 +264,10 @@ ModelComparison compare_model(const refs::Reference& reference, const SpectralDa
 
 std::string comparison_text(const refs::Reference& reference,
                             const std::vector<ModelComparison>& rows) {
-  constexpr std::string_view kRow = "{:<17}{:<9}{:>8}{:>8}{:>10}{:>8}  {:<14}{:>11}{:>14}{:>8}\n";
+  constexpr std::string_view kRow = "{}{:<9}{:>8}{:>8}{:>10}{:>8}  {:<14}{:>11}{:>14}{:>8}\n";
+  std::size_t width = 17;
+  for (const ModelComparison& row : rows) width = std::max(width, row.model.size() + 1);
+  const auto padded = [&](std::string_view model) { return fmt::format("{:<{}}", model, width); };
   std::string text = fmt::format(
       "Reference {}: {}\n"
       "RMS of log(model/reference) with a free scale per sun position; worst direction as sun "
@@ -280,9 +276,9 @@ std::string comparison_text(const refs::Reference& reference,
       reference.transfer == Transfer::kScalar
           ? "The reference was computed without polarisation; so are the models.\n"
           : "");
-  text += fmt::format(kRow, "model", "", "samples", "RMS", "scale", "worst", "at", "precompute",
-                      "per direction", "tables");
-  text += fmt::format(kRow, "", "", "", "%", "ref/model", "%", "deg", "s", "us", "MB");
+  text += fmt::format(kRow, padded("model"), "", "samples", "RMS", "scale", "worst", "at",
+                      "precompute", "per direction", "tables");
+  text += fmt::format(kRow, padded(""), "", "", "%", "ref/model", "%", "deg", "s", "us", "MB");
   for_each_line(reference, rows, [&](const ModelComparison&, const nlohmann::json& line) {
     const std::string model = line["model"], state = line["state"], remark = line["remark"];
     if (line.contains("rms_log_percent")) {
@@ -290,18 +286,19 @@ std::string comparison_text(const refs::Reference& reference,
         return fmt::format(fmt::runtime(format), line[name].get<double>());
       };
       const bool relative = reference.quantity == refs::Quantity::kRelativeLuminance;
-      text += fmt::format(
-          kRow, model, state, line["samples"].get<int>(), number("rms_log_percent", "{:.2f}"),
-          relative ? "-" : number("scale", "{:.4g}"), number("worst_percent", "{:.1f}"),
-          fmt::format("{}/{}/{}", number("worst_sun_zenith_deg", "{:.4g}"),
-                      number("worst_view_zenith_deg", "{:.4g}"),
-                      number("worst_relative_azimuth_deg", "{:.4g}")),
-          number("precompute_s", "{:.3g}"), number("time_per_direction_us", "{:.3g}"),
-          number("tables_mb", "{:.4g}"));
+      text +=
+          fmt::format(kRow, padded(model), state, line["samples"].get<int>(),
+                      number("rms_log_percent", "{:.2f}"),
+                      relative ? "-" : number("scale", "{:.4g}"), number("worst_percent", "{:.1f}"),
+                      fmt::format("{}/{}/{}", number("worst_sun_zenith_deg", "{:.4g}"),
+                                  number("worst_view_zenith_deg", "{:.4g}"),
+                                  number("worst_relative_azimuth_deg", "{:.4g}")),
+                      number("precompute_s", "{:.3g}"), number("time_per_direction_us", "{:.3g}"),
+                      number("tables_mb", "{:.4g}"));
     } else {
-      text += fmt::format("{:<17}{:<9}no figures\n", model, state);
+      text += fmt::format("{}{:<9}no figures\n", padded(model), state);
     }
-    if (!remark.empty()) text += fmt::format("{:26}{}\n", "", remark);
+    if (!remark.empty()) text += fmt::format("{}{:9}{}\n", padded(""), "", remark);
   });
   return text;
 }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <ranges>
 #include <stdexcept>
 #include <vector>
 
@@ -22,28 +24,45 @@ namespace skyfit {
 namespace {
 
 template <class Model>
-std::unique_ptr<SkyModel> make(const SpectralData&, int, Transfer) {
+std::unique_ptr<SkyModel> make(const SkyModelRequest&) {
   return std::make_unique<Model>();
 }
 
 template <class Model>
-std::unique_ptr<SkyModel> make_threaded(const SpectralData&, int threads, Transfer) {
-  return std::make_unique<Model>(threads);
+std::unique_ptr<SkyModel> make_threaded(const SkyModelRequest& request) {
+  return std::make_unique<Model>(request.threads);
 }
 
-std::unique_ptr<SkyModel> make_reference(const SpectralData&, int threads, Transfer transfer) {
+std::unique_ptr<SkyModel> make_reference(const SkyModelRequest& request) {
   ReferenceOptions options;
-  options.threads = threads;
-  options.transfer = transfer;
+  options.threads = request.threads;
+  options.transfer = request.transfer;
   return std::make_unique<ReferenceModel>(options);
 }
 
-std::unique_ptr<SkyModel> make_tables(const SpectralData&, int threads, Transfer transfer) {
-  return std::make_unique<TableModel>(threads, transfer);
+std::unique_ptr<SkyModel> make_tables(const SkyModelRequest& request) {
+  return std::make_unique<TableModel>(request.threads, request.transfer);
 }
 
-std::unique_ptr<SkyModel> make_preetham(const SpectralData& spectra, int, Transfer) {
-  return std::make_unique<PreethamModel>(spectra);
+std::unique_ptr<SkyModel> make_preetham(const SkyModelRequest& request) {
+  return std::make_unique<PreethamModel>(request.spectra);
+}
+
+constexpr SkyModelVariant kNielsenVariants[] = {
+    {NielsenModel::kMeanHeight,
+     "paths to the ground have the density at the mean of their heights"},
+    {NielsenModel::kRayleighPhase, "air scatters by Rayleigh's phase function"},
+    {NielsenModel::kSunThroughSky, "the sun's light is what the model's sky lets through"},
+};
+
+std::unique_ptr<SkyModel> make_nielsen(const SkyModelRequest& request) {
+  return std::make_unique<NielsenModel>(nielsen_choices(request.variants));
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (const auto part : std::views::split(text, ':')) parts.emplace_back(part.begin(), part.end());
+  return parts;
 }
 
 }  // namespace
@@ -63,24 +82,44 @@ std::span<const SkyModelEntry> sky_models() {
        make_threaded<SchafhitzelModel>},
       {"oneil", "O'Neil 2005: five samples along the ray, single scattering",
        make_threaded<ONeilModel>},
-      {"nielsen", "Nielsen 2003: closed form, mean density; day, up to 20 km", make<NielsenModel>},
-      {"hoffman-preetham", "Hoffman & Preetham 2002: closed form, constant density; day, ground",
+      {"nielsen", "Nielsen 2003: closed form, mean density; day, up to 30 km", make_nielsen,
+       kNielsenVariants},
+      {"hoffman-preetham",
+       "Hoffman & Preetham 2002: closed form, constant density; day, up to 10 km",
        make<HoffmanPreethamModel>},
-      {"preetham", "Preetham, Shirley & Smits 1999: formula over the turbidity; day, ground, sky",
-       make_preetham},
+      {"preetham",
+       "Preetham, Shirley & Smits 1999: formula over the turbidity; day, ground, sky",
+       make_preetham,
+       {},
+       false},
   };
   return kModels;
 }
 
-std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
-                                         int threads, Transfer transfer) {
+const SkyModelEntry& sky_model_entry(std::string_view name) {
   std::vector<std::string_view> names;
   for (const SkyModelEntry& entry : sky_models()) {
-    if (entry.name == name) return entry.make(spectra, threads, transfer);
+    if (entry.name == split(name).front()) return entry;
     names.push_back(entry.name);
   }
   throw std::invalid_argument(
       fmt::format("model \"{}\": expected one of {}", name, fmt::join(names, ", ")));
+}
+
+std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
+                                         int threads, Transfer transfer) {
+  const SkyModelEntry& entry = sky_model_entry(name);
+  std::vector<std::string_view> variants = split(name);
+  variants.erase(variants.begin());
+  for (const std::string_view variant : variants) {
+    if (std::ranges::count(entry.variants, variant, &SkyModelVariant::name) > 0) continue;
+    std::vector<std::string_view> known;
+    for (const SkyModelVariant& row : entry.variants) known.push_back(row.name);
+    throw std::invalid_argument(
+        fmt::format("model \"{}\": variant \"{}\": expected {}", name, variant,
+                    known.empty() ? "none" : fmt::format("one of {}", fmt::join(known, ", "))));
+  }
+  return entry.make({spectra, threads, transfer, variants});
 }
 
 }  // namespace skyfit

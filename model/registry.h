@@ -5,22 +5,41 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "model/sky_model.h"
 
 namespace skyfit {
 
+// What a model is made from.
+struct SkyModelRequest {
+  const SpectralData& spectra;  // what a model that speaks of luminance needs to speak of radiance
+  int threads = 1;              // >= 1; results do not depend on it
+  Transfer transfer = Transfer::kVector;   // of `reference` and `tables`; the others are scalar
+  std::vector<std::string_view> variants;  // of the row's
+};
+
+// A choice that a source leaves open, written behind the model's name: "nielsen:mean-height".
+struct SkyModelVariant {
+  std::string_view name, meaning;
+};
+
 struct SkyModelEntry {
   std::string_view name;
   std::string_view meaning;  // one line, with the source
-  // `threads` >= 1; results do not depend on it. `spectra`: what a model that speaks of luminance
-  // needs to speak of radiance. `transfer`: of `reference` and `tables`; the others are scalar.
-  std::unique_ptr<SkyModel> (*make)(const SpectralData& spectra, int threads, Transfer transfer);
+  std::unique_ptr<SkyModel> (*make)(const SkyModelRequest& request);
+  std::span<const SkyModelVariant> variants = {};
+  bool draws_frames = true;  // of a renderer, with the ground in its light
 };
 // Every model, the yardstick first.
 std::span<const SkyModelEntry> sky_models();
 
-// Throws std::invalid_argument that lists the known names.
+// The row of a model, also by its name with variants. Throws std::invalid_argument that lists the
+// known names.
+const SkyModelEntry& sky_model_entry(std::string_view name);
+
+// `name` is that of a row, with ":VARIANT" behind it for each of the row's variants that are
+// wanted. Throws std::invalid_argument that lists the known names.
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
                                          int threads, Transfer transfer = Transfer::kVector);
 

@@ -6,6 +6,7 @@
 
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
+#include "model/atmosphere/refraction.h"
 #include "model/numerics/gauss.h"
 #include "model/sky_model.h"
 
@@ -46,23 +47,43 @@ Hemisphere upper_hemisphere(double altitude_m, double sun_zenith) {
 
 using DualIrradiance = Dual<kDerivativesAtOnce>;
 
+struct DirectBeam {
+  double mu_s;               // cosine of the zenith angle from which it arrives
+  DualIrradiance on_normal;  // on a surface that faces it
+};
+
 // exp(-optical depth) toward the sun, the beam itself: nothing of the forward peak is cut off.
-std::vector<DualIrradiance> direct_beam(const Atmosphere<double>& atmosphere,
-                                        std::span<const WavelengthNode> wavelengths,
-                                        double altitude_m, double mu_s,
-                                        std::span<const Parameter> derivatives) {
-  const Shells shells = shells_of(atmosphere, Keep::kWhatMatters, derivatives);
-  const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, altitude_m, mu_s);
-  if (to_sun.hits_ground) return std::vector<DualIrradiance>(wavelengths.size());
+DirectBeam beam_through(const Shells& shells, const Atmosphere<double>& atmosphere,
+                        const WavelengthNode& wavelength, double height, double mu_s,
+                        std::span<const Parameter> derivatives) {
+  const ViewRay to_sun = view_ray(shells.bottom_radius, shells.top, height, mu_s);
+  if (to_sun.hits_ground) return {mu_s, {}};
   PathColumns columns;
   if (to_sun.length > 0) {
     columns = columns_along(shells, to_sun, ray_point(to_sun, shells.bottom_radius, to_sun.length));
   }
   const auto seeded_atmosphere = seeded<kDerivativesAtOnce>(atmosphere, derivatives);
-  std::vector<DualIrradiance> beam;
-  for (const WavelengthNode& node : wavelengths) {
-    beam.push_back(exp(-true_optics_at(shells, seeded_atmosphere, node).optical_depth(columns)));
-  }
+  return {mu_s, exp(-true_optics_at(shells, seeded_atmosphere, wavelength).optical_depth(columns))};
+}
+
+DirectBeam direct_beam(const Atmosphere<double>& atmosphere, const WavelengthNode& wavelength,
+                       double altitude_m, double sun_zenith,
+                       std::span<const Parameter> derivatives) {
+  return beam_through(shells_of(atmosphere, Keep::kWhatMatters, derivatives), atmosphere,
+                      wavelength, altitude_m, std::cos(sun_zenith), derivatives);
+}
+
+DirectBeam refracted_beam(const Atmosphere<double>& atmosphere, const WavelengthNode& wavelength,
+                          double altitude_m, double sun_zenith,
+                          std::span<const Parameter> derivatives) {
+  const Refraction refraction(atmosphere, wavelength.wavelength_nm);
+  const double height = refraction.refractive_height(altitude_m),
+               apparent = refraction.apparent_zenith(height, sun_zenith);
+  DirectBeam beam =
+      beam_through(refraction.refracted(shells_of(atmosphere, Keep::kWhatMatters, derivatives)),
+                   atmosphere, wavelength, height, std::cos(apparent), derivatives);
+  const double index = refraction.refractive_index(height);
+  beam.on_normal = beam.on_normal * (index * index * refraction.beam_spread(height, apparent));
   return beam;
 }
 
@@ -78,13 +99,14 @@ DualIrradiance diffuse_of(const Hemisphere& hemisphere, const SkyValues& sky, in
   return sum;
 }
 
-SkyValues irradiance_of(const Hemisphere& hemisphere, const SkyValues& sky, double mu_s,
-                        const std::vector<DualIrradiance>& beam) {
+SkyValues irradiance_of(const Hemisphere& hemisphere, const SkyValues& sky,
+                        const std::vector<DirectBeam>& beams) {
   SkyValues result{kIrradianceCount, sky.wavelengths, sky.parameters, {}, {}};
   result.value.resize(static_cast<std::size_t>(result.points) * result.wavelengths);
   result.derivative.resize(result.value.size() * result.parameters);
   for (int w = 0; w < result.wavelengths; ++w) {
-    const DualIrradiance horizontal = std::max(mu_s, 0.0) * beam[w];
+    const DirectBeam& beam = beams[static_cast<std::size_t>(w)];
+    const DualIrradiance horizontal = std::max(beam.mu_s, 0.0) * beam.on_normal;
     const DualIrradiance diffuse = diffuse_of(hemisphere, sky, w);
     const auto put = [&](Irradiance which, const DualIrradiance& value) {
       const std::size_t at = static_cast<std::size_t>(which) * result.wavelengths + w;
@@ -93,7 +115,7 @@ SkyValues irradiance_of(const Hemisphere& hemisphere, const SkyValues& sky, doub
         result.derivative[p * result.value.size() + at] = value.d[p];
       }
     };
-    put(kDirectNormal, beam[w]);
+    put(kDirectNormal, beam.on_normal);
     put(kDirectHorizontal, horizontal);
     put(kDiffuseHorizontal, diffuse);
     put(kGlobalHorizontal, horizontal + diffuse);
@@ -109,9 +131,12 @@ SkyValues SkyModel::irradiance(const Atmosphere<double>& atmosphere,
   const Hemisphere hemisphere = upper_hemisphere(altitude_m, sun_zenith);
   return in_batches<kDerivativesAtOnce>(derivatives, [&](std::span<const Parameter> batch) {
     const SkyValues sky = radiance(atmosphere, wavelengths, hemisphere.points, batch);
-    const double mu_s = std::cos(sun_zenith);
-    const auto beam = direct_beam(atmosphere, wavelengths, altitude_m, mu_s, batch);
-    return irradiance_of(hemisphere, sky, mu_s, beam);
+    std::vector<DirectBeam> beams;
+    for (const WavelengthNode& node : wavelengths) {
+      beams.push_back(refracts() ? refracted_beam(atmosphere, node, altitude_m, sun_zenith, batch)
+                                 : direct_beam(atmosphere, node, altitude_m, sun_zenith, batch));
+    }
+    return irradiance_of(hemisphere, sky, beams);
   });
 }
 

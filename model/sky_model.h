@@ -62,6 +62,8 @@ class SkyModel {
   virtual std::string_view name() const = 0;
   // The models of the literature know no polarisation.
   virtual Transfer transfer() const { return Transfer::kScalar; }
+  // Whether rays are curved: view angles are then the apparent ones, suns the true ones.
+  virtual bool refracts() const { return false; }
 
   // Diffuse radiance per unit solar irradiance (1/sr): scattered light and light reflected by the
   // ground, the sun's disc not. `derivatives` lists the parameters to differentiate by; their order

@@ -25,6 +25,7 @@ class InterruptibleModel : public SkyModel {
 
   std::string_view name() const override { return model_.name(); }
   Transfer transfer() const override { return model_.transfer(); }
+  bool refracts() const override { return model_.refracts(); }
   bool gives_stokes() const override { return model_.gives_stokes(); }
   bool can_fit(const Parameter& parameter) const override { return model_.can_fit(parameter); }
   int lobes() const override { return model_.lobes(); }

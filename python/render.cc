@@ -22,6 +22,7 @@ namespace {
 struct DrawnFrame {
   Frame frame;
   ToneOptions tone;  // of a PNG
+  bool panels;       // beside a PNG
 };
 
 const std::map<std::string, std::string>& refused_options() {
@@ -43,7 +44,7 @@ DrawnFrame render(const Preset& preset, const Options& options) {
   cli::RenderOptions arguments;
   cli::add_render_options(command, arguments);
   parse(command, "render", options, refused_options());
-  arguments.atmosphere = preset;
+  arguments.start = preset;
   const cli::RenderRequest request = cli::frame_request(arguments, command);
   if (request.is_sequence)
     throw cli::UsageError("--time", arguments.time, "expected one time, HH:MM, for one frame");
@@ -51,8 +52,8 @@ DrawnFrame render(const Preset& preset, const Options& options) {
   return interruptible([&](const std::atomic<bool>&) {
     cli::RenderSession session(request, cli::timeline_of(request.sequence),
                                [](double, std::string_view) {});
-    DrawnFrame drawn{session.draw(shot_at(request.sequence, 0, cli::sun_over), 0, {}),
-                     request.tone};
+    DrawnFrame drawn{session.draw(shot_at(request.sequence, 0, cli::sun_over), 0, {}), request.tone,
+                     request.panels};
     cli::check_light(drawn.frame);
     return drawn;
   });
@@ -123,7 +124,7 @@ void bind_render(py::module_& module) {
               throw std::invalid_argument(
                   fmt::format("{}: expected a name that ends in .png or .exr", file.string()));
             const py::gil_scoped_release released;
-            cli::write_frame_files(drawn.frame, {file}, drawn.tone);
+            cli::write_frame_files(drawn.frame, {file}, drawn.tone, drawn.panels);
           },
           py::arg("file"),
           "Writes OpenEXR (.exr: linear cd/m^2, directions, depth) or PNG (.png: tone-mapped).")

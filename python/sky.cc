@@ -27,7 +27,7 @@ using NamedArrays = std::vector<std::pair<std::string, py::array_t<double>>>;
 struct How {
   std::string model;
   std::vector<std::string> derivatives;
-  bool scalar;
+  bool scalar, refraction;
   int threads;
 };
 
@@ -42,8 +42,8 @@ Evaluation evaluation(const Preset& preset, const How& how) {
   if (how.threads < 1)
     throw std::invalid_argument(fmt::format("threads = {}: must be >= 1", how.threads));
   Evaluation result{preset.atmosphere, refs::spectral_data_of(preset.atmosphere), nullptr, {}};
-  result.model =
-      make_sky_model(how.model, result.spectra, how.threads, cli::transfer_of(how.scalar));
+  result.model = cli::sky_model_named(how.model, result.spectra, how.threads,
+                                      cli::transfer_of(how.scalar), how.refraction);
   for (const std::string& name : how.derivatives) {
     result.derivatives.push_back(parameter_from_name(name));
     require_parameter(preset.atmosphere, result.derivatives.back());
@@ -128,7 +128,7 @@ NamedArrays sky(const Preset& preset, const Input<double>& altitude_m,
     result = {values_of(table, values, 0, 1), derivatives_of(table, values, 0, 1)};
   });
   NamedArrays arrays;
-  add(arrays, table.columns.front(), std::move(result.value), std::move(result.derivative));
+  add(arrays, table.columns.front().name, std::move(result.value), std::move(result.derivative));
   return arrays;
 }
 
@@ -197,7 +197,7 @@ NamedArrays irradiance(const Preset& preset, const Input<double>& altitude_m,
   });
   NamedArrays arrays;
   for (int kind = 0; kind < kIrradianceCount; ++kind) {
-    add(arrays, table.columns[static_cast<std::size_t>(kind)],
+    add(arrays, table.columns[static_cast<std::size_t>(kind)].name,
         values_of(table, all, kind, kIrradianceCount),
         derivatives_of(table, all, kind, kIrradianceCount));
   }
@@ -208,8 +208,8 @@ NamedArrays irradiance(const Preset& preset, const Input<double>& altitude_m,
 
 void bind_sky(py::module_& module) {
   py::class_<How>(module, "How")
-      .def(py::init<std::string, std::vector<std::string>, bool, int>(), py::arg("model"),
-           py::arg("derivatives"), py::arg("scalar"), py::arg("threads"));
+      .def(py::init<std::string, std::vector<std::string>, bool, bool, int>(), py::arg("model"),
+           py::arg("derivatives"), py::arg("scalar"), py::arg("refraction"), py::arg("threads"));
   module.def("sky", &sky);
   module.def("stokes", &stokes);
   module.def("irradiance", &irradiance);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "model/base/module_file.h"
+#include "model/literature/evaluate.h"
 #include "model/numerics/angles.h"
 #include "render/module/module.h"
 
@@ -64,6 +65,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tables) {
   drawer_->set_atmosphere(tables);
+  limits_ = tables.sky_rays.limits;
   preset_ = preset_to_json(preset);
 }
 
@@ -81,6 +83,11 @@ FrameOptions Renderer::above_lowest_ground(const FrameOptions& options) const {
     throw std::invalid_argument(
         fmt::format("render.camera.altitude_m = {:.9g}: must be above the ground, {:.9g} m",
                     options.camera.altitude_m, ground + kRoom));
+  }
+  if (limits_) {
+    std::vector<SkyPoint> suns = {{options.camera.altitude_m, options.sun_zenith, 0, 0}};
+    if (options.second_sun) suns.push_back({options.camera.altitude_m, options.second_sun->zenith});
+    literature::check_daylight(limits_->model, suns, limits_->highest_m);
   }
   FrameOptions raised = options;
   raised.camera.altitude_m += basin_depth_m_;

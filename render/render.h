@@ -156,6 +156,8 @@ struct FrameLayers {
   std::vector<float>
       in_scatter;  // cd/m^2: of the air between the eye and what it sees, or of the sky
   std::vector<float> reflected;  // cd/m^2: of ground, objects and clouds, as it arrives at the eye
+  std::vector<float>
+      direct;  // cd/m^2: the part of it that is the suns' beams', reflected or from their discs
   std::vector<float> transmittance;  // of sunlight, from what is seen to the eye; of sky: to space
   std::vector<float> normal;         // camera frame; 0 for sky
   std::vector<float> albedo;         // of sunlight; 0 for sky
@@ -232,7 +234,8 @@ class Renderer {
   double ground_height_m(const std::optional<Site>& site) const;
 
   // Progress in 0..1; may be empty. Throws std::invalid_argument for options that validate()
-  // refuses and for a camera below the ground.
+  // refuses, for a camera below the ground, and for a camera or a sun that the tables' model does
+  // not know (SkyRayTables::limits).
   Frame draw(const FrameOptions& options, const std::function<void(double)>& progress = {});
 
   // The same for frames that are shown one after another on the device. Waits for the frame before,
@@ -248,7 +251,8 @@ class Renderer {
 
   std::unique_ptr<FrameDrawer> drawer_;
   double basin_depth_m_;
-  std::string preset_;  // as JSON
+  std::optional<DaylightLimits> limits_;  // of the tables
+  std::string preset_;                    // as JSON
 };
 
 // One frame of a planet of noise.
@@ -257,15 +261,16 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 
 // OpenEXR, 32-bit float: R, G, B, luminance.Y, view.zenith_deg, view.azimuth_deg, Z (metres,
 // infinite for sky) and, where the frame has layers, inscatter.R, .G, .B, reflected.R, .G, .B,
-// transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with Frame::metadata as attributes
-// `skyfit:...` and the chromaticities of the primaries. R, G, B hold X, Y, Z where these are the
-// primaries. The file appears whole or not at all; throws
+// direct.R, .G, .B, transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with
+// Frame::metadata as attributes `skyfit:...` and the chromaticities of the primaries. R, G, B hold
+// X, Y, Z where these are the primaries. The file appears whole or not at all; throws
 // std::runtime_error that names it.
 void write_exr(const Frame& frame, const std::filesystem::path& file);
 
 enum class ToneCurve {
   kFilmic,       // a fit of the ACES film curve, Narkowicz 2015
   kExponential,  // 1 - exp(-k L), Sperlhofer 2011
+  kClip,         // k L, cut off at 1: a display without a curve
 };
 
 // How a tone curve, and the display's range, apply to colours.

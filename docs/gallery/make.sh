@@ -148,7 +148,7 @@ source_of bs14 "Bodare and Sandberg 2014: 3D tables, ozone"
 both() { # NAME ARGUMENTS: the picture by the source's model and by the reference.
   local name=$1 model=$2
   shift 2
-  picture "$name-$model" --model "$model" "$@"
+  picture "$name-${model//:/-}" --model "$model" "$@"
   picture "$name-reference" "$@"
 }
 begin
@@ -188,10 +188,50 @@ figure "29: the limb from space" "Limb and disc without a seam." "bodare" "refer
 
 # --- Nielsen 2003 -----------------------------------------------------------------------------------------------------
 source_of n03 "Nielsen 2003: closed form with mean densities"
-text "7.3: the sky over height" "The zenith darkens with height, the horizon does not. Luminance 90 deg from the sun by his model." \
-  sky --preset nielsen-2003 --model nielsen --sun-zenith-deg 40 --view-zenith-deg 0,30,60,80,89 --azimuth-deg 90 --altitude-m 0,16000
-text "7.3, by the reference" "The same by the reference." \
-  sky --preset nielsen-2003 --sun-zenith-deg 40 --view-zenith-deg 0,30,60,80,89 --azimuth-deg 90 --altitude-m 0,16000
+n03=(--preset nielsen-2003)
+begin
+captions=()
+for altitude in 2 16e3 30e3; do
+  both "n03-7-3-$altitude" nielsen "${n03[@]}" --view away --altitude-m "$altitude" --sun-zenith-deg 40 --pitch-deg 15 "${small[@]}"
+  captions+=("$altitude m, nielsen" "reference")
+done
+figure "7.3: the sky over height" "The zenith darkens with height, the horizon stays white." "${captions[@]}"
+text "7.3: the luminance" "90 deg from the sun, by his model." \
+  sky "${n03[@]}" --model nielsen --sun-zenith-deg 40 --view-zenith-deg 0,30,60,80,89 --azimuth-deg 90 --altitude-m 0,16000,30000
+begin
+both n03-7-5 nielsen:sun-through-sky "${n03[@]}" --view sunset --sun-zenith-deg 88 "${small[@]}"
+figure "7.5: sunset" "Bright round the sun. His text lets the sun's light fall, but does not say how: here it is what his sky lets through, one colour for all of the sky, which has no red along the horizon of its own." \
+  "nielsen:sun-through-sky" "reference"
+begin
+for model in nielsen nielsen:mean-height; do
+  picture "n03-7-7-${model//:/-}" --model "$model" "${n03[@]}" --view 10km --strip mie.scattering=3.968e-6..5.555e-5:3 "${strip[@]}"
+done
+figure "7.7: the mean of the densities, and the density at the mean height" "The latter sees farther down: density falls exponentially, so that the mean of two of them is larger." \
+  "nielsen, haze 5e-4 to 7e-3" "nielsen:mean-height"
+begin
+captions=()
+for altitude in 4e3 8e3 12e3 16e3; do
+  both "n03-7-8-$altitude" nielsen "${n03[@]}" --view 10km --altitude-m "$altitude" "${small[@]}"
+  captions+=("$altitude m, nielsen" "reference")
+done
+figure "7.8: visibility over height" "The ground below is seen through ever thinner air, from ever farther away, and the horizon stays white." "${captions[@]}"
+begin
+both n03-7-9 nielsen "${n03[@]}" --view 10km --strip mie.scattering=3.968e-6..5.555e-5:4 "${strip[@]}"
+figure "7.9: haze" "The range is clear and slightly blue, at last it is gone." "nielsen, haze 5e-4 to 7e-3" "reference"
+begin
+for azimuth in 0 180; do
+  both "n03-7-10-$azimuth" nielsen:sun-through-sky "${n03[@]}" --view valley --sun-zenith-deg 84 --azimuth-deg "$azimuth" "${small[@]}"
+done
+figure "7.10: toward a low sun and away from it" "Toward it the sky is yellow, by the aerosol; away from it the air is clear. The blue of his figure away from the sun is light that was scattered more than once, which the reference has." \
+  "toward, nielsen:sun-through-sky" "toward, reference" "away, nielsen:sun-through-sky" "away, reference"
+begin
+for altitude in 4e3 10e3; do
+  for model in nielsen:sun-through-sky hoffman-preetham; do
+    picture "n03-7-11-$altitude-${model//:/-}" --model "$model" "${n03[@]}" --view 10km --altitude-m "$altitude" "${small[@]}"
+  done
+done
+figure "7.11: variable and constant density" "From 10 km, constant density hides what is seen through thin air. Both have the light of the sun that their sky lets through." \
+  "4 km, nielsen:sun-through-sky" "4 km, hoffman-preetham" "10 km, nielsen:sun-through-sky" "10 km, hoffman-preetham"
 
 # --- O'Neil 2005 ------------------------------------------------------------------------------------------------------
 on=(--preset oneil-2005)
@@ -228,13 +268,14 @@ figure "4g, 4h: Mars without dust, from space and in a valley" "Another colour b
 cat >>"$page" <<'HTML'
 <h2 id="missing">What is not shown</h2>
 <ul>
-<li>Sperlhofer: the terrain and its levels (4-11 to 4-25), the parts of a frame as panels (4-40; <code>--layers</code> has them in the
-EXR), clipped against mapped (4-41), an object half in the air (4-50), and the three repairs and the
+<li>Sperlhofer: the terrain and its levels (4-11 to 4-25), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
+<code>--tone clip</code>), an object half in the air (4-50), and the three repairs and the
 8-bit tables (5-1 to 5-5): the renderer has no options for them. His half and double values are the ends of the strips, whose steps are
 even.</li>
 <li>Bodare and Sandberg: the Mie channel by proportion (11), the update over frames as frames (12), the aerial volume against samples
 (16, 18, 23), the build-up (27). Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>
-<li>Nielsen: his pictures (7.4 to 7.15); the renderer does not draw the models <code>nielsen</code> and <code>hoffman-preetham</code>.</li>
+<li>Nielsen: his plots (2.5, 5.1 to 5.4), the sky toward the sun (7.4), mountains by day (7.6), the edge of the world (7.14) and
+clipping (7.15).</li>
 <li>O'Neil: other numbers of samples, the frame without a tone curve (16-4).</li>
 <li>All: times on the machines of their day.</li>
 </ul>

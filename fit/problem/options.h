@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "data_refs/aeronet_products.h"
 #include "fit/problem/instrument.h"
 #include "fit/problem/likelihood.h"
 #include "model/atmosphere/ground_spectrum.h"
@@ -53,6 +54,9 @@ struct FitOptions {
   double loss_width = 3;  // sigmas
   std::optional<std::shared_ptr<const GroundSpectrum>>
       ground;  // in place of the start's; null: grey
+  // Of the aerosol: its amount becomes an optical depth at 550 nm, and the values are start and
+  // prior of optical depth, exponent and single scattering albedo where these are free.
+  std::optional<refs::AerosolKnowledge> aerosol;
   std::function<void(double fraction, const std::string& status)> progress;  // may be empty
 };
 // Throws std::invalid_argument, one line: `fit.starts = 0: must be >= 1`.

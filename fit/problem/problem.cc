@@ -124,6 +124,49 @@ void add_instruments(const FitOptions& options, Pointing pointing, Scale scale, 
   }
 }
 
+// The aerosol with its amount as an optical depth, and the values that are known as its start.
+Atmosphere<double> with_known_aerosol(Atmosphere<double> atmosphere,
+                                      const refs::AerosolKnowledge& known) {
+  const Constituent<double>* const aerosol = main_aerosol(atmosphere);
+  if (aerosol == nullptr || !is_at_wavelength(aerosol->amount_type) || aerosol->spectrum ||
+      aerosol->phase.type == PhaseType::kSizeDistribution)
+    throw std::invalid_argument(
+        "fit.start: expected an aerosol whose amount goes as a power of wavelength, of which "
+        "AERONET's products can be priors");
+  constexpr double kGreen = 550;
+  Constituent<double>& c = atmosphere.at(aerosol->name);
+  const auto within = [&](Quantity quantity, double value) {
+    const ParameterInfo info = parameter_info({c.name, quantity});
+    return std::clamp(value, info.lower, info.upper);
+  };
+  if (known.optical_depth) {
+    c.amount = within(Quantity::kOpticalDepth, known.optical_depth->mean);
+    c.amount_type = AmountType::kOpticalDepth;
+    c.wavelength_nm = kGreen;
+  }
+  if (known.angstrom_exponent)
+    c.angstrom_exponent = within(Quantity::kAngstromExponent, known.angstrom_exponent->mean);
+  if (known.single_scattering_albedo && !c.albedo_spectrum) {
+    c.single_scattering_albedo =
+        within(Quantity::kSingleScatteringAlbedo, known.single_scattering_albedo->mean);
+  }
+  return atmosphere;
+}
+
+std::map<Parameter, Prior> priors_of(const refs::AerosolKnowledge& known,
+                                     const Atmosphere<double>& atmosphere) {
+  const std::string name = main_aerosol(atmosphere)->name;
+  std::map<Parameter, Prior> priors;
+  const auto add = [&](Quantity quantity, const std::optional<Prior>& prior) {
+    const Parameter id{name, quantity};
+    if (prior && has_parameter(atmosphere, id)) priors.emplace(id, *prior);
+  };
+  add(Quantity::kOpticalDepth, known.optical_depth);
+  add(Quantity::kAngstromExponent, known.angstrom_exponent);
+  add(Quantity::kSingleScatteringAlbedo, known.single_scattering_albedo);
+  return priors;
+}
+
 // The table's and those of options.h.
 FitOptions with_default_parameters(const FitOptions& options, const SkyModel& model,
                                    bool several_wavelengths, bool pointing_is_unknown,
@@ -143,10 +186,17 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
     result.priors.emplace(Parameter::kRayleighPressure,
                           Prior{pressure, pressure * standard.sigma / standard.mean});
   }
-  if (options.free || !several_wavelengths) return result;
+  if (options.aerosol) {
+    for (const auto& [id, prior] : priors_of(*options.aerosol, atmosphere)) {
+      if (options.free ? is_free(id) : !options.fix.contains(id)) result.priors.emplace(id, prior);
+    }
+  }
+  if (options.free || (!several_wavelengths && !options.aerosol)) return result;
   result.free.emplace();
   for (const Parameter& id : parameters_of(atmosphere)) {
-    const bool free = parameter_info(id).free_by_default || id == Parameter::kMieAngstromExponent;
+    const bool free = parameter_info(id).free_by_default ||
+                      (several_wavelengths && id == Parameter::kMieAngstromExponent) ||
+                      result.priors.contains(id);
     if (free && model.can_fit(id) && !options.fix.contains(id)) result.free->push_back(id);
   }
   return result;
@@ -223,18 +273,22 @@ Atmosphere<double> given_atmosphere(const refs::Reference& reference, const FitO
     given = with_gases_of_measured_skies(given);
   if (const auto pressure = site_pressure(reference, options)) set_site_pressure(given, *pressure);
   if (options.ground) given.ground_spectrum = *options.ground;
+  if (options.aerosol) given = with_known_aerosol(std::move(given), *options.aerosol);
   return given;
 }
 
 // What is assumed of a measured sky whose site does not state enough.
 std::vector<std::string> assumptions(const refs::Reference& reference, const FitOptions& options) {
+  std::vector<std::string> notes;
+  if (options.aerosol) notes = options.aerosol->notes;
   if (options.start || reference.quantity == refs::Quantity::kRelativeLuminance ||
       site_pressure(reference, options))
-    return {};
-  return {
+    return notes;
+  notes.push_back(
       fmt::format("the elevation of the site is not stated: its air has the pressure of the "
                   "sea's level, {} hPa, by default (elevation_m, --site-pressure-hpa)",
-                  kStandardPressureHpa)};
+                  kStandardPressureHpa));
+  return notes;
 }
 
 std::optional<std::string> polarisation_left_out(const refs::Reference& reference,

@@ -14,15 +14,14 @@ double inverse_square_um(double wavelength_nm) { return 1e6 / (wavelength_nm * w
 
 double percent(double co2_ppm) { return 1e-4 * co2_ppm; }
 
-// Equations (18) and (19), at 288.15 K and 1013.25 hPa.
-double refractive_index(double wavelength_nm, double co2_ppm) {
+}  // namespace
+
+double refractive_index_of_air(double wavelength_nm, double co2_ppm) {
   const double s = inverse_square_um(wavelength_nm);
   const double refractivity_300 =
       1e-8 * (8060.51 + 2480990 / (132.274 - s) + 17455.7 / (39.32957 - s));
   return 1 + refractivity_300 * (1 + 0.54 * (1e-6 * co2_ppm - 0.0003));
 }
-
-}  // namespace
 
 double king_factor(double wavelength_nm, double co2_ppm) {
   constexpr double kOfArgon = 1.00, kOfCo2 = 1.15;
@@ -42,7 +41,7 @@ double king_depolarisation(double wavelength_nm, double co2_ppm) {
 double rayleigh_cross_section_m2(double wavelength_nm, double co2_ppm) {
   constexpr double kMoleculesPerM3 = 2.546899e25;  // at 288.15 K and 1013.25 hPa
   constexpr double kPi = std::numbers::pi;
-  const double n = refractive_index(wavelength_nm, co2_ppm), squared = n * n;
+  const double n = refractive_index_of_air(wavelength_nm, co2_ppm), squared = n * n;
   const double lorentz = (squared - 1) / (squared + 2);
   const double wavelength_m = 1e-9 * wavelength_nm;
   return 24 * kPi * kPi * kPi * lorentz * lorentz * king_factor(wavelength_nm, co2_ppm) /

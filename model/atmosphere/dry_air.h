@@ -9,6 +9,9 @@ namespace skyfit {
 // King's factor F(air), equations (5), (6) and (23).
 double king_factor(double wavelength_nm, double co2_ppm);
 
+// Equations (18) and (19), at 288.15 K and 1013.25 hPa.
+double refractive_index_of_air(double wavelength_nm, double co2_ppm);
+
 // The depolarisation ratio of natural light scattered at a right angle that belongs to King's
 // factor: F = (6 + 3 rho) / (6 - 7 rho).
 double king_depolarisation(double wavelength_nm, double co2_ppm);

@@ -100,6 +100,21 @@ Profile::Profile(const VerticalProfile<double>& profile) {
   }
 }
 
+Profile Profile::with_tables(std::vector<LinearProfile> tables,
+                             const std::function<double(double)>& moved) const {
+  Profile result = *this;
+  result.by_shape_.clear();
+  for (LinearProfile& table : tables)
+    result.by_shape_.push_back(std::make_shared<const LinearProfile>(std::move(table)));
+  result.table_ = result.by_shape_.front();
+  result.by_shape_.erase(result.by_shape_.begin());
+  if (is_layer()) {
+    result.base_ = moved(base_);
+    result.top_ = moved(top_);
+  }
+  return result;
+}
+
 Density Profile::density(double height) const {
   if (table_) {
     return {table_->density(height),

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "model/atmosphere/atmosphere.h"
@@ -31,6 +32,11 @@ class Profile {
   const LinearProfile& table() const { return *table_; }  // of one that is not
   // The derivative of the density by a shape parameter, of a profile that is not exponential.
   const LinearProfile& table_by_shape(std::size_t shape) const { return *by_shape_[shape]; }
+
+  // The same shape by tables of its density and then of the derivatives; `moved` says where a
+  // height goes.
+  Profile with_tables(std::vector<LinearProfile> tables,
+                      const std::function<double(double)>& moved) const;
 
   Density density(double height) const;
   // The same at a level of a grid between its neighbours `low` and `high`: the value of a table is

@@ -73,6 +73,13 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 std::string printable(std::string_view text) { return shown(text, std::string_view::npos); }
 std::string excerpt(std::string_view text) { return shown(text, kMostShown); }
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
 std::string in_quotes(std::string_view text) { return '"' + excerpt(text) + '"'; }
 
 }  // namespace skyfit

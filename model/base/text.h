@@ -26,6 +26,9 @@ inline constexpr std::size_t kMostShown = 80;
 // printable(text), cut after kMostShown characters, where "..." says so.
 std::string excerpt(std::string_view text);
 
+// A field of a CSV file, in quotes where it has to be (RFC 4180).
+std::string csv_field(const std::string& text);
+
 // excerpt(text) between double quotes; std::quoted() is another thing.
 std::string in_quotes(std::string_view text);
 

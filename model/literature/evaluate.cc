@@ -36,6 +36,30 @@ void check_daylight(std::string_view model, std::span<const SkyPoint> points, do
   }
 }
 
+SkyRayTables closed_form(SkyRayMapping mapping, const DaylightLimits& limits,
+                         const Atmosphere<double>& atmosphere) {
+  const Table none{1, 1, 1, std::vector<float>(4)};
+  SkyRayTables rays{mapping, none, none};
+  rays.limits = {limits.model,
+                 std::min(limits.highest_m, atmosphere.top_radius_m - atmosphere.bottom_radius_m)};
+  return rays;
+}
+
+AirAtNodes air_at_nodes(const Atmosphere<double>& atmosphere,
+                        std::span<const WavelengthNode, 4> nodes) {
+  const Shells shells = shells_of(atmosphere, Keep::kScatterers);
+  const Atmosphere<Dual<0>> clear = without_absorption(seeded<0>(atmosphere, {}));
+  AirAtNodes all;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const ClearAir<0> air = clear_air(shells, clear, nodes[k]);
+    all.air[k] = air.air.v;
+    all.aerosol[k] = air.aerosol_scattering.v;
+    all.air_scale_height_m = air.air_scale_height.v;
+    all.aerosol_scale_height_m = air.aerosol_scale_height.v;
+  }
+  return all;
+}
+
 void check_exponential(std::string_view model, const Atmosphere<double>& atmosphere) {
   for (const Constituent<double>& c : atmosphere.constituents) {
     if (!scatters(c) || c.profile.type == ProfileType::kExponential) continue;

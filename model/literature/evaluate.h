@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -28,6 +29,11 @@ void check_request(std::string_view model, const Atmosphere<double>& atmosphere,
 // The sun above the horizon and the eye no higher than `highest_m`; throws std::invalid_argument
 // that says so.
 void check_daylight(std::string_view model, std::span<const SkyPoint> points, double highest_m);
+
+// Closed forms that need no tables of their own; the model is valid for the observers of `limits`
+// in the atmosphere.
+SkyRayTables closed_form(SkyRayMapping mapping, const DaylightLimits& limits,
+                         const Atmosphere<double>& atmosphere);
 
 // Exponential profiles of what scatters; throws std::invalid_argument that names another.
 void check_exponential(std::string_view model, const Atmosphere<double>& atmosphere);
@@ -94,6 +100,15 @@ ClearAir<N> clear_air(const Shells& shells, const Atmosphere<Dual<N>>& atmospher
   }
   return air;
 }
+
+// The same without derivatives at the nodes of a colour rule, without absorption: what a renderer
+// needs of closed forms.
+struct AirAtNodes {
+  std::array<double, 4> air{}, aerosol{};  // scattering at density 1, 1/m
+  double air_scale_height_m = 0, aerosol_scale_height_m = 0;
+};
+AirAtNodes air_at_nodes(const Atmosphere<double>& atmosphere,
+                        std::span<const WavelengthNode, 4> nodes);
 
 // How many derivatives are carried at once: of closed forms all; of tables seven, for their memory
 // (270 MB while those of Bruneton are made), and because eight doubles fill a register.

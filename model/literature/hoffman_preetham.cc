@@ -11,7 +11,7 @@ namespace skyfit {
 namespace {
 
 constexpr std::string_view kName = "hoffman-preetham";
-constexpr double kHighest = 1000;  // m
+constexpr double kHighest = 10e3;  // m
 
 // Of a ray to the sky, metres of density 1.
 template <int N>
@@ -64,6 +64,14 @@ SkyValues HoffmanPreethamModel::radiance(const Atmosphere<double>& atmosphere,
         for (std::size_t i = 0; i < points.size(); ++i)
           out[i] = radiance_of(optics, points[i], literature::view_of(atmosphere, points[i]));
       });
+}
+
+std::optional<SkyRayTables> HoffmanPreethamModel::sky_rays(
+    const Atmosphere<double>& atmosphere, std::span<const WavelengthNode, 4>) const {
+  literature::check_request(kName, atmosphere, {}, {});
+  literature::check_exponential(kName, atmosphere);
+  return literature::closed_form(SkyRayMapping::kHoffmanPreetham, {std::string(kName), kHighest},
+                                 atmosphere);
 }
 
 bool HoffmanPreethamModel::can_fit(const Parameter& parameter) const {

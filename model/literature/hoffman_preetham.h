@@ -7,8 +7,8 @@
 // Kasten's relative air mass (model/shared/closed_forms.glsl), and so does the sun's light E, which
 // is that at the eye. The ground reflects the sun alone.
 // Left out: absorption and ozone, every further scattering, the change of the sun's light along the
-// ray, tabulated profiles. Valid near the ground and by day: altitude <= 1 km, sun above the
-// horizon.
+// ray, tabulated profiles. Valid near the ground; by day, up to 10 km, where Nielsen 2003 compares
+// it with his (figure 7.11): from there its sky is as thick as from the ground.
 #pragma once
 
 #include "model/sky_model.h"
@@ -21,6 +21,8 @@ class HoffmanPreethamModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
+  std::optional<SkyRayTables> sky_rays(const Atmosphere<double>& atmosphere,
+                                       std::span<const WavelengthNode, 4> nodes) const override;
   bool can_fit(const Parameter& parameter) const override;
 };
 

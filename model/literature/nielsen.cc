@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/literature/nielsen.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "model/atmosphere/phase_moments.h"
@@ -10,9 +11,7 @@
 namespace skyfit {
 namespace {
 
-constexpr std::string_view kName = "nielsen";
-constexpr double kHighest = 30e3;                            // m
-constexpr double kAirTerrain = 15e3, kAerosolTerrain = 5e3;  // scale heights, m
+constexpr double kHighest = 30e3;  // m
 
 // Hoffman & Preetham's Mie coefficient of turbidity 2 at 550 nm, 1/m:
 // 0.434 c pi (2 pi / lambda)^2 K with c = (0.6544 T - 0.6510) 1e-16 and K = 0.678.
@@ -53,47 +52,70 @@ Aerosol<N> aerosol_of(const literature::ClearAir<N>& green) {
 
 template <int N>
 Dual<N> radiance_of(const literature::ClearAir<N>& air, const Aerosol<N>& aerosol,
-                    const SkyPoint& point, const View& view, NielsenMean mean) {
+                    const SkyPoint& point, const View& view, const NielsenChoices& choices) {
   Shared<Dual<N>> shared;
   Shared<double> numbers;
   const double height = point.altitude_m, mu_s = std::cos(point.sun_zenith);
-  const auto through_sky = [&](double mu) {
-    return exp(-(air.air * numbers.nielsen_sky_depth(mu, numbers.nielsen_air_zenith_depth(height)) +
-                 air.aerosol_scattering *
-                     numbers.nielsen_sky_depth(mu, numbers.nielsen_aerosol_zenith_depth(height))));
+  const auto through_sky = [&](double from_height, double mu) {
+    return exp(-(air.air * numbers.nielsen_air_sky_depth(mu, from_height) +
+                 air.aerosol_scattering * numbers.nielsen_aerosol_sky_depth(mu, from_height)));
+  };
+  const auto sun_at = [&](double at_height) {
+    return choices.sun == NielsenSun::kPublished ? shared.nielsen_sunlight(aerosol.multiplier)
+                                                 : through_sky(at_height, mu_s);
   };
   const auto terrain_depth = [&](double length, double scale_height) {
-    return mean == NielsenMean::kOfDensities
+    return choices.mean == NielsenMean::kOfDensities
                ? numbers.nielsen_terrain_depth(height, 0, length, scale_height)
                : numbers.nielsen_mean_height_depth(height, 0, length, scale_height);
   };
   const auto through_terrain = [&](double length) {
-    return exp(-(air.air * terrain_depth(length, kAirTerrain) +
-                 air.aerosol_scattering * terrain_depth(length, kAerosolTerrain)));
+    return exp(
+        -(air.air * terrain_depth(length, numbers.nielsen_air_scale_height()) +
+          air.aerosol_scattering * terrain_depth(length, numbers.nielsen_aerosol_scale_height())));
   };
   const Dual<N> g = shared.nielsen_asymmetry(Dual<N>(height), Dual<N>(point.sun_zenith),
                                              aerosol.multiplier, aerosol.hazy_g);
-  constexpr double kPi = std::numbers::pi;
-  const double air_phase = 3 / (16 * kPi) * (2 + 0.5 * view.nu * view.nu);  // as published
+  const double air_phase = choices.phase == NielsenAirPhase::kPublished
+                               ? numbers.nielsen_air_phase(view.nu)
+                               : numbers.rayleigh_phase(air.depolarisation, view.nu);
   const bool ground = view.ray.hits_ground;
-  const Dual<N> sun = through_sky(mu_s), through = ground
-                                                       ? through_terrain(view.ray.length)
-                                                       : through_sky(std::cos(point.view_zenith));
+  const Dual<N> through =
+      ground ? through_terrain(view.ray.length) : through_sky(height, std::cos(point.view_zenith));
   const Dual<N> scattered = shared.mixed_path_inscatter(
       air.air, Dual<N>(air_phase), air.aerosol_scattering,
       shared.lobe_phase(static_cast<int>(aerosol.type), g, Dual<N>(view.nu)), through);
-  if (!ground) return sun * scattered;
-  return sun * (scattered + air.ground_albedo * (mu_s / kPi) * through);
+  const Dual<N> light = sun_at(height) * scattered;
+  if (!ground) return light;
+  return light + sun_at(0) * air.ground_albedo * (mu_s / std::numbers::pi) * through;
 }
 
 }  // namespace
+
+NielsenModel::NielsenModel(const NielsenChoices& choices) : choices_(choices), name_("nielsen") {
+  const auto add = [&](bool chosen, std::string_view name) {
+    if (chosen) name_.append(":").append(name);
+  };
+  add(choices.mean == NielsenMean::kOfHeights, kMeanHeight);
+  add(choices.phase == NielsenAirPhase::kRayleigh, kRayleighPhase);
+  add(choices.sun == NielsenSun::kThroughTheSky, kSunThroughSky);
+}
+
+NielsenChoices nielsen_choices(std::span<const std::string_view> names) {
+  const auto chosen = [&](std::string_view name) { return std::ranges::count(names, name) > 0; };
+  NielsenChoices choices;
+  if (chosen(NielsenModel::kMeanHeight)) choices.mean = NielsenMean::kOfHeights;
+  if (chosen(NielsenModel::kRayleighPhase)) choices.phase = NielsenAirPhase::kRayleigh;
+  if (chosen(NielsenModel::kSunThroughSky)) choices.sun = NielsenSun::kThroughTheSky;
+  return choices;
+}
 
 SkyValues NielsenModel::radiance(const Atmosphere<double>& atmosphere,
                                  std::span<const WavelengthNode> wavelengths,
                                  std::span<const SkyPoint> points,
                                  std::span<const Parameter> derivatives) const {
-  literature::check_request(kName, atmosphere, points, derivatives);
-  literature::check_daylight(kName, points, kHighest);
+  literature::check_request(name_, atmosphere, points, derivatives);
+  literature::check_daylight(name_, points, kHighest);
   const Shells shells = shells_of(atmosphere, Keep::kScatterers);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
@@ -104,9 +126,25 @@ SkyValues NielsenModel::radiance(const Atmosphere<double>& atmosphere,
         const Aerosol<N> aerosol = aerosol_of(literature::clear_air(shells, clear, {550, 0}));
         for (std::size_t i = 0; i < points.size(); ++i) {
           out[i] = radiance_of(air, aerosol, points[i], literature::view_of(atmosphere, points[i]),
-                               mean_);
+                               choices_);
         }
       });
+}
+
+std::optional<SkyRayTables> NielsenModel::sky_rays(const Atmosphere<double>& atmosphere,
+                                                   std::span<const WavelengthNode, 4>) const {
+  literature::check_request(name_, atmosphere, {}, {});
+  SkyRayTables rays =
+      literature::closed_form(SkyRayMapping::kNielsen, {name_, kHighest}, atmosphere);
+  rays.nielsen = choices_;
+  return rays;
+}
+
+NielsenAerosol nielsen_aerosol(const Atmosphere<double>& atmosphere) {
+  const Aerosol<0> aerosol = aerosol_of(
+      literature::clear_air(shells_of(atmosphere, Keep::kScatterers),
+                            literature::without_absorption(seeded<0>(atmosphere, {})), {550, 0}));
+  return {aerosol.type, aerosol.hazy_g.v, aerosol.multiplier.v};
 }
 
 // Its scale heights are its own.

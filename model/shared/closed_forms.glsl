@@ -27,6 +27,12 @@ Number nielsen_sky_depth(Number mu, Number zenith_depth_m) {
 }
 Number nielsen_air_zenith_depth(Number height_m) { return 20000.0 * exp(-height_m / 10000.0); }
 Number nielsen_aerosol_zenith_depth(Number height_m) { return 8000.0 * exp(-height_m / 20000.0); }
+Number nielsen_air_sky_depth(Number mu, Number height_m) {
+  return nielsen_sky_depth(mu, nielsen_air_zenith_depth(height_m));
+}
+Number nielsen_aerosol_sky_depth(Number mu, Number height_m) {
+  return nielsen_sky_depth(mu, nielsen_aerosol_zenith_depth(height_m));
+}
 
 // Nielsen 2003: mean of the densities at the two ends of a path near the terrain, times its length.
 Number nielsen_terrain_depth(Number from_height_m, Number to_height_m, Number length_m, Number scale_height_m) {
@@ -36,6 +42,20 @@ Number nielsen_terrain_depth(Number from_height_m, Number to_height_m, Number le
 // The other mean of Nielsen 2003: the density at the mean height, times the length.
 Number nielsen_mean_height_depth(Number from_height_m, Number to_height_m, Number length_m, Number scale_height_m) {
   return exp(-0.5 * (from_height_m + to_height_m) / scale_height_m) * length_m;
+}
+
+// Nielsen 2003: scale heights of paths near the terrain, m.
+Number nielsen_air_scale_height() { return Number(15000.0); }
+Number nielsen_aerosol_scale_height() { return Number(5000.0); }
+
+// Nielsen 2003: the phase function of air that he draws with, 1/sr. It has less contrast than Rayleigh's, 1.25 in the
+// place of 2, in the place of multiple scattering; its integral is 1.625.
+Number nielsen_air_phase(Number nu) { return 0.05968310365946075 * (2.0 + 0.5 * nu * nu); }  // 3 / (16 pi)
+
+// Nielsen 2003: the sun's light in haze over that in none, 9.2 - 550 times the factor on Hoffman & Preetham's Mie
+// coefficient, over 9.2; beyond the thickest haze of the source, 7e-3, as in that.
+Number nielsen_sunlight(Number mie_multiplier) {
+  return Number(1.0) - (550.0 / 9.2) * min(mie_multiplier, Number(7e-3));
 }
 
 // Nielsen 2003: asymmetry of the aerosol from the eye's height, the sun's zenith angle (radians) and the amount of haze,

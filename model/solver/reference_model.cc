@@ -16,6 +16,7 @@
 #include "model/atmosphere/derived.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/phase_moments.h"
+#include "model/atmosphere/refraction.h"
 #include "model/numerics/angles.h"
 #include "model/shared/shared.h"
 #include "model/solver/single_scattering.h"
@@ -97,11 +98,22 @@ using ByStokes = std::map<Stokes, std::vector<T>>;
 // docs/theory (13.2) and (13.3).
 // Per unit of single_scattering(): what a phase function or matrix makes of unpolarised light.
 template <int N>
-Dual<N> phase_of(const Scatterer<N>& scatterer, const SunAlongRay& sun, Stokes which) {
-  if (which == Stokes::kI) return phase_value(scatterer.phase, sun.nu());
+Dual<N> phase_of(const Scatterer<N>& scatterer, const SunAlongRay& sun, double nu, Stokes which) {
+  if (which == Stokes::kI) return phase_value(scatterer.phase, nu);
   const SunAlongRay::Azimuth turn = sun.twice_the_turn();
-  return polarising_phase_value(scatterer.phase, sun.nu()) *
+  return polarising_phase_value(scatterer.phase, nu) *
          (which == Stokes::kQ ? turn.cosine : turn.sine);
+}
+
+template <int N>
+PhaseAtNodes<N> phases_at(const Optics<N>& optics, const SunAlongRay& sun,
+                          const std::vector<double>& nu, Stokes which) {
+  PhaseAtNodes<N> phases;
+  for (const Scatterer<N>& scatterer : optics.scatterers) {
+    std::vector<Dual<N>>& of_scatterer = phases.emplace_back();
+    for (const double at : nu) of_scatterer.push_back(phase_of(scatterer, sun, at, which));
+  }
+  return phases;
 }
 
 template <int N>
@@ -135,12 +147,19 @@ ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<O
       std::vector<Dual<N>> to_eye, single;
       for (auto& [which, values] : light) {
         const std::vector<Dual<N>> extinction = extinction_to_eye(optics[w], which != Stokes::kI);
+        if (suns[i].is_refracted()) {
+          for (const Dual<N>& of_scatterer :
+               single_scattering(optics[w], along, sunlit, extinction,
+                                 phases_at(optics[w], suns[i], sunlit.nu, which)))
+            values[i * optics.size() + w] += of_scatterer;
+          continue;
+        }
         if (single.empty() || !same_values(extinction, to_eye))
           single = single_scattering(optics[w], along, sunlit, extinction);
         to_eye = extinction;
         for (std::size_t s = 0; s < single.size(); ++s)
           values[i * optics.size() + w] +=
-              single[s] * phase_of(optics[w].scatterers[s], suns[i], which);
+              single[s] * phase_of(optics[w].scatterers[s], suns[i], suns[i].nu(), which);
       }
     }
   });
@@ -222,7 +241,17 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
                              std::span<const SkyPoint> points,
                              std::span<const Parameter> derivatives,
                              const ReferenceOptions& options, std::span<const Stokes> wanted) {
-  const Shells shells = shells_of(atmosphere, Keep::kWhatMatters, derivatives);
+  Shells shells = shells_of(atmosphere, Keep::kWhatMatters, derivatives);
+  std::optional<Refraction> refraction;
+  std::vector<SkyPoint> refracted;
+  if (options.refraction) {
+    refraction.emplace(atmosphere, wavelengths.front().wavelength_nm);
+    shells = refraction->refracted(shells);
+    refracted.assign(points.begin(), points.end());
+    for (SkyPoint& p : refracted) p.altitude_m = refraction->refractive_height(p.altitude_m);
+    points = refracted;
+  }
+  const LightTurns* const turns = refraction ? &*refraction : nullptr;
   const LevelGrid levels(shells, options.levels);
   const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
   std::vector<SunAlongRay> suns;
@@ -231,7 +260,7 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
   Solutions<N> solutions{{}, std::vector<Fields>(points.size(), kDay)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ViewPath& path = rays.paths[rays.path_of_point[i]];
-    suns.emplace_back(shells.bottom_radius, path.ray, points[i]);
+    suns.emplace_back(shells.bottom_radius, path.ray, points[i], turns);
     if (path.sun_points.empty()) continue;
     SunRange range{1, -1};
     for (const RayPoint& p : path.sun_points) {
@@ -283,6 +312,35 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
   return result;
 }
 
+// Of one wavelength after another where each has its own rays.
+template <int N>
+std::vector<SkyValues> solve_by_wavelength(const Atmosphere<double>& atmosphere,
+                                           std::span<const WavelengthNode> wavelengths,
+                                           std::span<const SkyPoint> points,
+                                           std::span<const Parameter> derivatives,
+                                           const ReferenceOptions& options,
+                                           std::span<const Stokes> wanted) {
+  const std::size_t count = wavelengths.size();
+  if (!options.refraction || count <= 1)
+    return solve<N>(atmosphere, wavelengths, points, derivatives, options, wanted);
+  std::vector<SkyValues> all(
+      wanted.size(),
+      {static_cast<int>(points.size()), static_cast<int>(count),
+       static_cast<int>(derivatives.size()), std::vector<double>(points.size() * count),
+       std::vector<double>(points.size() * count * derivatives.size())});
+  for (std::size_t w = 0; w < count; ++w) {
+    const std::vector<SkyValues> one =
+        solve<N>(atmosphere, wavelengths.subspan(w, 1), points, derivatives, options, wanted);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      for (std::size_t i = 0; i < one[k].value.size(); ++i)
+        all[k].value[i * count + w] = one[k].value[i];
+      for (std::size_t i = 0; i < one[k].derivative.size(); ++i)
+        all[k].derivative[i * count + w] = one[k].derivative[i];
+    }
+  }
+  return all;
+}
+
 // The same, of any number of derivatives.
 std::vector<SkyValues> solve_all(const Atmosphere<double>& atmosphere,
                                  std::span<const WavelengthNode> wavelengths,
@@ -291,9 +349,11 @@ std::vector<SkyValues> solve_all(const Atmosphere<double>& atmosphere,
                                  const ReferenceOptions& options, std::span<const Stokes> wanted) {
   tbb::task_arena arena(options.threads);
   return arena.execute([&] {
-    if (derivatives.empty()) return solve<0>(atmosphere, wavelengths, points, {}, options, wanted);
+    if (derivatives.empty())
+      return solve_by_wavelength<0>(atmosphere, wavelengths, points, {}, options, wanted);
     return in_batches<kDerivativesAtOnce>(derivatives, [&](std::span<const Parameter> batch) {
-      return solve<kDerivativesAtOnce>(atmosphere, wavelengths, points, batch, options, wanted);
+      return solve_by_wavelength<kDerivativesAtOnce>(atmosphere, wavelengths, points, batch,
+                                                     options, wanted);
     });
   });
 }

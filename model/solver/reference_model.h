@@ -2,8 +2,8 @@
 // `reference`: the yardstick. Single scattering by quadrature in spherical geometry with the true
 // phase function; multiple scattering from the diffuse field (model/solver/diffuse_field.h), solved
 // in spherical shells, its source integrated along the spherical view ray at the local sun; Lambert
-// ground, ozone. Light that air scattered is polarised, no refraction. docs/theory/ derives it,
-// docs/accuracy.md states the error against Monte Carlo.
+// ground, ozone. Light that air scattered is polarised, and refracted where that is asked for.
+// docs/theory/ derives it, docs/accuracy.md states the error against Monte Carlo.
 #pragma once
 
 #include "model/sky_model.h"
@@ -23,6 +23,10 @@ struct ReferenceOptions {
   int order = 0;
   // Scalar transfer leaves polarisation out: off by up to 13 % in the blue, see docs/accuracy.md.
   Transfer transfer = Transfer::kVector;
+  // Refraction by air (model/atmosphere/refraction.h): view angles are those that an observer sees,
+  // suns stand where they would without air. Multiple scattering leaves out that the refracted
+  // beam spreads.
+  bool refraction = false;
 };
 
 class ReferenceModel final : public SkyModel {
@@ -30,6 +34,7 @@ class ReferenceModel final : public SkyModel {
   explicit ReferenceModel(const ReferenceOptions& options);  // throws std::invalid_argument
   std::string_view name() const override { return "reference"; }
   Transfer transfer() const override { return options_.transfer; }
+  bool refracts() const override { return options_.refraction; }
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;

@@ -153,8 +153,13 @@ SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunA
   result.weight = nodes.weight;
   std::vector<double> mu_s;
   for (std::size_t i = 0; i < nodes.points.size(); ++i) {
-    mu_s.push_back(sun.mu_s(nodes.points[i]));
-    if (sun.lit(nodes.points[i], mu_s.back())) continue;
+    const RayPoint& p = nodes.points[i];
+    mu_s.push_back(sun.mu_s(p));
+    result.nu.push_back(sun.nu(p, mu_s.back()));
+    if (sun.lit(p, mu_s.back())) {
+      result.weight[i] *= sun.beam_spread(p, mu_s.back());
+      continue;
+    }
     result.weight[i] = 0;
     mu_s.back() = 1;  // any that has a column
   }
@@ -172,7 +177,8 @@ SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunA
 template <int N>
 std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
                                        const SunlitNodes& sunlit,
-                                       const std::vector<Dual<N>>& to_eye) {
+                                       const std::vector<Dual<N>>& to_eye,
+                                       const PhaseAtNodes<N>& phase) {
   const std::size_t count = nodes.points.size(), profiles = optics.profiles.size();
   // By the whole way at the sun's extinction, then along the ray by how much that to the eye
   // differs.
@@ -198,8 +204,12 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
   kernels::weighted_transmittances(count, sunlit.weight.data(), terms.size(), columns.data(),
                                    extinction.data(), through.data());
   std::vector<Dual<N>> light;
-  for (const Scatterer<N>& scatterer : optics.scatterers) {
+  const std::vector<double> without_phase = through;
+  for (std::size_t k = 0; k < optics.scatterers.size(); ++k) {
+    const Scatterer<N>& scatterer = optics.scatterers[k];
     const std::vector<std::vector<double>>& density = nodes.density[scatterer.profile];
+    for (std::size_t i = 0; !phase.empty() && i < count; ++i)
+      through[i] = without_phase[i] * phase[k][i].v;
     // docs/theory (8.2) and (8.3).
     // Sum over the ray of rho T ds; d T = -T d tau, tau = sum of extinction times column.
     Dual<N> sum(
@@ -218,6 +228,8 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
                   kernels::dot(count, scattered.data(), (*term.columns)[1 + s].data()),
               optics.shape[term.profile][s]);
       }
+      for (std::size_t i = 0; !phase.empty() && i < count; ++i)
+        add(without_phase[i] * density[0][i], phase[k][i]);
     }
     light.push_back(scatterer.scattering * sum);
   }
@@ -225,9 +237,10 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
 }
 
 template std::vector<Dual<0>> single_scattering<0>(const Optics<0>&, const RayNodes&,
-                                                   const SunlitNodes&, const std::vector<Dual<0>>&);
+                                                   const SunlitNodes&, const std::vector<Dual<0>>&,
+                                                   const PhaseAtNodes<0>&);
 template std::vector<Dual<kDerivativesAtOnce>> single_scattering<kDerivativesAtOnce>(
     const Optics<kDerivativesAtOnce>&, const RayNodes&, const SunlitNodes&,
-    const std::vector<Dual<kDerivativesAtOnce>>&);
+    const std::vector<Dual<kDerivativesAtOnce>>&, const PhaseAtNodes<kDerivativesAtOnce>&);
 
 }  // namespace skyfit

@@ -4,6 +4,8 @@
 // Four wavelengths in RGBA, values per unit solar irradiance.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace skyfit {
@@ -27,11 +29,35 @@ enum class SkyRayMapping {
   // Sums in the shader with tables of their own; `air`: transmittance, x: mu, y: r; `aerosol`:
   // multiple scattering, 1/sr, x: mu_s, y: height; model/literature/hillaire_tables.h.
   kHillaire,
+  // No tables: closed forms in the shader, of rays to the sky and of those to the ground.
+  kNielsen,
+  kHoffmanPreetham,
+};
+constexpr bool is_closed_form(SkyRayMapping mapping) {
+  return mapping == SkyRayMapping::kNielsen || mapping == SkyRayMapping::kHoffmanPreetham;
+}
+
+// What kNielsen leaves open, see model/literature/nielsen.h.
+enum class NielsenMean { kOfDensities, kOfHeights };
+enum class NielsenAirPhase { kPublished, kRayleigh };
+enum class NielsenSun { kPublished, kThroughTheSky };
+struct NielsenChoices {
+  NielsenMean mean = NielsenMean::kOfDensities;
+  NielsenAirPhase phase = NielsenAirPhase::kPublished;
+  NielsenSun sun = NielsenSun::kPublished;
+};
+
+// The observers whom a model without twilight and space knows: those below a height, by day.
+struct DaylightLimits {
+  std::string model;
+  double highest_m = 0;
 };
 
 struct SkyRayTables {
   SkyRayMapping mapping = SkyRayMapping::kFromOutside;
   Table air, aerosol;  // by which of them light was scattered last
+  NielsenChoices nielsen = {};
+  std::optional<DaylightLimits> limits = {};
 };
 
 }  // namespace skyfit

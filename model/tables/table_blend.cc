@@ -124,7 +124,8 @@ AtmosphereTables interpolated_tables(const AtmosphereTables& a, const Atmosphere
           interpolated(a.single, b.single, share),
           interpolated(a.phase, b.phase, share),
           {a.sky_rays.mapping, interpolated(a.sky_rays.air, b.sky_rays.air, share),
-           interpolated(a.sky_rays.aerosol, b.sky_rays.aerosol, share)}};
+           interpolated(a.sky_rays.aerosol, b.sky_rays.aerosol, share), a.sky_rays.nielsen,
+           a.sky_rays.limits}};
 }
 
 }  // namespace skyfit

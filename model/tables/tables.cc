@@ -94,7 +94,11 @@ void make_optical_depth(const Shells& shells, const NodeOptics& optics, Atmosphe
   });
 }
 
-void make_irradiance(double top, AtmosphereTables& tables) {
+// Of an observer's sky: the values [point][node] of its directions.
+using SkyLight =
+    std::function<std::vector<double>(double height, double mu_s, std::span<const SkySample> sky)>;
+
+void make_irradiance(double top, const SkyLight& light, AtmosphereTables& tables) {
   const int columns = tables.sizes.irradiance_mu_s, rows = tables.sizes.irradiance_r;
   tables.irradiance = make_table(columns, rows, 1);
   tbb::parallel_for(0, columns, [&](int x) {
@@ -106,13 +110,37 @@ void make_irradiance(double top, AtmosphereTables& tables) {
                                       tables.atmosphere.bottom_radius_m);
       const std::vector<SkySample> sky = sky_samples(mu_s, kPolar, kAzimuth);
       NodeValues sum{};
-      for (const SkySample& sample : sky) {
-        const NodeValues l = lookup_radiance(tables, h, sample.mu, mu_s, sample.nu, false);
-        for (std::size_t k = 0; k < 4; ++k) sum[k] += sample.weight * l[k];
-      }
+      const std::vector<double> values = light(h, mu_s, sky);
+      for (std::size_t i = 0; i < sky.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += sky[i].weight * values[4 * i + k];
       store(tables.irradiance, x, y, sum);
     }
   });
+}
+
+SkyLight looked_up(const AtmosphereTables& tables) {
+  return [&](double height, double mu_s, std::span<const SkySample> sky) {
+    std::vector<double> values;
+    for (const SkySample& sample : sky) {
+      const NodeValues l = lookup_radiance(tables, height, sample.mu, mu_s, sample.nu, false);
+      values.insert(values.end(), l.begin(), l.end());
+    }
+    return values;
+  };
+}
+
+// Of a model by day: above its highest observer as his, of a sun below the horizon none.
+SkyLight of_daylight(const SkyModel& model, const AtmosphereTables& tables) {
+  return [&](double height, double mu_s, std::span<const SkySample> sky) {
+    if (mu_s <= 0) return std::vector<double>(4 * sky.size());
+    std::vector<SkyPoint> points;
+    for (const SkySample& sample : sky) {
+      points.push_back({std::min(height, tables.sky_rays.limits->highest_m), std::acos(mu_s),
+                        std::acos(sample.mu),
+                        std::acos(shared.cosine_of_azimuth(sample.mu, mu_s, sample.nu))});
+    }
+    return model.radiance(tables.atmosphere, tables.color.nodes, points, {}).value;
+  };
 }
 
 // A model's light on all rays from a height, into the texels from `first` on.
@@ -156,10 +184,18 @@ void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
   }
 }
 
+// Of a closed form nothing is read but the irradiance.
+TableSizes sizes_beside_closed_form(TableSizes sizes) {
+  sizes.scattering_r = sizes.scattering_ground = sizes.scattering_sky = sizes.scattering_mu_s =
+      sizes.scattering_azimuth = 2;
+  return sizes;
+}
+
 // Where the renderer sums the sky itself, the scattering tables hold the light before the ground
 // and in the irradiance alone, of single scattering, which is smooth; by Hillaire's method that in
 // the irradiance and before clouds.
 TableSizes sizes_beside(const std::optional<SkyRayTables>& own, TableSizes sizes) {
+  if (own && is_closed_form(own->mapping)) return sizes_beside_closed_form(sizes);
   if (!own || (own->mapping != SkyRayMapping::kONeil && own->mapping != SkyRayMapping::kHillaire))
     return sizes;
   sizes.scattering_r = std::min(sizes.scattering_r, 16);
@@ -219,14 +255,17 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const auto of_scattering = [&](double part) {
     if (progress) progress(kBefore + kScattering * part);
   };
-  if (model != nullptr) {
+  const bool closed = own && is_closed_form(own->mapping);
+  if (closed) {
+    tables.sky_rays = std::move(*own);
+  } else if (model != nullptr) {
     tabulate(*model, std::move(own), shells, tables, of_scattering);
   } else {
     tables.sky_rays = outside_tables(sizes.outside(), tables.phases);
     make_scattering_tables(shells, optics, tables, light, of_scattering);
   }
   make_optical_depth(shells, optics, tables);
-  make_irradiance(shells.top, tables);
+  make_irradiance(shells.top, closed ? of_daylight(*model, tables) : looked_up(tables), tables);
   if (progress) progress(1);
   return tables;
 }

@@ -195,11 +195,11 @@ def _shaped(flat, shape, dims, coords, wavelength_nm, derivatives):
     return Arrays(arrays, names, coords)
 
 
-def _how(model, derivatives, scalar, threads):
+def _how(model, derivatives, scalar, refraction, threads):
     if isinstance(derivatives, str):
         derivatives = [derivatives]
     derivatives = list(derivatives or [])
-    how = _skyfit.How(model, derivatives, scalar, threads or default_threads())
+    how = _skyfit.How(model, derivatives, scalar, refraction, threads or default_threads())
     return how, derivatives
 
 
@@ -219,6 +219,7 @@ def sky(
     derivatives=None,
     stokes=False,
     scalar=False,
+    refraction=False,
     threads=None,
 ):
     """The light of the sky at points, as `skyfit sky` computes it.
@@ -229,7 +230,8 @@ def sky(
     number. ``stokes=True`` adds Q, U, degree and angle of linear polarisation and needs
     wavelengths. `derivatives` names parameters: ``d_...`` holds the exact derivative by each, in
     the value's unit per the parameter's, the parameters as the first dimension. ``scalar=True``
-    leaves polarisation out of the light. Results do not depend on `threads`.
+    leaves polarisation out of the light; ``refraction=True`` curves the rays. Results do not depend
+    on `threads`.
     """
     places = {
         "altitude_m": _within("altitude_m", altitude_m, 0, _MAX_ALTITUDE_M),
@@ -238,7 +240,7 @@ def sky(
         "relative_azimuth_deg": _within("azimuth_deg", azimuth_deg, -360, 360),
     }
     shape, dims, coords, flat = _points(places)
-    how, derivatives = _how(model, derivatives, scalar, threads)
+    how, derivatives = _how(model, derivatives, scalar, refraction, threads)
     nm = _wavelengths(wavelength_nm)
     if stokes and nm is None:
         raise ValueError("wavelength_nm: expected wavelengths with stokes=True")
@@ -258,6 +260,7 @@ def irradiance(
     model="reference",
     derivatives=None,
     scalar=False,
+    refraction=False,
     threads=None,
 ):
     """Direct normal and horizontal, diffuse and global irradiance, as `skyfit sky --irradiance`.
@@ -269,7 +272,7 @@ def irradiance(
         "sun_zenith_deg": _within("sun_zenith_deg", sun_zenith_deg, 0, 180),
     }
     shape, dims, coords, flat = _points(places)
-    how, derivatives = _how(model, derivatives, scalar, threads)
+    how, derivatives = _how(model, derivatives, scalar, refraction, threads)
     values = _skyfit.irradiance(_preset(preset), *flat, _wavelengths(wavelength_nm), how)
     return _shaped(values, shape, dims, coords, wavelength_nm, derivatives)
 

@@ -128,6 +128,7 @@ def sky(
     derivatives: _Derivatives = None,
     stokes: bool = False,
     scalar: bool = False,
+    refraction: bool = False,
     threads: Optional[int] = None,
 ) -> Arrays: ...
 def irradiance(
@@ -139,6 +140,7 @@ def irradiance(
     model: str = "reference",
     derivatives: _Derivatives = None,
     scalar: bool = False,
+    refraction: bool = False,
     threads: Optional[int] = None,
 ) -> Arrays: ...
 def read(name_or_files: Union[_File, Sequence[_File]], **options: Any) -> Reference: ...

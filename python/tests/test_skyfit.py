@@ -66,6 +66,15 @@ def test_radiance_is_that_of_the_program():
     assert printed(sky["radiance_per_irradiance_sr"]) == list(theirs["radiance_per_irradiance_sr"])
 
 
+def test_refracted_radiance_is_that_of_the_program():
+    theirs = of_program(*VIEW_OPTIONS, "--wavelength-nm", "450", "--refraction")
+    sky = grid(wavelength_nm=450, refraction=True)
+    assert printed(sky["radiance_per_irradiance_sr"]) == list(theirs["radiance_per_irradiance_sr"])
+    assert printed(sky["radiance_per_irradiance_sr"]) != printed(
+        grid(wavelength_nm=450)["radiance_per_irradiance_sr"]
+    )
+
+
 def test_polarisation_is_that_of_the_program():
     theirs = of_program(*VIEW_OPTIONS, "--wavelength-nm", "450,550", "--stokes")
     sky = grid(wavelength_nm=NM, stokes=True)

@@ -105,6 +105,7 @@ void write_exr_file(const Frame& frame, const fs::path& file) {
   if (const auto& layers = frame.layers) {
     add("inscatter.", layers->in_scatter, "RGB");
     add("reflected.", layers->reflected, "RGB");
+    add("direct.", layers->direct, "RGB");
     add("transmittance.", layers->transmittance, "RGB");
     add("normal.", layers->normal, "XYZ");
     add("albedo.", layers->albedo, "RGB");

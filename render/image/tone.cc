@@ -19,6 +19,7 @@ double film(double x) {
 }
 
 double curved(double x, ToneCurve curve) {
+  if (curve == ToneCurve::kClip) return std::clamp(x, 0.0, 1.0);
   return curve == ToneCurve::kFilmic ? film(x) : 1 - std::exp(-std::max(x, 0.0));
 }
 

@@ -23,7 +23,7 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 7;
+  static constexpr int kRevision = 8;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice);
   void (*write_exr)(const Frame&, const std::filesystem::path&);

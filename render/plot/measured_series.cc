@@ -11,7 +11,8 @@
 namespace skyfit::plot {
 namespace {
 
-constexpr double kWidth = 1080, kHeader = 76, kFooter = 62, kRow = 170, kLeft = 96, kGap = 46;
+constexpr double kWidth = 1080, kHeader = 76, kFooter = 62, kRow = 170, kLeft = 96, kRight = 48,
+                 kGap = 46;
 
 struct Point {
   std::string time_utc;
@@ -52,7 +53,7 @@ std::map<std::string, Series> series_of(std::span<const MeasuredOutcome> fits) {
 }
 
 void draw_panel(Script& script, const Box& box, const std::string& name, const Series& series,
-                std::size_t index, bool last) {
+                std::size_t index, const char* time_format, bool last) {
   script.line("$series{} << EOD", index);
   for (const Point& point : series.points)
     script.line("{} {:.9g} {:.9g}", point.time_utc, point.value,
@@ -69,13 +70,19 @@ void draw_panel(Script& script, const Box& box, const std::string& name, const S
   script.line(
       "set xtics format '{}' nomirror textcolor rgb '#202020'; set ytics nomirror "
       "textcolor rgb '#202020'",
-      last ? "%H:%M" : "");
+      last ? time_format : "");
   script.line(
       "set format y '%g'; set autoscale; set offsets graph 0.03, graph 0.03, graph 0.1, graph 0.1");
-  script.line(
-      "plot $series{0} using 1:2 with lines lw 1.4 lc rgb '{1}' notitle, $series{0} using "
-      "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.6 lc rgb '{1}' notitle",
-      index, kCurveColors[0]);
+  constexpr std::size_t kMostJoined = 100;
+  if (series.points.size() <= kMostJoined) {
+    script.line(
+        "plot $series{0} using 1:2 with lines lw 1.4 lc rgb '{1}' notitle, $series{0} using "
+        "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.6 lc rgb '{1}' notitle",
+        index, kCurveColors[0]);
+  } else {
+    script.line("plot $series{} using 1:2:3 with yerrorbars pt 7 ps 0.3 lw 0.6 lc rgb '{}' notitle",
+                index, kCurveColors[0]);
+  }
   script.line("set xdata; set format y; set offsets 0, 0, 0, 0");
 }
 
@@ -87,18 +94,27 @@ Figure series_figure(std::span<const MeasuredOutcome> fits) {
   Script script(kWidth, height);
   script.line("set multiplot");
   script.begin_axes({0, 0, kWidth, height});
-  const std::string& first = all.begin()->second.points.front().time_utc;
-  script.text_label(16, height - 24, fmt::format("Unknowns over {}", first.substr(0, 10)),
+  std::string first = all.begin()->second.points.front().time_utc, last = first;
+  for (const auto& [name, series] : all) {
+    first = std::min(first, series.points.front().time_utc);
+    last = std::max(last, series.points.back().time_utc);
+  }
+  constexpr std::size_t kDate = 10;  // characters
+  const std::string first_day = first.substr(0, kDate), last_day = last.substr(0, kDate);
+  const bool one_day = first_day == last_day;
+  script.text_label(16, height - 24,
+                    one_day ? fmt::format("Unknowns over {}", first_day)
+                            : fmt::format("Unknowns, {} to {}", first_day, last_day),
                     "left font ',18'");
   script.text_label(16, height - 48, "error bars: one sigma",
                     "left font ',12' textcolor rgb '#404040'");
-  script.text_label(kLeft + (kWidth - kLeft) / 2, 18, "time, UTC", "center font ',13'");
+  script.text_label((kLeft + kWidth - kRight) / 2, 18, "time, UTC", "center font ',13'");
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
   std::size_t row = 0;
   for (const auto& [name, series] : all) {
     const double top = height - kHeader - kRow * static_cast<double>(row);
-    draw_panel(script, {kLeft, top - kRow + kGap / 2, kWidth - kLeft - 20, kRow - kGap}, name,
-               series, row, row + 1 == all.size());
+    draw_panel(script, {kLeft, top - kRow + kGap / 2, kWidth - kLeft - kRight, kRow - kGap}, name,
+               series, row, one_day ? "%H:%M" : "%Y-%m-%d", row + 1 == all.size());
     ++row;
   }
   script.line("unset multiplot");

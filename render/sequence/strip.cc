@@ -30,7 +30,7 @@ Frame empty_frame(int width, int height, bool layers) {
   frame.view_azimuth_deg.resize(pixels);
   frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
   const std::vector<float> layer(layers ? 3 * pixels : 0);
-  if (layers) frame.layers = FrameLayers{layer, layer, layer, layer, layer};
+  if (layers) frame.layers = FrameLayers{layer, layer, layer, layer, layer, layer};
   return frame;
 }
 
@@ -62,6 +62,7 @@ Frame side_by_side(std::span<const Frame> frames, int gap) {
     if (frame.layers) {
       add(frame.layers->in_scatter, 3, whole.layers->in_scatter);
       add(frame.layers->reflected, 3, whole.layers->reflected);
+      add(frame.layers->direct, 3, whole.layers->direct);
       add(frame.layers->transmittance, 3, whole.layers->transmittance);
       add(frame.layers->normal, 3, whole.layers->normal);
       add(frame.layers->albedo, 3, whole.layers->albedo);

@@ -17,12 +17,23 @@ layout(binding = 4) uniform sampler2D phase_table;   // logarithm of tabulated p
 
 const int kClasses = CLASSES;  // of phase functions but the Rayleigh-like one, model/tables/phase_classes.h
 
+// Of closed forms: the scattering coefficients of air and aerosol at density 1, 1/m; by Nielsen the asymmetry of thick haze
+// and the factor on the Mie coefficient; by Hoffman & Preetham the scale heights.
+#if defined(NIELSEN)
+#define CLOSED_FORM_CONSTANTS(HOW) HOW vec4 air_beta; HOW vec4 aerosol_beta; HOW vec2 nielsen_haze;
+#elif defined(CLOSED_FORM)
+#define CLOSED_FORM_CONSTANTS(HOW) HOW vec4 air_beta; HOW vec4 aerosol_beta; HOW vec2 scale_heights_m;
+#else
+#define CLOSED_FORM_CONSTANTS(HOW)
+#endif
+
 // The Rayleigh-like class's depolarisation; g, g1, g2 and weight of phase functions that are not tabulated (of another
 // Rayleigh phase function its depolarisation).
 #define ATMOSPHERE_CONSTANTS(HOW)       \
   HOW float depolarisation;             \
   HOW vec4 phase_parameters[CLASSES];   \
-  HOW vec4 ground_albedo;
+  HOW vec4 ground_albedo;               \
+  CLOSED_FORM_CONSTANTS(HOW)
 CONSTANTS(0, Atmosphere, ATMOSPHERE_CONSTANTS)
 
 const int kPhaseTypes[CLASSES] = int[CLASSES](PHASE_TYPES);  // PhaseType of model/atmosphere/constituent.h
@@ -78,6 +89,15 @@ vec4 class_phase(int c, float nu) {
   return vec4(lobe_phase(kPhaseTypes[c], p.x, nu));
 }
 
+// A point on the view ray, as the tables see it.
+struct Place {
+  float h, mu, mu_s;
+};
+
+#ifdef CLOSED_FORM
+#include "render/shaders/closed_form.glsl"
+#endif
+
 float height_coordinate(float h, float size) {
   return texture_from_unit(unit_from_height(h, thickness_km), size);
 }
@@ -102,7 +122,11 @@ vec4 sun_transmittance(float h, float mu_s) {
   float half_disc = sin_horizon * kSunRadius;
   float visible = smoothstep(-half_disc, half_disc, mu_s - mu_horizon);
   if (visible <= 0.0) return vec4(0.0);
+#ifdef CLOSED_FORM
+  return visible * closed_form_sun(h, mu_s);
+#else
   return visible * exp(-optical_depth_to_top(h, max(mu_s, mu_horizon)));
+#endif
 }
 
 // Below the lowest sun of the tables the twilight falls by e per degree of the sun's height.
@@ -114,11 +138,6 @@ vec4 sky_irradiance(float h, float mu_s) {
   float x = texture_from_unit(unit_from_sun(sun, LOWEST_SUN), irradiance_size.x);
   return deep_twilight(sun) * look_up(irradiance_table, vec2(x, height_coordinate(h, irradiance_size.y)));
 }
-
-// A point on the view ray, as the tables see it.
-struct Place {
-  float h, mu, mu_s;
-};
 
 Place place_along(Place from, float nu, float d) {
   float h = max(height_after(bottom_km, from.h, from.mu, d), 0.0);

@@ -58,6 +58,9 @@ vec2 disc(vec3 site_ray, vec3 across, vec3 along, vec3 sun) {
 
 struct PathLight {
   vec4 in_scatter, reflected, transmittance;
+#ifdef LAYERS
+  vec4 direct;  // the part of the reflected that is the sun's beam's
+#endif
 #ifdef DISC
   vec4 disc;  // part of the reflected
   float disc_cover;
@@ -68,6 +71,9 @@ PathLight no_light() {
   PathLight path;
   path.in_scatter = path.reflected = vec4(0.0);
   path.transmittance = vec4(1.0);
+#ifdef LAYERS
+  path.direct = vec4(0.0);
+#endif
 #ifdef DISC
   path.disc = vec4(0.0);
   path.disc_cover = 0.0;
@@ -97,6 +103,10 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   path.transmittance = light.transmittance;
 #else
   if (ray.air && surface.d > ray.entry) {
+#ifdef CLOSED_FORM
+    path.transmittance = closed_form_through(start, end.h, in_air);
+    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+#else
     // Both ends from the same table: nothing is left of its errors where they are near each other.
     path.transmittance = transmittance_between(start, end, ray.hits_ground);
 #ifdef HILLAIRE
@@ -105,6 +115,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     Scattering rest = scattering(end, nu, ray.hits_ground);
     path.in_scatter = radiance(scattering_before(whole.scattering, path.transmittance, rest), nu);
+#endif
 #endif
   }
 #endif
@@ -125,6 +136,13 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   if (surface.water) reflected += sea_radiance(at, -ray.direction, surface.up, sun, lit);
 #endif
   path.reflected = clear * path.transmittance * reflected;
+#ifdef LAYERS
+  path.direct = (kInversePi * surface.reflectance) * direct_irradiance(at, surface.normal, sun, lit);
+#ifdef SEA
+  if (surface.water) path.direct += sea_glitter_radiance(at, -ray.direction, surface.up, sun, lit);
+#endif
+  path.direct *= clear * path.transmittance;
+#endif
 #else
 PathLight light_of(int i, ViewRay ray, float clear) {
   vec3 sun = suns[i].xyz;
@@ -132,9 +150,14 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   Place start = place_of(ray, sun, nu);
   PathLight path = no_light();
   if (ray.air) {
+#ifdef CLOSED_FORM
+    path.transmittance = closed_form_to_sky(start.h, start.mu);
+    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+#else
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     path.in_scatter = radiance(whole.scattering, nu);
     path.transmittance = exp(-whole.depth);
+#endif
   }
 #ifdef DISC
   vec2 disc_and_cover = disc(square_ray, square_across, square_along, sun);
@@ -145,16 +168,22 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #ifndef SURFACE
   const float in_air = kInfinity;
 #endif
-#ifdef SHADOWS
+#if defined(SHADOWS) && !defined(CLOSED_FORM)
   if (i == 0 && ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air), 0.0);
 #endif
 #ifdef CLOUDS
   // Of the light behind a cloud the cloud lets the rest pass.
   if (clear < 1.0) {
     Place at = place_along(start, nu, cloud_distance(ray) - ray.entry);
+#ifdef CLOSED_FORM
+    vec4 dimming = closed_form_through(start, at.h, cloud_distance(ray) - ray.entry);
+    vec4 before = closed_form_inscatter(start, nu, dimming);
+#else
     vec4 dimming = transmittance_between(start, at, ray.hits_ground);
-    Scattering before = scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground));
-    path.in_scatter = mix(min(radiance(before, nu), path.in_scatter), path.in_scatter, clear);
+    vec4 before = radiance(
+        scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground)), nu);
+#endif
+    path.in_scatter = mix(min(before, path.in_scatter), path.in_scatter, clear);
     path.reflected += (1.0 - clear) * dimming * cloud_radiance(at, ray.h);
   }
 #endif
@@ -162,6 +191,12 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   path.reflected *= suns[i].w;
 #ifdef DISC
   path.reflected += path.disc;
+#endif
+#ifdef LAYERS
+  path.direct *= suns[i].w;
+#ifdef DISC
+  path.direct += path.disc;
+#endif
 #endif
   return path;
 }
@@ -173,6 +208,7 @@ struct Seen {
   vec4 disc;  // the suns' part of the light's colour; the share of the pixel that they cover
 #endif
 #ifdef LAYERS
+  // A frame has eight colour targets at most: the alphas of the first three hold the direct light's red, green and blue.
   vec4 in_scatter, reflected, transmittance, albedo, normal;
 #endif
 };
@@ -227,6 +263,9 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
 #endif
   path.in_scatter += other.in_scatter;
   path.reflected += other.reflected;
+#ifdef LAYERS
+  path.direct += other.direct;
+#endif
 #ifdef DISC
   path.disc += other.disc;
   path.disc_cover = min(path.disc_cover + other.disc_cover, 1.0);
@@ -239,10 +278,10 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   seen.disc = vec4(color_of(path.disc), path.disc_cover);
 #endif
 #ifdef LAYERS
-  vec3 white = color_of(vec4(1.0));
-  seen.in_scatter = vec4(color_of(path.in_scatter), 1.0);
-  seen.reflected = vec4(color_of(path.reflected), 1.0);
-  seen.transmittance = vec4(color_of(clear * path.transmittance) / white, 1.0);
+  vec3 white = color_of(vec4(1.0)), direct = color_of(path.direct);
+  seen.in_scatter = vec4(color_of(path.in_scatter), direct.r);
+  seen.reflected = vec4(color_of(path.reflected), direct.g);
+  seen.transmittance = vec4(color_of(clear * path.transmittance) / white, direct.b);
 #ifdef SURFACE
   seen.albedo = vec4(color_of(surface.reflectance) / white, 1.0);
   seen.normal = vec4(surface.normal, 1.0);

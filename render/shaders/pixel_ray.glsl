@@ -28,6 +28,15 @@ void pass_constants() {
   atmosphere.depolarisation = depolarisation;
   atmosphere.phase_parameters = phase_parameters;
   atmosphere.ground_albedo = ground_albedo;
+#ifdef CLOSED_FORM
+  atmosphere.air_beta = air_beta;
+  atmosphere.aerosol_beta = aerosol_beta;
+#ifdef NIELSEN
+  atmosphere.nielsen_haze = nielsen_haze;
+#else
+  atmosphere.scale_heights_m = scale_heights_m;
+#endif
+#endif
   material.grain_phase = grain_phase;
   material.grains_per_km = grains_per_km;
   material.crag_phase = crag_phase;

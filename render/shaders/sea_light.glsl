@@ -4,17 +4,28 @@
 #include "render/shaders/surface_light.glsl"
 #include "model/shared/sea.glsl"
 
+// The glitter alone, see below.
+vec4 sea_glitter_radiance(Place at, vec3 to_eye, vec3 up, vec3 sun, float lit) {
+  Place entry = where_light_enters(at);
+  return lit * sun_transmittance(entry.h, entry.mu_s) *
+         sea_glitter(max(dot(to_eye, up), 0.0), at.mu_s, dot(to_eye, sun), slope_variance);
+}
+
 // Toward the eye, per unit irradiance of the first sun; `to_eye` and `up` are unit vectors, `lit` is the part of the beam
 // that nothing shades. The sky is seen in the facets' mean slope, as from a mirror.
 vec4 sea_radiance(Place at, vec3 to_eye, vec3 up, vec3 sun, float lit) {
   Place entry = where_light_enters(at);
   float mu_v = max(dot(to_eye, up), 0.0);
-  vec4 beam = lit * sun_transmittance(entry.h, entry.mu_s);
-  vec4 light = beam * sea_glitter(mu_v, at.mu_s, dot(to_eye, sun), slope_variance);
+  vec4 light = sea_glitter_radiance(at, to_eye, up, sun, lit);
   vec3 aside = to_eye - mu_v * up;
   vec3 normal = normalize(up + sea_seen_slope(mu_v, slope_variance) / max(length(aside), 1e-6) * aside);
   vec3 mirrored = reflect(-to_eye, normal);
   float nu = clamp(dot(mirrored, sun), -1.0, 1.0);
   Place sky = Place(entry.h, clamp(dot(mirrored, up), 0.0, 1.0), at.mu_s);
-  return light + water_reflectance(dot(to_eye, normal)) * radiance(scattering(sky, nu, false), nu);
+#ifdef CLOSED_FORM
+  vec4 mirrored_light = closed_form_sky(sky, nu);
+#else
+  vec4 mirrored_light = radiance(scattering(sky, nu, false), nu);
+#endif
+  return light + water_reflectance(dot(to_eye, normal)) * mirrored_light;
 }

@@ -16,6 +16,12 @@ Place where_light_enters(Place at) {
 #endif
 }
 
+// Of the sun's beam alone, see below.
+vec4 direct_irradiance(Place at, vec3 normal, vec3 sun, float lit) {
+  Place entry = where_light_enters(at);
+  return lit * sun_transmittance(entry.h, entry.mu_s) * max(dot(normal, sun), 0.0);
+}
+
 // The irradiance of a surface that faces `normal`; `lit` is the part of the sun's beam that nothing shades.
 vec4 surface_irradiance(Place at, vec3 normal, vec3 up, vec3 sun, float lit) {
   Place entry = where_light_enters(at);

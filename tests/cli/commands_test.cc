@@ -51,6 +51,21 @@ TEST_F(CommandsTest, CompletionKnowsCommandsAndOptions) {
   }
 }
 
+TEST_F(CommandsTest, ManualPagesNameCommandsAndOptions) {
+  output({"man", "--out-dir", "man"});
+  const std::string all = read("man/skyfit.1");
+  for (const char* command : {"fit", "sky", "sky\\-map", "render", "campaign"})
+    EXPECT_THAT(all, HasSubstr(std::string(".BR skyfit\\-") + command + " (1)\n"));
+  const std::string fit = read("man/skyfit-fit.1");
+  EXPECT_THAT(fit, HasSubstr(".TH skyfit-fit 1"));
+  EXPECT_THAT(fit, HasSubstr(".B \\-\\-lobes INT\nLobes of the aerosol's phase function"));
+  EXPECT_THAT(fit, HasSubstr("Examples:\n  skyfit fit \\-\\-reference cie:12"));
+  EXPECT_EQ(output({"man", "fit"}), fit);
+  const Outcome unknown = run({"man", "fitt"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("expected one of fit, "));
+}
+
 TEST_F(CommandsTest, SkyMapIsWrittenWithItsSun) {
   EXPECT_THAT(output({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--size", "16", "--out",
                       "sky.hdr", "--sun-file", "sun.json"}),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cli/arguments.h"
 #include "cli/render_arguments.h"
 #include "model/atmosphere/preset.h"
 
@@ -84,6 +85,21 @@ TEST(RenderRequest, SceneOptions) {
   EXPECT_EQ(r.device, GraphicsDevice::kGpu);
   EXPECT_EQ(r.tone.curve, ToneCurve::kExponential);
   EXPECT_EQ(r.tone.exposure, 1e-4);
+}
+
+TEST(RenderRequest, WithoutAtmosphereNothingScatters) {
+  EXPECT_FALSE(
+      request({"--out", "x.png"}).sequence.keyframes[0].preset.atmosphere.constituents.empty());
+  EXPECT_TRUE(request({"--atmosphere", "off", "--out", "x.png"})
+                  .sequence.keyframes[0]
+                  .preset.atmosphere.constituents.empty());
+  EXPECT_EQ(request({"--tone", "clip", "--out", "x.png"}).tone.curve, ToneCurve::kClip);
+}
+
+TEST(RenderRequest, ModelsThatDoNotDrawAreRefused) {
+  EXPECT_EQ(request({"--model", "nielsen:sun-through-sky", "--out", "x.png"}).model,
+            "nielsen:sun-through-sky");
+  EXPECT_THROW(request({"--model", "preetham", "--out", "x.png"}), UsageError);
 }
 
 TEST(RenderRequest, StripsAreEvenlySpaced) {

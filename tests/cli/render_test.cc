@@ -182,7 +182,7 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--second-sun", "10,20,-1"}, {"second_sun.irradiance", "-1"});
   expect_render_refusal({"--clouds", "2"}, {"clouds.cover", "2"});
   expect_render_refusal({"--aerial", "fog"}, {"--aerial", "fog", "pixel or volume"});
-  expect_render_refusal({"--tone", "sepia"}, {"--tone", "sepia", "filmic or exponential"});
+  expect_render_refusal({"--tone", "sepia"}, {"--tone", "sepia", "filmic, exponential or clip"});
   expect_render_refusal({"--exposure", "0"}, {"--exposure", "0", "m^2/cd"});
   expect_render_refusal({"--layers"}, {"--layers", ".exr"});
 }

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fit/fit.h"
 #include "fit/problem/problem.h"
 #include "fit/result/report.h"
@@ -98,6 +100,38 @@ TEST(MeasuredAir, ThatIsPulledFromItsPressureIsSaid) {
   };
   EXPECT_THAT(report(950), HasSubstr("rayleigh.pressure is -"));
   EXPECT_THAT(report(1000), Not(HasSubstr("rayleigh.pressure is ")));
+}
+
+TEST(MeasuredAir, AKnownAerosolIsStartAndPrior) {
+  FitOptions options;
+  options.aerosol = refs::AerosolKnowledge{
+      Prior{0.2, 0.01}, Prior{1.4, 0.1}, Prior{0.95, 0.03}, {"prior: by a test"}};
+  const Problem problem = problem_of(scans(), options);
+  EXPECT_EQ(unknown(problem, "mie.scattering"), nullptr);
+  for (const auto& [name, prior] : {std::pair{"mie.optical_depth", Prior{0.2, 0.01}},
+                                    std::pair{"mie.angstrom_exponent", Prior{1.4, 0.1}},
+                                    std::pair{"mie.single_scattering_albedo", Prior{0.95, 0.03}}}) {
+    const Unknown* const known = unknown(problem, name);
+    ASSERT_NE(known, nullptr) << name;
+    ASSERT_TRUE(known->prior) << name;
+    EXPECT_EQ(known->prior->mean, prior.mean) << name;
+    EXPECT_EQ(known->prior->sigma, prior.sigma) << name;
+  }
+  const Atmosphere<double>& start = problem.start.atmosphere.front();
+  EXPECT_NEAR(aerosol_optical_depth(start), 0.2, 1e-12);
+  EXPECT_NEAR(vertical_optical_depth(start, start.at("mie"), {440, 0}),
+              0.2 * std::pow(440 / 550.0, -1.4), 1e-12);
+  EXPECT_EQ(problem.assumptions.front(), "prior: by a test");
+}
+
+TEST(MeasuredAir, WhatIsFixedOfAKnownAerosolHasNoPrior) {
+  FitOptions options;
+  options.aerosol = refs::AerosolKnowledge{Prior{0.2, 0.01}, Prior{1.4, 0.1}, {}, {}};
+  options.fix[{"mie", Quantity::kAngstromExponent}] = 1;
+  const Problem problem = problem_of(scans(), options);
+  EXPECT_EQ(unknown(problem, "mie.angstrom_exponent"), nullptr);
+  EXPECT_NE(unknown(problem, "mie.optical_depth"), nullptr);
+  EXPECT_EQ(problem.start.atmosphere.front().at("mie").angstrom_exponent, 1);
 }
 
 }  // namespace

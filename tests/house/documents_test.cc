@@ -13,6 +13,7 @@
 #include "data_refs/references.h"
 #include "fit/exchange/engines.h"
 #include "model/registry.h"
+#include "render/panels.h"
 #include "render/plot/measured_figures.h"
 #include "render/sky_map/projection.h"
 
@@ -54,6 +55,19 @@ TEST(Documents, NameEveryProjectionOfSkyMaps) {
   const std::string text = document("docs/rendering.md");
   for (const MapProjectionEntry& projection : map_projections())
     expect_in(text, fmt::format("| {} | {} |", projection.name, projection.meaning));
+}
+
+TEST(Documents, NameEveryPanelOfFrames) {
+  const std::string text = document("docs/rendering.md");
+  for (const PanelEntry& panel : frame_panels())
+    expect_in(text, fmt::format("| `frame.{}.png` | {} |", panel.name, panel.meaning));
+}
+
+TEST(Documents, NameEveryVariantOfModels) {
+  const std::string text = document("docs/models.md");
+  for (const SkyModelEntry& model : sky_models())
+    for (const SkyModelVariant& variant : model.variants)
+      expect_in(text, fmt::format("| `{}:{}` |", model.name, variant.name));
 }
 
 TEST(Documents, NameEveryProgramOfExports) {

@@ -51,7 +51,7 @@ std::string room_of(const std::string& path, std::span<const RoomRule> rules) {
 // such as dlfcn.h.
 bool is_system_header(const std::string& name) {
   static const std::regex system(
-      "[a-z0-9_]+|(dlfcn|link|unistd|fcntl|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
+      "[a-z0-9_]+|(dlfcn|link|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
       "[a-z]+\\.h");
   return std::regex_match(name, system);
 }
@@ -109,10 +109,14 @@ std::span<const RoomRule> room_rules() {
        {},
        kMath + std::vector<std::string>{"OpenImageIO"},
        kMathLibraries + std::vector<std::string>{"OpenImageIO::"}},
-      {"fit", kModelRooms + std::vector<std::string>{"model", "data_refs"},
+      {"fit", kModelRooms + std::vector<std::string>{"model", "data_refs", "fit/exchange/netcdf"},
        kMath + std::vector<std::string>{"ceres", "glog", "pugixml.hpp"},
        kMathLibraries +
            std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::", "pugixml::"}},
+      {"fit/exchange/netcdf",
+       {},
+       kMath + std::vector<std::string>{"netcdf.h", "hdf5.h"},
+       kMathLibraries + std::vector<std::string>{"PkgConfig::netCDF"}},
       {"render", kModelRooms + std::vector<std::string>{"model"},
        kMath + std::vector<std::string>{"glm", "glad", "GL", "EGL", "KHR", "OpenImageIO", "OpenEXR",
                                         "Imath", "Imf*", "tiny_obj_loader.h"},
@@ -124,7 +128,8 @@ std::span<const RoomRule> room_rules() {
       {"render/plot", kModelRooms + std::vector<std::string>{"model", "data_refs"}, kMath,
        kMathLibraries + std::vector<std::string>{"skyfit::model", "skyfit::refs"}},
       {"cli",
-       kModelRooms + std::vector<std::string>{"model", "data_refs", "fit", "render", "render/plot"},
+       kModelRooms + std::vector<std::string>{"model", "data_refs", "fit", "fit/exchange/netcdf",
+                                              "render", "render/plot"},
        kMath + std::vector<std::string>{"CLI"},
        kMathLibraries + std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli"}},
       {"python",

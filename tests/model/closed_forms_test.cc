@@ -49,14 +49,14 @@ TEST(HoffmanPreetham, GroundByHand) {
 
 TEST(HoffmanPreetham, RefusesTwilightAndHeight) {
   EXPECT_THROW(radiance("hoffman-preetham", {}, {0, 90 * kDegree, 0, 0}), std::invalid_argument);
-  EXPECT_THROW(radiance("hoffman-preetham", {}, {2000, 0, 0, 0}), std::invalid_argument);
+  EXPECT_THROW(radiance("hoffman-preetham", {}, {11e3, 0, 0, 0}), std::invalid_argument);
 }
 
 // From 3 km; haze 0.35 of the way from the clear asymmetry 0.4264 to g = 0.76: 0.54305.
 TEST(Nielsen, SkyByHand) {
   SkyPoint high = kSide;
   high.altitude_m = 3000;
-  EXPECT_NEAR(radiance("nielsen", {}, high) / 0.019300777413634274, 1, kDigits);
+  EXPECT_NEAR(radiance("nielsen:sun-through-sky", {}, high) / 0.019300777413634274, 1, kDigits);
 }
 
 TEST(Nielsen, BothEndsOfATerrainPathAreHalved) {
@@ -69,7 +69,7 @@ TEST(Nielsen, TheOtherMeanIsTheDensityAtTheMeanHeight) {
                    2 * std::exp(-1.0));
   const SkyPoint down{4e3, 30 * kDegree, 150 * kDegree, 1};
   const auto light = [&](NielsenMean mean) {
-    return NielsenModel(mean).radiance({}, {&kGreen, 1}, {&down, 1}, {}).at(0, 0);
+    return NielsenModel({.mean = mean}).radiance({}, {&kGreen, 1}, {&down, 1}, {}).at(0, 0);
   };
   // exp is convex: more air by the mean of the ends.
   EXPECT_GT(light(NielsenMean::kOfDensities), light(NielsenMean::kOfHeights));
@@ -213,7 +213,11 @@ TEST(ClosedForms, OfNoAirAreDark) {
 TEST(Models, HaveNamesThatMakeThem) {
   for (const SkyModelEntry& entry : sky_models())
     EXPECT_EQ(model_named(entry.name)->name(), entry.name);
-  EXPECT_THROW(model_named("nonsense"), std::invalid_argument);
+  for (const char* name :
+       {"nielsen:mean-height", "nielsen:mean-height:rayleigh-phase:sun-through-sky"})
+    EXPECT_EQ(model_named(name)->name(), name);
+  for (const char* wrong : {"nonsense", "nielsen:nonsense", "nielsen:", "oneil:mean-height"})
+    EXPECT_THROW(model_named(wrong), std::invalid_argument) << wrong;
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ void expect_same(const Frame& first, const Frame& second) {
   if (!first.layers) return;
   EXPECT_EQ(first.layers->in_scatter, second.layers->in_scatter);
   EXPECT_EQ(first.layers->reflected, second.layers->reflected);
+  EXPECT_EQ(first.layers->direct, second.layers->direct);
   EXPECT_EQ(first.layers->transmittance, second.layers->transmittance);
   EXPECT_EQ(first.layers->normal, second.layers->normal);
   EXPECT_EQ(first.layers->albedo, second.layers->albedo);

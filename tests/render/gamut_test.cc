@@ -59,7 +59,8 @@ TEST(ViewTransform, KeepsTheHueAndTheDisplaysRange) {
                                      {1, 0, 1},
                                      {0.9, 1, 1.1}}) {
     for (double exposure = 1e-2; exposure < 200; exposure *= 1.3) {
-      for (const ToneCurve curve : {ToneCurve::kFilmic, ToneCurve::kExponential}) {
+      for (const ToneCurve curve :
+           {ToneCurve::kFilmic, ToneCurve::kExponential, ToneCurve::kClip}) {
         ColorChannels scene = into_gamut(color, luminance_of(color, srgb), srgb);
         for (double& channel : scene) channel *= exposure;
         ToneOptions tone;
@@ -169,6 +170,14 @@ TEST_P(GamutOf, FrameIsNotNegativeAndTheSameLight) {
 INSTANTIATE_TEST_SUITE_P(Spaces, GamutOf,
                          ::testing::Values(Primaries::kRec709, Primaries::kRec2020,
                                            Primaries::kXyz));
+
+// Without a curve each channel is what it was, up to the display's white.
+TEST(ViewTransform, ClipCutsChannelsOff) {
+  ToneOptions tone;
+  tone.curve = ToneCurve::kClip;
+  tone.transform = ViewTransform::kChannels;
+  EXPECT_EQ(display_light({3, 1, 0.25}, tone), (ColorChannels{1, 1, 0.25}));
+}
 
 }  // namespace
 }  // namespace skyfit

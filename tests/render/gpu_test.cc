@@ -51,6 +51,7 @@ TEST(Gpu, DrawsTheSamePicture) {
   EXPECT_LT(difference_of(a.luminance, b.luminance), kAgreement);
   for (const auto& [name, layer] : {std::pair("in_scatter", &FrameLayers::in_scatter),
                                     {"reflected", &FrameLayers::reflected},
+                                    {"direct", &FrameLayers::direct},
                                     {"transmittance", &FrameLayers::transmittance},
                                     {"normal", &FrameLayers::normal},
                                     {"albedo", &FrameLayers::albedo}}) {

@@ -112,8 +112,8 @@ TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
   FrameLayers layers;
   // Every value of every layer is another one.
   float next = 1;
-  for (std::vector<float>* layer : {&layers.in_scatter, &layers.reflected, &layers.transmittance,
-                                    &layers.normal, &layers.albedo}) {
+  for (std::vector<float>* layer : {&layers.in_scatter, &layers.reflected, &layers.direct,
+                                    &layers.transmittance, &layers.normal, &layers.albedo}) {
     for (int i = 0; i < 3 * 16 * 4; ++i) layer->push_back(next += 0.5f);
   }
   frame.layers = layers;
@@ -122,12 +122,13 @@ TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
   const auto input = OIIO::ImageInput::open(file.string());
   ASSERT_TRUE(input);
   const OIIO::ImageSpec& spec = input->spec();
-  EXPECT_THAT(spec.channelnames,
-              UnorderedElementsAre(
-                  "R", "G", "B", "luminance.Y", "view.zenith_deg", "view.azimuth_deg", "Z",
-                  "inscatter.R", "inscatter.G", "inscatter.B", "reflected.R", "reflected.G",
-                  "reflected.B", "transmittance.R", "transmittance.G", "transmittance.B",
-                  "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B"));
+  EXPECT_THAT(
+      spec.channelnames,
+      UnorderedElementsAre("R", "G", "B", "luminance.Y", "view.zenith_deg", "view.azimuth_deg", "Z",
+                           "inscatter.R", "inscatter.G", "inscatter.B", "reflected.R",
+                           "reflected.G", "reflected.B", "direct.R", "direct.G", "direct.B",
+                           "transmittance.R", "transmittance.G", "transmittance.B", "normal.X",
+                           "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B"));
   std::vector<float> pixels(static_cast<std::size_t>(spec.nchannels) * 16 * 4);
   ASSERT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
   const auto expect_equal = [&](const std::vector<float>& values, const std::string& layer,
@@ -139,6 +140,7 @@ TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
   };
   expect_equal(layers.in_scatter, "inscatter.", "RGB");
   expect_equal(layers.reflected, "reflected.", "RGB");
+  expect_equal(layers.direct, "direct.", "RGB");
   expect_equal(layers.transmittance, "transmittance.", "RGB");
   expect_equal(layers.normal, "normal.", "XYZ");
   expect_equal(layers.albedo, "albedo.", "RGB");

@@ -145,7 +145,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Sky{"schafhitzel", "bruneton-2008", "valley", {80}},
                       Sky{"schafhitzel", "bruneton-2008", "limb", {30, 85, 90}},
                       Sky{"oneil", "earth-clear", "10km", {60, 92}},
-                      Sky{"oneil", "earth-clear", "limb", {30, 85, 90}}));
+                      Sky{"oneil", "earth-clear", "limb", {30, 85, 90}},
+                      Sky{"nielsen", "earth-hazy", "10km", {88}},
+                      Sky{"nielsen:rayleigh-phase:sun-through-sky", "nielsen-2003", "10km", {60}},
+                      Sky{"hoffman-preetham", "nielsen-2003", "10km", {30}}));
 
 }  // namespace
 }  // namespace skyfit

@@ -105,11 +105,13 @@ std::vector<ShaderStage> stages_of(const std::string& path,
 
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = thickness_m(tables);
-  return options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
+  return !is_closed_form(tables.sky_rays.mapping) && options.aerial == AerialPerspective::kVolume &&
+         only_ground && !options.second_sun &&
          options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
 }
 
 bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
+  if (is_closed_form(tables.sky_rays.mapping)) return false;
   return tables.sky_rays.mapping != SkyRayMapping::kFromOutside ||
          options.camera.altitude_m > thickness_m(tables);
 }
@@ -117,6 +119,7 @@ bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
 bool AtmosphereView::sees_grains() const { return !only_ground || nearest_m < grainless_m(*this); }
 
 bool AtmospherePass::has_sky_view(const FrameOptions& options) const {
+  if (is_closed_form(tables_.sky_rays.mapping)) return false;
   const bool hillaire = tables_.sky_rays.mapping == SkyRayMapping::kHillaire;
   return options.camera.altitude_m <= (hillaire ? thickness_m(tables_) : kAbove);
 }
@@ -129,6 +132,7 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables) {
   tables_.color = tables.color;
   tables_.sizes = tables.sizes;
   tables_.sky_rays.mapping = tables.sky_rays.mapping;
+  tables_.sky_rays.nielsen = tables.sky_rays.nielsen;
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
   tables_.phases = tables.phases;
   scattering_coefficients_ = scattering_texture(tables);

@@ -63,7 +63,7 @@ struct AtmosphereView {
   // The volume holds one sun's light before the ground, for an eye in the lower air; VOLUME
   // promises the shaders that both are in the air.
   bool volume(const AtmosphereTables& tables) const;
-  // Whole rays to the sky have tables of their own.
+  // Whole rays to the sky have tables of their own, or sums in the shader in their place.
   bool sky_rays(const AtmosphereTables& tables) const;
   bool sees_grains() const;  // of the ground, in some pixel
 };
@@ -77,7 +77,7 @@ class AtmospherePass {
   const AtmosphereTables& tables() const { return tables_; }  // without values
 
   // Whether whole rays are looked up once a frame: not from high above the air; by Hillaire's
-  // method from everywhere in it.
+  // method from everywhere in it; not by closed forms.
   bool has_sky_view(const FrameOptions& options) const;
   void add_sky_view(const FrameOptions& options, FrameGraph& graph) const;
   void draw_sky_view(const AtmosphereView& view);

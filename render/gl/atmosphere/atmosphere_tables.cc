@@ -10,7 +10,9 @@
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
 #include "model/literature/bruneton_tables.h"
+#include "model/literature/evaluate.h"
 #include "model/literature/hillaire_tables.h"
+#include "model/literature/nielsen.h"
 #include "model/literature/oneil.h"
 #include "model/shared/shared.h"
 
@@ -28,6 +30,32 @@ glm::vec4 ground_albedo(const AtmosphereTables& tables) {
         tables.atmosphere, tables.color.nodes[static_cast<std::size_t>(node)].wavelength_nm));
   }
   return albedo;
+}
+
+void set_closed_form(const AtmosphereTables& tables, UniformBlock& block) {
+  const auto air = literature::air_at_nodes(tables.atmosphere, tables.color.nodes);
+  block.set("air_beta", glm::vec4(air.air[0], air.air[1], air.air[2], air.air[3]));
+  block.set("aerosol_beta",
+            glm::vec4(air.aerosol[0], air.aerosol[1], air.aerosol[2], air.aerosol[3]));
+  if (tables.sky_rays.mapping == SkyRayMapping::kNielsen) {
+    const NielsenAerosol aerosol = nielsen_aerosol(tables.atmosphere);
+    block.set("nielsen_haze", glm::vec2(aerosol.hazy_g, aerosol.mie_multiplier));
+  } else {
+    block.set("scale_heights_m", glm::vec2(air.air_scale_height_m, air.aerosol_scale_height_m));
+  }
+}
+
+// What render/shaders/closed_form.glsl is compiled for.
+void define_closed_form(const AtmosphereTables& tables, std::vector<std::string>& defined) {
+  defined.emplace_back("CLOSED_FORM");
+  if (tables.sky_rays.mapping != SkyRayMapping::kNielsen) return;
+  const NielsenChoices& choices = tables.sky_rays.nielsen;
+  defined.emplace_back("NIELSEN");
+  defined.push_back(
+      fmt::format("NIELSEN_LOBE {}", static_cast<int>(nielsen_aerosol(tables.atmosphere).lobe)));
+  if (choices.mean == NielsenMean::kOfHeights) defined.emplace_back("NIELSEN_MEAN_HEIGHT");
+  if (choices.phase == NielsenAirPhase::kPublished) defined.emplace_back("NIELSEN_PUBLISHED_PHASE");
+  if (choices.sun == NielsenSun::kPublished) defined.emplace_back("NIELSEN_PUBLISHED_SUN");
 }
 
 }  // namespace
@@ -103,6 +131,7 @@ void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuff
   block.set("depolarisation", tables.phases.depolarisation);
   block.set("phase_parameters", std::span<const glm::vec4>(parameters));
   block.set("ground_albedo", ground_albedo(tables));
+  if (is_closed_form(tables.sky_rays.mapping)) set_closed_form(tables, block);
   block.bind(buffers);
 }
 
@@ -146,6 +175,7 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
                     fmt::format("HILLAIRE_SKY_VIEW {}, {}", Hillaire::sky_view_azimuth,
                                 Hillaire::sky_view_rows)});
   }
+  if (is_closed_form(tables.sky_rays.mapping)) define_closed_form(tables, defined);
   return defined;
 }
 

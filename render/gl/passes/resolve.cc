@@ -57,6 +57,22 @@ std::vector<float> resolve_color(const FrameGraph& graph, const std::string& nam
   return values;
 }
 
+// [pixel][3] of the direct light, which is in the alphas of three layers.
+std::vector<float> resolve_direct(const FrameGraph& graph, int samples_per_side,
+                                  const Frame& frame) {
+  std::vector<float> values(3 * frame.luminance.size(), 0);
+  const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
+  std::size_t k = 0;
+  for (const char* layer : {"in_scatter", "reflected", "transmittance"}) {
+    const std::vector<float> source = graph.read_back(layer, GL_RGBA, 4);
+    for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
+      values[3 * pixel + k] += part * source[4 * sample + 3];
+    });
+    ++k;
+  }
+  return values;
+}
+
 void resolve_discs(const FrameGraph& graph, int samples_per_side, Frame& frame) {
   const std::vector<float> discs = graph.read_back(kDiscWrite, GL_RGBA, 4);
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
@@ -104,11 +120,12 @@ FrameLayers resolve_layers(const FrameGraph& graph, int samples_per_side, const 
   FrameLayers layers;
   layers.in_scatter = resolve_color(graph, "in_scatter", samples_per_side, frame);
   layers.reflected = resolve_color(graph, "reflected", samples_per_side, frame);
+  layers.direct = resolve_direct(graph, samples_per_side, frame);
   layers.transmittance = resolve_color(graph, "transmittance", samples_per_side, frame);
   layers.normal = resolve_color(graph, "normal", samples_per_side, frame);
   layers.albedo = resolve_color(graph, "albedo", samples_per_side, frame);
   const ColorSpace& space = color_space(frame.primaries);
-  for (std::vector<float>* light : {&layers.in_scatter, &layers.reflected})
+  for (std::vector<float>* light : {&layers.in_scatter, &layers.reflected, &layers.direct})
     bring_into_gamut(space, {1, 1, 1}, *light);
   for (std::vector<float>* share : {&layers.transmittance, &layers.albedo})
     bring_into_gamut(space, space.white, *share);

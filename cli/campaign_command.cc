@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit campaign`: fits many measured skies in one way.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "cli/arguments.h"
+#include "cli/commands.h"
+#include "cli/fit_options.h"
+#include "cli/inputs.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "data_refs/absorption_bands.h"
+#include "data_refs/measured_formats.h"
+#include "data_refs/spectra.h"
+#include "fit/campaign/run.h"
+#include "fit/fit.h"
+#include "fit/problem/free_parameters.h"
+#include "model/base/whole_file.h"
+#include "model/registry.h"
+#include "render/plot/measured_figures.h"
+#include "render/plot/results.h"
+
+namespace skyfit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kNetcdf = "campaign.nc", *kCsv = "campaign.csv", *kText = "campaign.txt",
+                     *kSvg = "campaign.svg", *kPng = "campaign.png", *kScript = "campaign.slurm";
+
+struct CampaignArguments {
+  std::string plan, out, shard;
+  int slurm = 0, threads = default_threads();
+  bool merge = false;
+};
+
+// The options of `skyfit fit` that a plan states.
+class HowToFit {
+ public:
+  HowToFit(const fit::CampaignPlan& plan, const std::string& plan_name) {
+    add_fit_options(app_, arguments_);
+    app_.add_option("--model", arguments_.model);
+    add_refraction_option(app_, arguments_.refraction);
+    add_scalar_option(app_, arguments_.scalar);
+    try {
+      std::vector<std::string> reversed(plan.options.rbegin(), plan.options.rend());
+      app_.parse(reversed);
+    } catch (const CLI::ParseError& error) {
+      throw std::invalid_argument(fmt::format("{}: options: {}", plan_name, error.what()));
+    }
+    arguments_.threads = 1;  // the tasks run beside each other
+    import_ = parse_import_options(arguments_.import);
+    if (arguments_.bootstrap > 0 || !arguments_.profiles.empty() || !arguments_.hold_out.empty())
+      throw std::invalid_argument(
+          fmt::format("{}: options: expected none of bootstrap, profile and hold-out, which are "
+                      "for single fits",
+                      plan_name));
+    options_ = fit_options(arguments_, *model(transfer_of(arguments_.scalar)), app_);
+  }
+
+  refs::Reference read(const fs::path& file) const {
+    return refs::load_measured_sky(file, import_);
+  }
+  fit::Outcome fit(const fit::Task& task) const {
+    refs::Reference reference =
+        fit::task_reference(task, [this](const fs::path& file) { return read(file); });
+    if (!arguments_.keep_absorption_bands) refs::mask_absorption_bands(reference);
+    const SpectralData spectra = refs::spectral_data_of(fit::start_atmosphere(options_));
+    fit::FitOptions options = options_;
+    options.aerosol = known_aerosol(arguments_, reference);
+    return fit::outcome_of(
+        task, fit::fit_atmosphere(reference, spectra,
+                                  *model(transfer_for(reference, arguments_.scalar)), options));
+  }
+
+ private:
+  std::unique_ptr<SkyModel> model(Transfer transfer) const {
+    return sky_model_named(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
+                           transfer, arguments_.refraction);
+  }
+
+  CLI::App app_;
+  FitArguments arguments_;
+  refs::ImportOptions import_;
+  fit::FitOptions options_;
+};
+
+fit::Shard parse_shard(const std::string& text) {
+  if (text.empty()) return {};
+  constexpr const char* kExpected = "expected K/N, 1 <= K <= N, such as 3/10";
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) throw UsageError("--shard", text, kExpected);
+  const double index = parse_number("--shard", text.substr(0, slash)),
+               count = parse_number("--shard", text.substr(slash + 1));
+  constexpr double kMost = 1e6;
+  if (index < 1 || index > count || count > kMost || index != std::floor(index) ||
+      count != std::floor(count))
+    throw UsageError("--shard", text, kExpected);
+  return {static_cast<int>(index), static_cast<int>(count)};
+}
+
+// In single quotes for a shell.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
+}
+
+std::string slurm_script(const CampaignArguments& arguments) {
+  const std::string program = fs::read_symlink("/proc/self/exe").string(),
+                    plan = fs::absolute(arguments.plan).string(),
+                    out = fs::absolute(arguments.out).string();
+  const std::string command =
+      fmt::format("{} campaign {} --out {}", quoted(program), quoted(plan), quoted(out));
+  return fmt::format(
+      "#!/bin/bash\n"
+      "# Submit with sbatch; when the array is done: {} --merge\n"
+      "#SBATCH --job-name=skyfit\n"
+      "#SBATCH --array=1-{}\n"
+      "#SBATCH --cpus-per-task={}\n"
+      "exec {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"$SLURM_CPUS_PER_TASK\"\n",
+      command, arguments.slurm, arguments.threads, command, arguments.slurm);
+}
+
+// The misfit and the unknowns over the time of the tasks; nothing where no time is known.
+std::vector<plot::MeasuredOutcome> over_time(const std::vector<fit::Outcome>& outcomes) {
+  std::vector<plot::MeasuredOutcome> points;
+  for (const fit::Outcome& outcome : outcomes) {
+    if (!outcome.reason.empty() || !std::isfinite(outcome.time)) continue;
+    plot::MeasuredOutcome point;
+    point.scans.push_back(
+        {outcome.task, fit::iso_time(outcome), outcome.luminance, outcome.spectral});
+    point.unknowns.push_back({"misfit", "%", 0, outcome.misfit(), fit::Outcome::kNone});
+    for (const fit::Outcome::Value& value : outcome.unknowns) {
+      if (value.name.find('[') == std::string::npos)
+        point.unknowns.push_back({value.name, value.unit, 0, value.value, value.sigma});
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+void leave_summary(const CampaignArguments& arguments, const fit::CampaignRun& run) {
+  const std::vector<fit::Outcome> outcomes = fit::merged(run);
+  const std::string text = fit::campaign_text(outcomes);
+  const fs::path out = arguments.out;
+  fit::write_netcdf(out / kNetcdf, fit::netcdf_of(outcomes, fmt::format("A campaign of {} tasks",
+                                                                        outcomes.size())));
+  write_whole_file(out / kCsv, fit::campaign_csv(outcomes));
+  write_whole_file(out / kText, text);
+  const std::vector<plot::MeasuredOutcome> points = over_time(outcomes);
+  if (points.size() > 1) plot::write_figure(plot::series_figure(points), {out / kSvg, out / kPng});
+  print(text);
+}
+
+void run(const CampaignArguments& arguments) {
+  const fit::CampaignPlan plan = fit::load_plan(arguments.plan);
+  const fit::Shard shard = parse_shard(arguments.shard);
+  fs::create_directories(arguments.out);
+  require_writable_file(fs::path(arguments.out) / kCsv);
+  if (arguments.slurm > 0) {
+    const fs::path script = fs::path(arguments.out) / kScript;
+    write_whole_file(script, slurm_script(arguments));
+    print(fmt::format("sbatch {}\n", quoted(script.string())));
+    return;
+  }
+  const HowToFit how(plan, arguments.plan);
+  const std::vector<fit::Task> tasks = fit::tasks_of(
+      plan, named_files(), [&](const fs::path& file) { return how.read(file); }, arguments.threads);
+  const fit::CampaignRun campaign{plan, tasks, arguments.out};
+  if (!arguments.merge) {
+    Progress progress("fitting");
+    fit::run_campaign(
+        campaign, shard, arguments.threads,
+        [&](const fit::Task& task, int) { return how.fit(task); },
+        [&](std::size_t done, std::size_t all) {
+          progress.show(static_cast<double>(done) / static_cast<double>(all),
+                        fmt::format("{} of {} tasks", done, all));
+        });
+  }
+  if (arguments.merge || arguments.shard.empty()) leave_summary(arguments, campaign);
+}
+
+}  // namespace
+
+void add_campaign_command(CLI::App& app) {
+  const auto arguments = std::make_shared<CampaignArguments>();
+  CLI::App* const command =
+      app.add_subcommand("campaign", "Fits many measured skies in one way, each by itself.");
+  command->add_option("plan", arguments->plan, "Files, grouping and options (docs/campaigns.md)")
+      ->required()
+      ->type_name("PLAN.json");
+  command->add_option("--out", arguments->out, "Directory of the results; what is there stays")
+      ->required()
+      ->type_name("DIR");
+  auto* const shard = command
+                          ->add_option("--shard", arguments->shard,
+                                       "Only the K-th of N parts, for one of several machines that "
+                                       "share DIR; merge\nwhen all have run")
+                          ->type_name("K/N");
+  auto* const merge =
+      command->add_flag("--merge", arguments->merge, "Only put the results of all parts together")
+          ->excludes(shard);
+  command
+      ->add_option("--slurm", arguments->slurm,
+                   "Only write DIR/campaign.slurm, a job array of N parts")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100'000).description(""))
+      ->excludes(shard)
+      ->excludes(merge);
+  add_threads_option(*command, arguments->threads);
+  command->footer(
+      "A plan:\n"
+      "  {\"skyfit_campaign\": 1, \"inputs\": [\"scans/*.csv\"], \"group\": \"day\",\n"
+      "   \"options\": {\"lobes\": 1, \"fix\": [\"ground.albedo=0.2\"]}}\n"
+      "Groups: file (the default), scan, day, site. Options are those of skyfit fit.\n"
+      "\n"
+      "Leaves campaign.nc (NetCDF), campaign.csv, campaign.txt and, where times are known,\n"
+      "campaign.svg and campaign.png. A task that cannot be fitted is recorded with its reason\n"
+      "and stops no other. Run again, the command does what is missing or changed: results are\n"
+      "written in files of 64 tasks in DIR/tasks, each complete or absent.\n"
+      "\n"
+      "Examples:\n"
+      "  skyfit campaign plan.json --out campaign\n"
+      "  skyfit campaign plan.json --out campaign --shard 3/10\n"
+      "  skyfit campaign plan.json --out campaign --slurm 100");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace skyfit::cli

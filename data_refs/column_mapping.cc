@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/column_mapping.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "data_refs/csv.h"
+#include "model/base/text.h"
+
+namespace skyfit::refs {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, char>, 4> kDelimiters = {
+    {{",", ','}, {";", ';'}, {"tab", '\t'}, {"space", ' '}}};
+
+char delimiter_of(const ColumnMapping& mapping) {
+  return std::ranges::find(kDelimiters, mapping.delimiter,
+                           &std::pair<std::string_view, char>::first)
+      ->second;
+}
+
+std::vector<std::string> fields_of(const std::string& line, char delimiter) {
+  std::vector<std::string> fields;
+  if (delimiter == ' ') {
+    std::istringstream words(line);
+    for (std::string word; words >> word;) fields.push_back(word);
+    return fields;
+  }
+  for (const std::string_view field : split(line, delimiter)) fields.emplace_back(trim(field));
+  for (std::string& field : fields) {
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+      field = field.substr(1, field.size() - 2);
+  }
+  return fields;
+}
+
+// Where each column of the mapping stands.
+std::vector<std::size_t> places(const ColumnMapping& mapping, const std::vector<std::string>& names,
+                                std::string_view source, int line) {
+  std::vector<std::size_t> result;
+  for (const ColumnMapping::Column& column : mapping.columns) {
+    if (column.source.starts_with('#')) {
+      const std::optional<double> number = csv_number(column.source.substr(1));
+      result.push_back(static_cast<std::size_t>(number.value_or(1)) - 1);
+      continue;
+    }
+    const auto found = std::ranges::find(names, column.source);
+    if (found == names.end())
+      fail_at(source, line,
+              fmt::format("expected a column {} (columns.{} of the sidecar), got {}",
+                          in_quotes(column.source), column.name,
+                          excerpt(fmt::format("{}", fmt::join(names, ", ")))));
+    result.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  return result;
+}
+
+std::string value_of(const ColumnMapping::Column& column, std::string field, bool decimal_comma,
+                     std::string_view source, int line) {
+  if (decimal_comma) std::ranges::replace(field, ',', '.');
+  const std::optional<double> number = csv_number(field);
+  if (!number) {
+    if (column.times == 1 && column.plus == 0) return csv_field(field);  // a label, say
+    fail_at(source, line,
+            fmt::format("{} = {}: expected a number", column.source, in_quotes(field)));
+  }
+  return fmt::format("{}", column.times * *number + column.plus);
+}
+
+}  // namespace
+
+bool ColumnMapping::has(std::string_view name) const {
+  return std::ranges::count(columns, name, &Column::name) > 0;
+}
+
+ColumnMapping column_mapping(const PresetReader& sidecar) {
+  ColumnMapping mapping;
+  const PresetReader columns = sidecar.object("columns");
+  for (const auto& [name, value] : columns.value().items()) {
+    ColumnMapping::Column column{name, {}, 1, 0};
+    if (value.is_object()) {
+      const PresetReader object = columns.object(name);
+      object.expect_only({"column", "times", "plus"});
+      column.source = object.text("column");
+      if (object.has("times")) column.times = object.number("times");
+      if (object.has("plus")) column.plus = object.number("plus");
+    } else {
+      column.source = columns.text(name);
+    }
+    const std::optional<double> number =
+        column.source.starts_with('#') ? csv_number(column.source.substr(1)) : std::nullopt;
+    constexpr double kMostColumns = 100'000;
+    if (column.source.starts_with('#') &&
+        !(number && *number >= 1 && *number <= kMostColumns && *number == std::floor(*number)))
+      columns.fail_value(name, "a column's name, or its number such as #3");
+    mapping.columns.push_back(std::move(column));
+  }
+  if (mapping.columns.empty()) sidecar.fail_value("columns", "at least one column");
+  if (sidecar.has("delimiter")) {
+    mapping.delimiter = sidecar.text("delimiter");
+    if (std::ranges::count(kDelimiters, mapping.delimiter,
+                           &std::pair<std::string_view, char>::first) == 0)
+      sidecar.fail_value("delimiter", "\",\", \";\", \"tab\" or \"space\"");
+  }
+  if (sidecar.has("decimal_comma")) mapping.decimal_comma = sidecar.flag("decimal_comma");
+  if (sidecar.has("header")) mapping.header = sidecar.flag("header");
+  if (sidecar.has("skip_lines")) {
+    constexpr int kMostLines = 1'000'000;
+    const double lines = sidecar.number("skip_lines");
+    if (lines < 0 || lines > kMostLines || lines != std::floor(lines))
+      sidecar.fail_value("skip_lines", "a whole number >= 0");
+    mapping.skip_lines = static_cast<int>(lines);
+  }
+  if (mapping.decimal_comma && mapping.delimiter == ",")
+    sidecar.fail_value("decimal_comma", "another delimiter than a comma with it");
+  if (!mapping.header && std::ranges::any_of(mapping.columns, [](const auto& column) {
+        return !column.source.starts_with('#');
+      }))
+    sidecar.fail_value("columns", "numbers such as #3 where no line names the columns");
+  return mapping;
+}
+
+std::string mapped_text(std::string_view text, std::string_view source,
+                        const ColumnMapping& mapping,
+                        const std::vector<std::pair<std::string, double>>& constants) {
+  const char delimiter = delimiter_of(mapping);
+  // A spectral scan numbers its samples.
+  const bool numbered =
+      !mapping.has("sample") && std::ranges::any_of(mapping.columns, [](const auto& column) {
+        return column.name.starts_with("radiance_");
+      });
+  std::string names = numbered ? "sample" : "";
+  const auto add = [&](const std::string& name) {
+    if (!names.empty()) names += ',';
+    names += csv_field(name);
+  };
+  for (const ColumnMapping::Column& column : mapping.columns) add(column.name);
+  for (const auto& [name, value] : constants) add(name);
+
+  std::string result;
+  std::vector<std::size_t> place;
+  bool named = false;
+  int number = 0, sample = 0;
+  std::istringstream lines{std::string(text)};
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const bool skipped = number <= mapping.skip_lines;
+    const std::string_view content = trim(line);
+    if (skipped || content.empty() || content.starts_with('#')) {
+      result += skipped ? "#\n" : std::string(content) + "\n";
+      continue;
+    }
+    const std::vector<std::string> fields = fields_of(line, delimiter);
+    if (!named) {
+      place = places(mapping, fields, source, number);
+      named = true;
+      result += names;
+      if (mapping.header) {
+        result += '\n';
+        continue;
+      }
+      // The names take the place of a line that was skipped, or lines are counted one too far.
+      if (result.starts_with("#\n")) result.erase(0, 2);
+      result += '\n';
+    }
+    std::string row = numbered ? fmt::format("{}", sample++) : std::string();
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (place[i] >= fields.size())
+        fail_at(source, number,
+                fmt::format("expected at least {} columns, got {}", place[i] + 1, fields.size()));
+      if (!row.empty()) row += ',';
+      row += value_of(mapping.columns[i], fields[place[i]], mapping.decimal_comma, source, number);
+    }
+    for (const auto& [name, value] : constants) row += fmt::format(",{}", value);
+    result += row + '\n';
+  }
+  return result;
+}
+
+}  // namespace skyfit::refs

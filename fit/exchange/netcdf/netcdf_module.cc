@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/exchange/netcdf/netcdf_module.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <netcdf.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace skyfit::fit {
+namespace {
+
+// An open file: every call is checked, and the last one, which writes what is left, too.
+class OpenFile {
+ public:
+  OpenFile(const std::filesystem::path& file, bool writes)
+      : file_(file), doing_(writes ? "written" : "read") {
+    // Of every thread, or HDF5 prints what it looked for in vain.
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    check(writes ? nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_)
+                 : nc_open(file.c_str(), NC_NOWRITE, &id_));
+    open_ = true;
+  }
+  ~OpenFile() {
+    if (open_) nc_close(id_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  int id() const { return id_; }
+  void check(int status) const {
+    if (status != NC_NOERR) fail(nc_strerror(status));
+  }
+  [[noreturn]] void fail(std::string_view reason) const {
+    throw std::runtime_error(fmt::format("{}: cannot be {}: {}", file_.string(), doing_, reason));
+  }
+  void close() {
+    open_ = false;
+    check(nc_close(id_));
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::string_view doing_;
+  int id_ = -1;
+  bool open_ = false;
+};
+
+void put_text(const OpenFile& file, int variable, const char* name, const std::string& text) {
+  file.check(nc_put_att_text(file.id(), variable, name, text.size(), text.c_str()));
+}
+
+void define(const OpenFile& file, const NetcdfVariable& variable,
+            const std::vector<int>& dimensions, int& id) {
+  constexpr nc_type kTypes[] = {NC_DOUBLE, NC_INT, NC_STRING};  // by index of the variant
+  const nc_type type = kTypes[variable.values.index()];
+  file.check(nc_def_var(file.id(), variable.name.c_str(), type, static_cast<int>(dimensions.size()),
+                        dimensions.data(), &id));
+  const bool is_coordinate =
+      variable.dimensions.size() == 1 && variable.dimensions.front() == variable.name;
+  if (type == NC_DOUBLE && !is_coordinate) {  // a coordinate has no missing value
+    constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+    file.check(nc_def_var_fill(file.id(), id, NC_FILL, &kMissing));
+  }
+  if (type != NC_STRING && !dimensions.empty()) {
+    constexpr int kShuffle = 1, kDeflate = 1, kLevel = 1;
+    file.check(nc_def_var_deflate(file.id(), id, kShuffle, kDeflate, kLevel));
+  }
+  put_text(file, id, "long_name", variable.long_name);
+  if (!variable.units.empty()) put_text(file, id, "units", variable.units);
+}
+
+void put(const OpenFile& file, int id, const NetcdfVariable& variable) {
+  struct Put {
+    const OpenFile& file;
+    int id;
+    void operator()(const std::vector<double>& v) const {
+      file.check(nc_put_var_double(file.id(), id, v.data()));
+    }
+    void operator()(const std::vector<int>& v) const {
+      file.check(nc_put_var_int(file.id(), id, v.data()));
+    }
+    void operator()(const std::vector<std::string>& v) const {
+      std::vector<const char*> texts;
+      for (const std::string& text : v) texts.push_back(text.c_str());
+      file.check(nc_put_var_string(file.id(), id, texts.data()));
+    }
+  };
+  std::visit(Put{file, id}, variable.values);
+}
+
+void write(const std::filesystem::path& path, const NetcdfFile& content) {
+  OpenFile file(path, true);
+  for (const auto& [name, text] : content.attributes) put_text(file, NC_GLOBAL, name.c_str(), text);
+  std::vector<int> dimensions(content.dimensions.size()), variables;
+  for (std::size_t i = 0; i < dimensions.size(); ++i)
+    file.check(nc_def_dim(file.id(), content.dimensions[i].first.c_str(),
+                          content.dimensions[i].second, &dimensions[i]));
+  for (const NetcdfVariable& variable : content.variables) {
+    std::vector<int> own;
+    std::size_t size = 1;
+    for (const std::string& name : variable.dimensions) {
+      std::size_t i = 0;
+      while (i < dimensions.size() && content.dimensions[i].first != name) ++i;
+      if (i == dimensions.size()) file.fail("no dimension " + name);
+      own.push_back(dimensions[i]);
+      size *= content.dimensions[i].second;
+    }
+    if (std::visit([](const auto& v) { return v.size(); }, variable.values) != size)
+      file.fail(fmt::format("{} has not {} values", variable.name, size));
+    define(file, variable, own, variables.emplace_back());
+  }
+  file.check(nc_enddef(file.id()));
+  for (std::size_t i = 0; i < variables.size(); ++i) put(file, variables[i], content.variables[i]);
+  file.close();
+}
+
+std::string text_attribute(const OpenFile& file, int variable, const char* name) {
+  std::size_t length = 0;
+  if (nc_inq_attlen(file.id(), variable, name, &length) != NC_NOERR) return {};
+  std::string text(length, '\0');
+  file.check(nc_get_att_text(file.id(), variable, name, text.data()));
+  return text;
+}
+
+NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& content) {
+  char name[NC_MAX_NAME + 1];
+  nc_type type = 0;
+  int count = 0;
+  file.check(nc_inq_var(file.id(), id, name, &type, &count, nullptr, nullptr));
+  std::vector<int> dimensions(static_cast<std::size_t>(count));
+  file.check(nc_inq_vardimid(file.id(), id, dimensions.data()));
+  NetcdfVariable variable{
+      name, {}, {}, text_attribute(file, id, "long_name"), text_attribute(file, id, "units")};
+  std::size_t size = 1;
+  for (const int d : dimensions) {
+    const auto& [dimension, length] = content.dimensions[static_cast<std::size_t>(d)];
+    variable.dimensions.push_back(dimension);
+    size *= length;
+  }
+  if (type == NC_DOUBLE) {
+    std::vector<double> values(size);
+    file.check(nc_get_var_double(file.id(), id, values.data()));
+    variable.values = std::move(values);
+  } else if (type == NC_INT) {
+    std::vector<int> values(size);
+    file.check(nc_get_var_int(file.id(), id, values.data()));
+    variable.values = std::move(values);
+  } else if (type == NC_STRING) {
+    std::vector<char*> texts(size);
+    file.check(nc_get_var_string(file.id(), id, texts.data()));
+    std::vector<std::string> values;
+    for (const char* text : texts) values.emplace_back(text ? text : "");
+    nc_free_string(size, texts.data());
+    variable.values = std::move(values);
+  } else {
+    file.fail(fmt::format("{}: expected doubles, integers or texts", variable.name));
+  }
+  return variable;
+}
+
+NetcdfFile read(const std::filesystem::path& path) {
+  OpenFile file(path, false);
+  int dimensions = 0, variables = 0, attributes = 0;
+  file.check(nc_inq(file.id(), &dimensions, &variables, &attributes, nullptr));
+  NetcdfFile content;
+  char name[NC_MAX_NAME + 1];
+  for (int i = 0; i < dimensions; ++i) {
+    std::size_t length = 0;
+    file.check(nc_inq_dim(file.id(), i, name, &length));
+    content.dimensions.emplace_back(name, length);
+  }
+  for (int i = 0; i < attributes; ++i) {
+    file.check(nc_inq_attname(file.id(), NC_GLOBAL, i, name));
+    content.attributes.emplace_back(name, text_attribute(file, NC_GLOBAL, name));
+  }
+  for (int i = 0; i < variables; ++i) content.variables.push_back(read_variable(file, i, content));
+  file.close();
+  return content;
+}
+
+}  // namespace
+}  // namespace skyfit::fit
+
+extern "C" __attribute__((visibility("default"))) const void* skyfit_netcdf_module() {
+  static constexpr skyfit::fit::NetcdfModule kModule = {skyfit::fit::NetcdfModule::kRevision,
+                                                        skyfit::fit::write, skyfit::fit::read};
+  return &kModule;
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// What netcdf_file.cc calls in skyfit_netcdf_module (model/base/module_file.h), the part of fit/
+// that loads the NetCDF library.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace skyfit::fit {
+
+// A variable over dimensions of the file, the last one fastest. A number that is not known is NaN,
+// its _FillValue.
+struct NetcdfVariable {
+  std::string name;  // letters, digits and _
+  std::vector<std::string> dimensions;
+  std::variant<std::vector<double>, std::vector<int>, std::vector<std::string>> values;
+  std::string long_name, units;  // units: "1" of a number without; empty of texts
+};
+
+struct NetcdfFile {
+  std::vector<std::pair<std::string, std::size_t>> dimensions;
+  std::vector<NetcdfVariable> variables;
+  std::vector<std::pair<std::string, std::string>> attributes;  // of the whole
+};
+
+struct NetcdfModule {
+  static constexpr int kRevision = 1;
+  int revision;
+  // Throw std::runtime_error `file: cannot be written: ...`, `file: cannot be read: ...`.
+  void (*write)(const std::filesystem::path& file, const NetcdfFile& content);
+  NetcdfFile (*read)(const std::filesystem::path& file);
+};
+
+}  // namespace skyfit::fit
+
+// The module's only symbol.
+extern "C" const void* skyfit_netcdf_module();

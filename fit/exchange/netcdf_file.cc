@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/exchange/netcdf_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+#include "model/base/module_file.h"
+#include "model/base/whole_file.h"
+#include "model/version.h"
+
+namespace skyfit::fit {
+namespace {
+
+const NetcdfModule& module() { return module_named<NetcdfModule>("skyfit_netcdf_module"); }
+
+}  // namespace
+
+std::string netcdf_name(std::string_view name) {
+  std::string result(name);
+  std::ranges::replace_if(
+      result, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  while (result.ends_with('_')) result.pop_back();
+  return result;
+}
+
+NetcdfFile netcdf_file(std::string_view title) {
+  return {{},
+          {},
+          {{"Conventions", "CF-1.8"},
+           {"title", std::string(title)},
+           {"source", fmt::format("skyfit {}", kVersion)}}};
+}
+
+void write_netcdf(const std::filesystem::path& file, const NetcdfFile& content) {
+  WholeFiles files({file});
+  files.make(0,
+             [&](const std::filesystem::path& temporary) { module().write(temporary, content); });
+  files.publish();
+}
+
+NetcdfFile read_netcdf(const std::filesystem::path& file) { return module().read(file); }
+
+template <class Values>
+const Values& netcdf_values(const NetcdfFile& file, std::string_view variable,
+                            std::string_view source) {
+  const auto at = std::ranges::find(file.variables, variable, &NetcdfVariable::name);
+  if (at == file.variables.end() || !std::holds_alternative<Values>(at->values))
+    throw std::runtime_error(fmt::format("{}: no variable {} of this kind", source, variable));
+  return std::get<Values>(at->values);
+}
+
+template const std::vector<double>& netcdf_values(const NetcdfFile&, std::string_view,
+                                                  std::string_view);
+template const std::vector<int>& netcdf_values(const NetcdfFile&, std::string_view,
+                                               std::string_view);
+template const std::vector<std::string>& netcdf_values(const NetcdfFile&, std::string_view,
+                                                       std::string_view);
+
+}  // namespace skyfit::fit

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// `skyfit campaign` fits what a plan names, leaves NetCDF, CSV, text and figure, and does nothing
+// twice.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace skyfit::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class CampaignTest : public ProgramTest {
+ protected:
+  CampaignTest() {
+    const std::string example = std::string(SKYFIT_EXAMPLES) + "sky_scan_145.csv";
+    std::stringstream text;
+    text << std::ifstream(example).rdbuf();
+    std::string second = text.str();
+    const std::string day = "2024-05-15";
+    second.replace(second.find(day), day.size(), "2024-05-16");
+    write("scans/a.csv", text.str());
+    write("scans/b.csv", second);
+    write("scans/c.csv", "no sky\n");
+    write("plan.json",
+          R"({"skyfit_campaign": 1, "inputs": ["scans/*.csv"], "tasks_per_file": 2,
+              "options": {"lobes": 1, "starts": 1, "free": "mie.scattering"}})");
+  }
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+  std::string content(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+};
+
+TEST_F(CampaignTest, LeavesOneResultOfAll) {
+  const Outcome first = run({"campaign", in("plan.json"), "--out", in("out")});
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.out, StartsWith("3 tasks: 2 fitted, 0 of them outliers, 1 failed\n"));
+  EXPECT_THAT(first.out, HasSubstr("scans/c.csv: "));
+  for (const char* name : {"campaign.nc", "campaign.csv", "campaign.txt", "campaign.svg",
+                           "campaign.png", "tasks/000000.nc", "tasks/000001.nc"})
+    EXPECT_GT(std::filesystem::file_size(folder_ / "out" / name), 0u) << name;
+  EXPECT_EQ(lines(content("out/campaign.csv")).size(), 4u);
+
+  const auto written = std::filesystem::last_write_time(folder_ / "out/tasks/000000.nc");
+  EXPECT_EQ(run({"campaign", in("plan.json"), "--out", in("out")}).out, first.out);
+  EXPECT_EQ(std::filesystem::last_write_time(folder_ / "out/tasks/000000.nc"), written);
+
+  for (const char* shard : {"2/2", "1/2"})
+    EXPECT_EQ(run({"campaign", in("plan.json"), "--out", in("parts"), "--shard", shard}).status, 0);
+  EXPECT_EQ(run({"campaign", in("plan.json"), "--out", in("parts"), "--merge"}).out, first.out);
+  EXPECT_EQ(content("parts/campaign.nc"), content("out/campaign.nc"));
+}
+
+TEST_F(CampaignTest, WritesAJobArrayForSlurm) {
+  const Outcome slurm =
+      run({"campaign", in("plan.json"), "--out", in("o'ut"), "--slurm", "7", "--threads", "3"});
+  EXPECT_EQ(slurm.status, 0) << slurm.err;
+  const std::string script = content("o'ut/campaign.slurm");
+  EXPECT_THAT(script, HasSubstr("#SBATCH --array=1-7\n#SBATCH --cpus-per-task=3\n"));
+  EXPECT_THAT(script, HasSubstr("o'\\''ut' --shard \"$SLURM_ARRAY_TASK_ID/7\""));
+}
+
+TEST_F(CampaignTest, SaysWhatIsWrongWithThePlan) {
+  const auto complaint = [&](const std::string& plan, std::vector<std::string> more = {}) {
+    write("bad.json", plan);
+    std::vector<std::string> arguments = {"campaign", in("bad.json"), "--out", in("out")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
+    return outcome.err;
+  };
+  const std::string good = R"({"skyfit_campaign": 1, "inputs": ["scans/a.csv"]})";
+  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1})"), HasSubstr("inputs"));
+  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"lobe": 1}})"),
+              HasSubstr("bad.json: options: "));
+  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"bootstrap": 10}})"),
+              HasSubstr("for single fits"));
+  EXPECT_THAT(complaint(good, {"--shard", "3/2"}), HasSubstr("--shard \"3/2\": expected K/N"));
+  EXPECT_THAT(complaint(good, {"--merge"}), HasSubstr("1 of 1 tasks are missing"));
+}
+
+}  // namespace
+}  // namespace skyfit::cli

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Columns of somebody's own become those of a CSV of samples or of a spectral scan, and what is
+// wrong names the line of the file.
+#include "data_refs/column_mapping.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "data_refs/import_options.h"
+#include "data_refs/measured_formats.h"
+#include "model/base/temporary_directory.h"
+#include "model/base/whole_file.h"
+
+namespace skyfit::refs {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+class ColumnMappingTest : public ::testing::Test {
+ protected:
+  Reference read(const std::string& text, const std::string& sidecar) const {
+    write_file(folder_.path() / "sky.txt", text);
+    write_file(folder_.path() / "sky.txt.sidecar.json", sidecar);
+    return load_measured_sky(folder_.path() / "sky.txt", {});
+  }
+  std::string complaint(const std::string& text, const std::string& sidecar) const {
+    try {
+      read(text, sidecar);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "none";
+  }
+
+ private:
+  const TemporaryDirectory folder_;
+};
+
+TEST_F(ColumnMappingTest, MakesACsvOfSamplesWithTheSunOfTheTime) {
+  const Reference sky =
+      read("Station X\nmade by hand\nAzi;Elev;note;L\n90;60;clear;4,5\n270;30;clear;2,5\n",
+           R"({"columns": {"view_azimuth_deg": "Azi",
+                      "view_zenith_deg": {"column": "Elev", "times": -1, "plus": 90},
+                      "luminance_cd_m2": {"column": "#4", "times": 1000}},
+          "delimiter": ";", "decimal_comma": true, "skip_lines": 2,
+          "local_time": "2024-06-21T12:00:00", "utc_offset_h": 0,
+          "latitude_deg": 47.5, "longitude_deg": 0})");
+  EXPECT_EQ(sky.quantity, Quantity::kLuminance);
+  ASSERT_THAT(sky.samples, SizeIs(2));
+  EXPECT_NEAR(sky.samples[0].view_zenith, 30 * kDegree, 1e-12);
+  EXPECT_EQ(sky.samples[0].value, 4500);
+  EXPECT_EQ(sky.samples[1].value, 2500);
+  // Near the solstice's noon the sun stands in the south, 24 deg from the zenith.
+  EXPECT_NEAR(sky.samples[0].sun_zenith / kDegree, 47.5 - 23.44, 0.1);
+  EXPECT_NEAR(std::abs(sky.samples[0].relative_azimuth) / kDegree, 90, 2);
+}
+
+TEST_F(ColumnMappingTest, MakesASpectralScanWithoutAHeader) {
+  const Reference sky = read("10 40  0.21 0.12\n200 70  0.25 0.14\n",
+                             R"({"columns": {"view_azimuth_deg": "#1", "view_zenith_deg": "#2",
+                                             "radiance_440": "#3", "radiance_600": "#4"},
+                                 "delimiter": "space", "header": false, "unit": "W m-2 sr-1 nm-1",
+                                 "sun_zenith_deg": 30, "sun_azimuth_deg": 180})");
+  EXPECT_EQ(sky.quantity, Quantity::kSpectralRadiance);
+  ASSERT_THAT(sky.samples, SizeIs(4));
+  EXPECT_EQ(sky.samples[0].wavelength_nm, 440);
+  EXPECT_EQ(sky.samples[3].value, 0.14);
+}
+
+TEST_F(ColumnMappingTest, NamesLinesOfTheFile) {
+  const std::string sidecar =
+      R"({"columns": {"view_azimuth_deg": "Azi", "view_zenith_deg": "Zen",
+                      "luminance_cd_m2": {"column": "L", "times": 1000}},
+          "delimiter": "tab", "skip_lines": 1, "sun_zenith_deg": 30, "sun_azimuth_deg": 180})";
+  EXPECT_THAT(complaint("head\nAzi\tElev\tL\n", sidecar),
+              HasSubstr("sky.txt:2: expected a column \"Zen\" (columns.view_zenith_deg of the "
+                        "sidecar), got Azi, Elev, L"));
+  EXPECT_THAT(complaint("head\nAzi\tZen\tL\n1\t2\t3\n1\t2\tx\n", sidecar),
+              HasSubstr("sky.txt:4: L = \"x\": expected a number"));
+  EXPECT_THAT(complaint("head\nAzi\tZen\tL\n1\t2\n", sidecar),
+              HasSubstr("sky.txt:3: expected at least 3 columns, got 2"));
+  EXPECT_THAT(complaint("head\nAzi\tZen\tL\n1\t95\t3\n", sidecar), HasSubstr("sky.txt:3: "));
+}
+
+TEST_F(ColumnMappingTest, BadMappingsAreRefusedInALine) {
+  const auto with = [&](const std::string& fields) {
+    return complaint("a,b\n1,2\n", R"({"columns": {"view_zenith_deg": "a"}, )" + fields + "}");
+  };
+  EXPECT_THAT(with(R"("delimiter": "|")"), HasSubstr("\"tab\" or \"space\""));
+  EXPECT_THAT(with(R"("decimal_comma": true)"), HasSubstr("another delimiter"));
+  EXPECT_THAT(with(R"("header": false)"), HasSubstr("numbers such as #3"));
+  EXPECT_THAT(with(R"("skip_lines": 1.5)"), HasSubstr("a whole number >= 0"));
+  EXPECT_THAT(complaint("a\n", R"({"columns": {}})"), HasSubstr("at least one column"));
+  EXPECT_THAT(complaint("a\n", R"({"delimiter": ";"})"), HasSubstr("columns"));
+  EXPECT_THAT(complaint("a\n", R"({"columns": {"view_zenith_deg": "#0"}})"),
+              HasSubstr("its number such as #3"));
+}
+
+}  // namespace
+}  // namespace skyfit::refs
