@@ -220,5 +220,9 @@ std::map<Parameter, Bounds> parse_bounds(std::string_view option,
 
 double radians(double degrees) { return degrees * kRadiansPerDegree; }
 double degrees(double radians) { return radians * kDegreesPerRadian; }
+double whole_degrees(double radians) {
+  constexpr double kDigits = 1e10;
+  return std::round(degrees(radians) * kDigits) / kDigits;
+}
 
 }  // namespace skyfit::cli

@@ -84,5 +84,7 @@ std::map<Parameter, Bounds> parse_bounds(std::string_view option,
 
 double radians(double degrees);
 double degrees(double radians);
+// Sheds the noise of the way through radians: 5 degrees read 5 again, not 5.000000000000001.
+double whole_degrees(double radians);
 
 }  // namespace skyfit::cli

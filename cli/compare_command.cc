@@ -7,19 +7,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/compare_options.h"
 #include "cli/inputs.h"
 #include "cli/light_check.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/spectra.h"
-#include "data_refs/truth.h"
 #include "fit/exchange/result_netcdf.h"
 #include "fit/model_comparison.h"
-#include "fit/problem/sky_values.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "render/plot/comparison.h"
@@ -33,16 +31,6 @@ constexpr const char *kTextFile = "comparison.txt", *kCsvFile = "comparison.csv"
                      *kJsonFile = "comparison.json";
 constexpr const char* kFigureFiles[] = {"comparison.svg", "comparison.png"};
 constexpr const char* kFisheyeFile = "fisheye.png";
-constexpr const char* kOurs = "model:reference";
-
-struct CompareOptions {
-  std::string reference, sampling = "principal", sun_zenith = "0:80:10", models, preset, out,
-                         netcdf;
-  std::string exclude_sun = "3";
-  ImportArguments import;
-  int starts = 4, threads = default_threads();
-  bool fitted = false, scalar = false, force = false, json = false;
-};
 
 std::string variant_lines() {
   std::string text;
@@ -53,85 +41,6 @@ std::string variant_lines() {
             named_lines(entry.variants);
   }
   return text;
-}
-
-std::vector<std::string> model_names(const std::string& text) {
-  std::vector<std::string> names;
-  if (text.empty()) {
-    for (const SkyModelEntry& entry : sky_models()) names.emplace_back(entry.name);
-    return names;
-  }
-  std::istringstream parts(text);
-  for (std::string name; std::getline(parts, name, ',');) names.push_back(name);
-  for (const std::string& name : names) {
-    try {
-      make_sky_model(name, refs::standard_spectral_data(), 1);
-    } catch (const std::invalid_argument& unknown) {
-      throw UsageError("--models", text, unknown.what());
-    }
-  }
-  return names;
-}
-
-bool is_truth(const std::string& name) {
-  return std::ranges::count(refs::truth_references(), name, &refs::TruthEntry::name) > 0;
-}
-
-Preset preset_of(const CompareOptions& options) {
-  if (!options.preset.empty()) return preset_named(options.preset);
-  return is_truth(options.reference) ? refs::truth_preset(options.reference)
-                                     : preset_named("bodare-2014");
-}
-
-// Our own solver as the reference: its luminances where an analytic sky would be sampled.
-refs::Reference solved_reference(const CompareOptions& options, const Preset& preset) {
-  refs::Reference reference =
-      refs::load_reference("cie:12", parse_sun_zeniths(options.sun_zenith),
-                           parse_sampling(options.sampling));  // for its directions
-  reference.name = kOurs;
-  reference.description = fmt::format("the model \"reference\" with the preset {}", preset.name);
-  reference.quantity = refs::Quantity::kLuminance;
-  const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-  reference.transfer = transfer_of(options.scalar);
-  const auto model = make_sky_model("reference", spectra, options.threads, reference.transfer);
-  const fit::Dataset data = fit::dataset(reference, spectra, {true, 0, {}, 0});
-  const fit::SkyState state =
-      fit::start_state(preset.atmosphere, static_cast<int>(data.scans.size()));
-  const fit::SampleValues values = fit::sky_values(*model, data, state, {});
-  for (std::size_t i = 0; i < data.samples.size(); ++i)
-    reference.samples[data.samples[i].index].value = values.value(static_cast<Eigen::Index>(i));
-  return reference;
-}
-
-std::vector<fit::ModelComparison> compare_all(const CompareOptions& options,
-                                              const std::vector<std::string>& names,
-                                              const refs::Reference& reference,
-                                              const Preset& preset) {
-  Progress progress("comparing with " + reference.name);
-  fit::FitOptions how;
-  how.starts = options.starts;
-  how.threads = options.threads;
-  how.start = preset;
-  how.exclude_sun = radians(
-      parse_list_within("--exclude-sun-deg", options.exclude_sun, 0, 180, "an angle in degrees")
-          .front());
-  fit::validate(how);
-  std::vector<fit::ModelComparison> rows;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const double share = 1.0 / static_cast<double>(names.size());
-    how.progress = [&](double fraction, const std::string& status) {
-      progress.show(share * (static_cast<double>(i) + fraction),
-                    fmt::format("{}: {}", names[i], status));
-    };
-    progress.show(share * static_cast<double>(i), names[i]);
-    const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
-    rows.push_back(fit::compare_model(reference, spectra,
-                                      *make_sky_model(names[i], spectra, options.threads,
-                                                      transfer_for(reference, options.scalar)),
-                                      preset.atmosphere, how.exclude_sun,
-                                      options.fitted ? &how : nullptr));
-  }
-  return rows;
 }
 
 const std::optional<fit::ModelErrors>& shown(const fit::ModelComparison& row) {
@@ -214,19 +123,23 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
       options.out, {kTextFile, kCsvFile, kJsonFile, kFigureFiles[0], kFigureFiles[1], kFisheyeFile},
       options.force);
   require_netcdf(options.netcdf);
-  const std::vector<std::string> names = model_names(options.models);
-  const Preset preset = preset_of(options);
-  if (options.reference == kOurs && options.preset.empty())
-    throw UsageError("--preset", "", fmt::format("expected one with --reference {}", kOurs));
-  const refs::Reference reference = fit::comparison_reference(
-      options.reference == kOurs
-          ? solved_reference(options, preset)
-          : refs::load_reference(options.reference, parse_sun_zeniths(options.sun_zenith),
-                                 parse_sampling(options.sampling),
-                                 parse_import_options(options.import)),
-      refs::standard_spectral_data());
+  const CompareRequest request = compare_request(options);
+  const auto& [preset, reference, names] = request;
   if (options.reference != kOurs) warn_of_unused_options(command, options.reference);
-  const auto rows = compare_all(options, names, reference, preset);
+  std::vector<fit::ModelComparison> rows;
+  {
+    Progress progress("comparing with " + reference.name);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const double share = 1.0 / static_cast<double>(names.size());
+      progress.show(share * static_cast<double>(i), names[i]);
+      const auto model = model_of(options, request, names[i]);
+      rows.push_back(
+          compare_with(options, request, *model, [&](double fraction, const std::string& status) {
+            progress.show(share * (static_cast<double>(i) + fraction),
+                          fmt::format("{}: {}", names[i], status));
+          }));
+    }
+  }
   check_light(rows);
   const std::string text = fit::comparison_text(reference, rows);
   const nlohmann::json json = fit::comparison_json(reference, rows);
@@ -252,33 +165,9 @@ void add_compare_command(CLI::App& app) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* const command =
       app.add_subcommand("compare", "Compares sky models with a reference, side by side.");
-  command
-      ->add_option(
-          "--reference", options->reference,
-          "Shipped reference (skyfit references), perez:EPSILON,DELTA, a CSV of\n"
-          "samples, or model:reference, the reference model with the atmosphere of --preset")
-      ->required()
-      ->type_name("NAME|FILE");
-  add_sampling_options(*command, options->sampling, options->sun_zenith);
-  add_import_options(*command, options->import);
-  command->add_option("--models", options->models, "The models; by default all")
-      ->type_name("NAME,NAME");
-  command
-      ->add_option("--preset", options->preset,
-                   "The unfitted atmosphere; by default that of a truth, else bodare-2014")
-      ->type_name("FILE|NAME");
-  command->add_flag("--fitted", options->fitted,
-                    "Fit every model to the reference as well (minutes for bruneton)");
-  command->add_option("--starts", options->starts, "Starts of the phase parameters of a fit")
-      ->capture_default_str();
-  command
-      ->add_option("--exclude-sun-deg", options->exclude_sun, "Leave out samples closer to the sun")
-      ->type_name("ANGLE")
-      ->capture_default_str();
-  add_scalar_option(*command, options->scalar);
+  add_compare_options(*command, *options);
   add_result_options(*command, options->out, options->force, options->json, "comparison.json");
   add_netcdf_option(*command, options->netcdf, "Write the values of all models");
-  add_threads_option(*command, options->threads);
   command->footer(
       "Leaves comparison.txt, comparison.csv, comparison.json, comparison.svg, comparison.png and\n"
       "fisheye.png in the directory. Agreement with a CIE sky says little about a model: single\n"

@@ -11,12 +11,10 @@
 #include "cli/commands.h"
 #include "cli/fit_files.h"
 #include "cli/fit_options.h"
+#include "cli/fit_request.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "data_refs/absorption_bands.h"
-#include "data_refs/spectra.h"
 #include "fit/exchange/result_netcdf.h"
-#include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
 #include "fit/standard_sky.h"
 #include "model/base/whole_file.h"
@@ -25,39 +23,27 @@
 namespace skyfit::cli {
 namespace {
 
-FinishedFit fit_with_progress(const refs::Reference& reference, const SkyModel& model,
-                              fit::FitOptions options, const fit::CheckOptions& checks) {
-  Progress progress("fitting " + reference.name);
-  options.progress = [&](double fraction, const std::string& status) {
+FinishedFit fit_with_progress(FitRequest& request) {
+  Progress progress("fitting " + request.reference.name);
+  request.options.progress = [&](double fraction, const std::string& status) {
     progress.show(fraction, status);
   };
-  const SpectralData spectra = refs::spectral_data_of(fit::start_atmosphere(options));
-  FinishedFit finished{fit::fit_atmosphere(reference, spectra, model, options), {}};
-  options.progress = {};
-  finished.checks = fit::run_checks(spectra, model, options, finished.result, checks);
-  return finished;
+  return finished_fit(request, *request.model);
 }
 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
   require_netcdf(arguments.netcdf);
-  refs::Reference reference = load_references(arguments.reference, arguments.sun_zenith,
-                                              arguments.sampling, arguments.import, command);
-  const auto model =
-      sky_model_named(arguments.model, refs::standard_spectral_data(), arguments.threads,
-                      transfer_for(reference, arguments.scalar), arguments.refraction);
-  if (arguments.refraction) reference.notes.emplace_back("rays of the model are curved by air");
-  fit::FitOptions options = fit_options(arguments, *model, command);
-  options.aerosol = known_aerosol(arguments, reference);
-  if (const std::optional<int> type = fit::standard_sky_type(arguments.reference))
-    options = fit::with_standard_sky(options, fit::standard_sky_kind(*type, *model), *model);
-  const fit::CheckOptions checks = check_options(arguments);
-  if (!arguments.keep_absorption_bands) refs::mask_absorption_bands(reference);
-  const FinishedFit finished = fit_with_progress(reference, *model, options, checks);
+  FitRequest request = fit_request(arguments,
+                                   load_references(arguments.reference, arguments.sun_zenith,
+                                                   arguments.sampling, arguments.import, command),
+                                   command);
+  const FinishedFit finished = fit_with_progress(request);
   Figures figures;
-  out.publish(
-      [&](const std::filesystem::path& staging) { write_fit(staging, finished, *model, figures); });
+  out.publish([&](const std::filesystem::path& staging) {
+    write_fit(staging, finished, *request.model, figures);
+  });
   if (!arguments.netcdf.empty())
     fit::write_netcdf(arguments.netcdf, fit::netcdf_of(finished.result));
   if (!finished.result.converged) {
@@ -101,14 +87,9 @@ void add_fit_command(CLI::App& app) {
       ->required()
       ->type_name("NAME|FILE,FILE");
   add_fit_options(*command, *options);
-  command->add_option("--model", options->model, "Sky model")
-      ->type_name("NAME")
-      ->capture_default_str();
-  add_refraction_option(*command, options->refraction);
-  add_scalar_option(*command, options->scalar);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");
-  add_threads_option(*command, options->threads);
+  add_fit_model_options(*command, *options);
   command->footer(
       "Leaves preset.json, report.txt, report.json and samples.csv in the directory; of relative\n"
       "luminances the figure comparison, of absolute and spectral skies the figures maps, "

@@ -42,12 +42,6 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
   return files;
 }
 
-// Sheds the noise of the way through radians: 5 degrees read 5 again, not 5.000000000000001.
-double whole_degrees(double radians) {
-  constexpr double kDigits = 1e10;
-  return std::round(degrees(radians) * kDigits) / kDigits;
-}
-
 // Directions are where the instrument truly points; a sample outside the model's spectra, or of a
 // scan without a scale, is left out.
 std::vector<plot::Sample> samples_of(const fit::Result& result) {

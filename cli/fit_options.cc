@@ -213,6 +213,15 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
   add_check_options(command, arguments);
 }
 
+void add_fit_model_options(CLI::App& command, FitArguments& arguments) {
+  command.add_option("--model", arguments.model, "Sky model")
+      ->type_name("NAME")
+      ->capture_default_str();
+  add_refraction_option(command, arguments.refraction);
+  add_scalar_option(command, arguments.scalar);
+  add_threads_option(command, arguments.threads);
+}
+
 fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model,
                             const CLI::App& command) {
   fit::FitOptions result;
@@ -221,7 +230,11 @@ fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model
   result.max_iterations = arguments.max_iterations;
   result.exclude_sun = radians(parse_number("--exclude-sun-deg", arguments.exclude_sun));
   result.threads = arguments.threads;
-  if (command.count("--preset") > 0) result.start = preset_named(arguments.preset);
+  if (arguments.start) {
+    result.start = arguments.start;
+  } else if (command.count("--preset") > 0) {
+    result.start = preset_named(arguments.preset);
+  }
   result.site_pressure_hpa = parse_site_pressure(arguments.site_pressure);
   if (arguments.free == "none") {
     result.free.emplace();

@@ -26,9 +26,12 @@ struct FitArguments {
   int lobes = 0, starts = 4, max_iterations = fit::FitOptions{}.max_iterations,
       threads = default_threads(), bootstrap = 0, seed = 1;
   bool no_priors = false, keep_absorption_bands = false, force = false, json = false;
+  std::optional<Preset> start;  // of a caller that has it in memory, in the place of --preset
 };
 
+// Which sky, unknowns, likelihood and checks; and by which model, with how many threads.
 void add_fit_options(CLI::App& command, FitArguments& arguments);
+void add_fit_model_options(CLI::App& command, FitArguments& arguments);
 
 // Throw UsageError, and std::invalid_argument where options contradict each other.
 fit::FitOptions fit_options(const FitArguments& arguments, const SkyModel& model,

@@ -137,7 +137,11 @@ Keyframe parse_start(const RenderOptions& options, const CLI::App& command) {
   if (command.count("--sun-azimuth-deg") > 0)
     start.sun.direction.azimuth = parse_angle("--sun-azimuth-deg", options.sun_azimuth, -360, 360);
   if (command.count("--time") > 0) start.sun.time = parse_time(options, first_clock(options.time));
-  if (command.count("--preset") > 0) start.preset = preset_named(options.preset);
+  if (options.start) {
+    start.preset = *options.start;
+  } else if (command.count("--preset") > 0) {
+    start.preset = preset_named(options.preset);
+  }
   return start;
 }
 

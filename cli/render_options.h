@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct RenderOptions {
   bool scalar = false, shadows = false, layers = false, panels = false, gpu = false, stats = false;
   std::vector<std::string> out;
   int threads = default_threads();
+  std::optional<Preset> start;  // in the place of --preset, of a caller that has it in memory
 };
 
 // The models that draw frames, in a sentence.

@@ -124,11 +124,11 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
 
 }  // namespace
 
-RenderRequest render_request(const RenderOptions& options, const CLI::App& command) {
+RenderRequest frame_request(const RenderOptions& options, const CLI::App& command) {
   check_combinations(command);
   const bool is_file = command.count("--sequence") > 0;
   const bool is_day = options.time.find("..") != std::string::npos;
-  if (!is_file && command.count("--preset") == 0)
+  if (!is_file && !options.start && command.count("--preset") == 0)
     throw UsageError("--preset", "", "expected a shipped preset or a preset file");
   require_mode(command, is_day, is_file || is_day);
   RenderRequest request;
@@ -161,7 +161,6 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
     throw UsageError("--atmosphere", options.atmosphere, "expected on or off");
   }
   check_cameras(request);
-  check_outputs(options, request);
   request.scene = parse_scene(options, command);
   request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
   if (!sky_model_entry(options.model).draws_frames) {
@@ -176,6 +175,12 @@ RenderRequest render_request(const RenderOptions& options, const CLI::App& comma
   request.panels = options.panels;
   request.stats = options.stats;
   request.threads = options.threads;
+  return request;
+}
+
+RenderRequest render_request(const RenderOptions& options, const CLI::App& command) {
+  RenderRequest request = frame_request(options, command);
+  check_outputs(options, request);
   return request;
 }
 

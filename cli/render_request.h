@@ -38,7 +38,9 @@ struct RenderRequest {
 };
 
 // Throws UsageError and what the readers of presets and sequences throw, before anything is drawn:
-// files to be read can be, cameras and sizes are possible.
+// files to be read can be, cameras and sizes are possible. The first leaves open where the frames
+// go.
+RenderRequest frame_request(const RenderOptions& options, const CLI::App& command);
 RenderRequest render_request(const RenderOptions& options, const CLI::App& command);
 
 }  // namespace skyfit::cli

@@ -43,6 +43,17 @@ NodeSum srgb_channel(const XyzRule& rule, int channel) {
   return sum;
 }
 
+// sqrt(g C g) with the gradient g of the sum by the parameters of the covariance.
+double sigma_of(const NodeSum& sum, const SkyValues& sky, int point,
+                const Eigen::MatrixXd& covariance) {
+  Eigen::VectorXd gradient(covariance.rows());
+  for (Eigen::Index p = 0; p < gradient.size(); ++p)
+    gradient(p) = derivative_of(sum, sky, static_cast<int>(p), point);
+  return std::sqrt(std::max(gradient.dot(covariance * gradient), 0.0));
+}
+
+}  // namespace
+
 double value_of(const NodeSum& sum, const SkyValues& sky, int point) {
   double total = 0;
   for (std::size_t k = 0; k < sum.weight.size(); ++k) {
@@ -51,20 +62,14 @@ double value_of(const NodeSum& sum, const SkyValues& sky, int point) {
   return sum.not_negative ? std::max(total, 0.0) : total;
 }
 
-// sqrt(g C g) with the gradient g of the sum by the parameters of the covariance.
-double sigma_of(const NodeSum& sum, const SkyValues& sky, int point,
-                const Eigen::MatrixXd& covariance) {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(covariance.rows());
-  for (Eigen::Index p = 0; p < gradient.size(); ++p) {
-    for (std::size_t k = 0; k < sum.weight.size(); ++k) {
-      gradient(p) += sum.weight[k] * sky.derivative_at(static_cast<int>(p), point,
-                                                       static_cast<int>(sum.first_node + k));
-    }
+double derivative_of(const NodeSum& sum, const SkyValues& sky, int parameter, int point) {
+  double total = 0;
+  for (std::size_t k = 0; k < sum.weight.size(); ++k) {
+    total +=
+        sum.weight[k] * sky.derivative_at(parameter, point, static_cast<int>(sum.first_node + k));
   }
-  return std::sqrt(std::max(gradient.dot(covariance * gradient), 0.0));
+  return total;
 }
-
-}  // namespace
 
 SkyTable luminance_table(const SpectralData& data) {
   const LuminanceRule rule = luminance_rule(data);

@@ -22,6 +22,10 @@ struct NodeSum {
   bool not_negative = false;  // what the few nodes of a rule leave below 0 is 0
 };
 
+// The sum at a point, and its derivative by a parameter of `sky` (without regard to not_negative).
+double value_of(const NodeSum& sum, const SkyValues& sky, int point);
+double derivative_of(const NodeSum& sum, const SkyValues& sky, int parameter, int point);
+
 // One line of a place: its first fields, and what it prints of each of the place's points.
 struct SkyLine {
   std::string prefix;

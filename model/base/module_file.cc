@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,17 +15,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The file that holds this code: the program, or a library that a program such as Python has
+// loaded.
+struct Holder {
+  fs::path file;
+  bool is_library;
+};
+Holder holder() {
+  Dl_info info;
+  link_map* map = nullptr;
+  std::error_code none;
+  const bool found = dladdr1(reinterpret_cast<const void*>(&holder), &info,
+                             reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) != 0;
+  // The program itself has no name there.
+  if (found && map != nullptr && *map->l_name != '\0')
+    return {fs::canonical(map->l_name, none), true};
+  return {fs::read_symlink("/proc/self/exe", none), false};
+}
+
 // Where the build or the installation put the modules, in the order of trial. An installation may
 // have been moved as a whole: its library directory is known relative to that of its programs.
 std::vector<fs::path> module_directories() {
   std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  const auto [file, is_library] = holder();
   const fs::path build = fs::weakly_canonical(SKYFIT_MODULE_BUILD_DIR, none);
   std::vector<fs::path> directories;
-  const fs::path folder = program.parent_path();
+  const fs::path folder = file.parent_path();
+  if (is_library) directories.push_back(folder);
   if (folder.filename() == SKYFIT_PROGRAM_SUBDIR)
     directories.push_back(folder.parent_path() / SKYFIT_MODULE_SUBDIR);
-  const bool is_of_build = std::ranges::mismatch(build, program).in1 == build.end();
+  const bool is_of_build = std::ranges::mismatch(build, file).in1 == build.end();
   directories.emplace_back(is_of_build ? build : fs::path(SKYFIT_MODULE_DIR));
   return directories;
 }

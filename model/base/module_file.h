@@ -11,7 +11,9 @@ namespace skyfit {
 
 // What NAME() returns. A program of the build directory opens the modules of the build and no
 // others; any other opens those in the library directory beside its own (a moved installation) or
-// where CMake installs them, all by absolute path. Throws std::runtime_error with one line.
+// where CMake installs them, all by absolute path. A library that holds this code, such as the
+// Python package, counts as the program and may have the modules beside it. Throws
+// std::runtime_error with one line.
 const void* open_module(const std::string& name);
 
 // The struct of that module; kRevision is the one this program knows.

@@ -51,7 +51,8 @@ std::string room_of(const std::string& path, std::span<const RoomRule> rules) {
 // such as dlfcn.h.
 bool is_system_header(const std::string& name) {
   static const std::regex system(
-      "[a-z0-9_]+|(dlfcn|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/[a-z]+\\.h");
+      "[a-z0-9_]+|(dlfcn|link|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
+      "[a-z]+\\.h");
   return std::regex_match(name, system);
 }
 
@@ -108,8 +109,7 @@ std::span<const RoomRule> room_rules() {
        {},
        kMath + std::vector<std::string>{"OpenImageIO"},
        kMathLibraries + std::vector<std::string>{"OpenImageIO::"}},
-      {"fit",
-       kModelRooms + std::vector<std::string>{"model", "data_refs", "fit/exchange/netcdf"},
+      {"fit", kModelRooms + std::vector<std::string>{"model", "data_refs", "fit/exchange/netcdf"},
        kMath + std::vector<std::string>{"ceres", "glog", "pugixml.hpp"},
        kMathLibraries +
            std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::", "pugixml::"}},
@@ -132,6 +132,11 @@ std::span<const RoomRule> room_rules() {
                                               "render", "render/plot"},
        kMath + std::vector<std::string>{"CLI"},
        kMathLibraries + std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli"}},
+      {"python",
+       kModelRooms + std::vector<std::string>{"model", "data_refs", "fit", "render", "cli"},
+       kMath + std::vector<std::string>{"CLI", "pybind11"},
+       kMathLibraries +
+           std::vector<std::string>{"CLI11::", "skyfit::", "skyfit_cli", "pybind11::", "Python::"}},
   };
   return rules;
 }
