@@ -115,6 +115,19 @@ Profile Profile::with_tables(std::vector<LinearProfile> tables,
   return result;
 }
 
+namespace {
+constexpr double kOutside = 0.005;  // share of the column
+}  // namespace
+
+double Profile::bulk_thickness() const {
+  return table_->height_below(kOutside) - table_->height_below(1 - kOutside);
+}
+
+void Profile::take_as_layer() {
+  base_ = table_->height_below(1 - kOutside);
+  top_ = table_->height_below(kOutside);
+}
+
 Density Profile::density(double height) const {
   if (table_) {
     return {table_->density(height),

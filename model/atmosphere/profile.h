@@ -50,6 +50,10 @@ class Profile {
   // above them for every profile, and empty layers end at them.
   std::vector<double> quadrature_heights() const;
   bool is_layer() const { return top_ > 0; }
+  // A table that holds a cloud has quadrature and levels of a layer, from where a two-hundredth of
+  // its column lies below to where as much lies above.
+  void take_as_layer();
+  double bulk_thickness() const;  // of a table, between those two heights
   // Heights near which a layer of that optical depth wants levels of the solver, ascending; empty
   // for other profiles. They lie on a lattice and do not follow base, top and depth continuously,
   // so that a derivative by these holds the levels fixed, as a small difference does.

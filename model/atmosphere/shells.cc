@@ -66,11 +66,18 @@ Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Paramet
     shells.profile_of[i] = shells.profile_of[other];
     note_breaks(i);
   }
+  // Thick and in a small part of the atmosphere: a cloud, which the levels of clear air miss.
+  constexpr double kThick = 0.5, kNarrow = 0.055;
   for (std::size_t i = 0; i < a.constituents.size(); ++i) {
     if (shells.profile_of[i] == Shells::kNone) continue;
-    const auto profile = static_cast<std::size_t>(shells.profile_of[i]);
-    if (shells.profiles[profile].is_layer())
-      shells.layer_depth[profile] += depth_at_550(a.constituents[i], shells.profiles[profile]);
+    const auto at = static_cast<std::size_t>(shells.profile_of[i]);
+    Profile& profile = shells.profiles[at];
+    const VerticalProfile<double>& shape = own_profile(a, a.constituents[i]);
+    if (shape.type == ProfileType::kTabulated && scatters(a.constituents[i]) &&
+        depth_at_550(a.constituents[i], profile) > kThick &&
+        profile.bulk_thickness() < kNarrow * shells.top)
+      profile.take_as_layer();
+    if (profile.is_layer()) shells.layer_depth[at] += depth_at_550(a.constituents[i], profile);
   }
   return shells;
 }

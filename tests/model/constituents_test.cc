@@ -214,5 +214,30 @@ TEST(Layers, OfCloudAndCirrusAreAsAddingDoublingHasThem) {
   expect_within({0.5, 8000, 9000}, 0.008);
 }
 
+// The corners of a layer's edges, as kLayerEdge has them.
+TEST(Layers, AsATableTheyAreAsBright) {
+  Atmosphere<double> layered;
+  Constituent<double> cloud;
+  cloud.name = "cloud";
+  cloud.amount_type = AmountType::kOpticalDepth;
+  cloud.amount = 20;
+  cloud.profile.type = ProfileType::kLayer;
+  cloud.profile.base_m = 1000;
+  cloud.profile.top_m = 3000;
+  cloud.phase = {PhaseType::kHenyeyGreenstein, 0.85, 0, 0, 0};
+  layered.constituents.push_back(cloud);
+  Atmosphere<double> tabulated = layered;
+  const double edge = 0.5 * kLayerEdge * 2000;
+  tabulated.at("cloud").profile = tabulated_profile(std::make_shared<const LinearProfile>(
+      TwoColumns{{0, 1000 - edge, 1000 + edge, 3000 - edge, 3000 + edge}, {0, 0, 1, 1, 0}}));
+  const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
+  const auto nodes = spectral_nodes(refs::standard_spectral_data(), {550});
+  const std::vector<SkyPoint> points = {{0, 40 * kDegree, 0, 0},
+                                        {0, 40 * kDegree, 70 * kDegree, 1}};
+  const SkyValues a = model->radiance(layered, nodes, points, {}),
+                  b = model->radiance(tabulated, nodes, points, {});
+  for (std::size_t i = 0; i < a.value.size(); ++i) EXPECT_NEAR(b.value[i] / a.value[i], 1, 5e-3);
+}
+
 }  // namespace
 }  // namespace skyfit
