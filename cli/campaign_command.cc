@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `skyfit campaign`: fits many measured skies in one way.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,18 +9,14 @@
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/fit_options.h"
+#include "cli/fit_request.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "data_refs/absorption_bands.h"
 #include "data_refs/measured_formats.h"
 #include "data_refs/spectra.h"
 #include "fit/campaign/run.h"
-#include "fit/fit.h"
-#include "fit/problem/free_parameters.h"
 #include "model/base/whole_file.h"
-#include "model/registry.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/results.h"
 
@@ -60,34 +55,26 @@ class HowToFit {
           fmt::format("{}: options: expected none of bootstrap, profile and hold-out, which are "
                       "for single fits",
                       plan_name));
-    options_ = fit_options(arguments_, *model(transfer_of(arguments_.scalar)), app_);
+    const auto model =
+        sky_model_named(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
+                        transfer_of(arguments_.scalar), arguments_.refraction);
+    fit_options(arguments_, *model, app_);  // what is wrong with them is said before the work
   }
 
   refs::Reference read(const fs::path& file) const {
     return refs::load_measured_sky(file, import_);
   }
   fit::Outcome fit(const fit::Task& task) const {
-    refs::Reference reference =
-        fit::task_reference(task, [this](const fs::path& file) { return read(file); });
-    if (!arguments_.keep_absorption_bands) refs::mask_absorption_bands(reference);
-    const SpectralData spectra = refs::spectral_data_of(fit::start_atmosphere(options_));
-    fit::FitOptions options = options_;
-    options.aerosol = known_aerosol(arguments_, reference);
-    return fit::outcome_of(
-        task, fit::fit_atmosphere(reference, spectra,
-                                  *model(transfer_for(reference, arguments_.scalar)), options));
+    const FitRequest request = fit_request(
+        arguments_, fit::task_reference(task, [this](const fs::path& file) { return read(file); }),
+        app_);
+    return fit::outcome_of(task, finished_fit(request, *request.model).result);
   }
 
  private:
-  std::unique_ptr<SkyModel> model(Transfer transfer) const {
-    return sky_model_named(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
-                           transfer, arguments_.refraction);
-  }
-
   CLI::App app_;
   FitArguments arguments_;
   refs::ImportOptions import_;
-  fit::FitOptions options_;
 };
 
 fit::Shard parse_shard(const std::string& text) {
@@ -153,9 +140,9 @@ void leave_summary(const CampaignArguments& arguments, const fit::CampaignRun& r
                                                                         outcomes.size())));
   write_whole_file(out / kCsv, fit::campaign_csv(outcomes));
   write_whole_file(out / kText, text);
+  print(text);
   const std::vector<plot::MeasuredOutcome> points = over_time(outcomes);
   if (points.size() > 1) plot::write_figure(plot::series_figure(points), {out / kSvg, out / kPng});
-  print(text);
 }
 
 void run(const CampaignArguments& arguments) {
@@ -176,8 +163,7 @@ void run(const CampaignArguments& arguments) {
   if (!arguments.merge) {
     Progress progress("fitting");
     fit::run_campaign(
-        campaign, shard, arguments.threads,
-        [&](const fit::Task& task, int) { return how.fit(task); },
+        campaign, shard, arguments.threads, [&](const fit::Task& task) { return how.fit(task); },
         [&](std::size_t done, std::size_t all) {
           progress.show(static_cast<double>(done) / static_cast<double>(all),
                         fmt::format("{} of {} tasks", done, all));

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "data_refs/civil_time.h"
+#include "data_refs/import_options.h"
 #include "data_refs/joint_reference.h"
 #include "model/base/content_hash.h"
 #include "model/base/preset_reader.h"
@@ -131,7 +132,18 @@ std::string group_of(const CampaignPlan& plan, const refs::Scan& scan) {
   return site.empty() ? day : day + " at " + site;
 }
 
-std::string key_of(const CampaignPlan& plan, const Task& task) {
+// That the sidecar of an image names; what is wrong with a sidecar the fit says.
+std::optional<std::string> mask_of(const fs::path& file, NamedFiles named) {
+  refs::ImportOptions options;
+  options.named_files = named;
+  try {
+    return refs::with_sidecar(options, file).mask;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+std::string key_of(const CampaignPlan& plan, const Task& task, NamedFiles named) {
   ContentHash hash;
   hash.add(kVersion);
   for (const std::string& option : plan.options) {
@@ -143,6 +155,7 @@ std::string key_of(const CampaignPlan& plan, const Task& task) {
     for (const int scan : part.scans) hash.add(fmt::format("[{}]", scan));
     hash.add_file(part.file);
     hash.add_file(part.file.string() + ".sidecar.json");
+    if (const auto mask = mask_of(part.file, named)) hash.add_file(*mask);
   }
   return hash.text();
 }
@@ -255,7 +268,7 @@ std::vector<Task> tasks_of(const CampaignPlan& plan, NamedFiles named, const Rea
   std::vector<Task> tasks = grouped(plan, names, contents);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, tasks.size(),
-                      [&](std::size_t i) { tasks[i].key = key_of(plan, tasks[i]); });
+                      [&](std::size_t i) { tasks[i].key = key_of(plan, tasks[i], named); });
   });
   return tasks;
 }

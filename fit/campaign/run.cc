@@ -8,6 +8,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -82,7 +83,7 @@ void write(const CampaignRun& run, Batch& batch) {
 }  // namespace
 
 void run_campaign(const CampaignRun& run, Shard shard, int threads,
-                  const std::function<Outcome(const Task&, int worker)>& fit,
+                  const std::function<Outcome(const Task&)>& fit,
                   const std::function<void(std::size_t done, std::size_t all)>& progress) {
   std::vector<Batch> own;
   std::vector<Batch> all = batches_of(run);
@@ -121,31 +122,34 @@ void run_campaign(const CampaignRun& run, Shard shard, int threads,
   std::mutex mutex;  // over batches, the NetCDF library, and what follows
   std::size_t done = 0;
   std::exception_ptr failure;
-  const auto work = [&](int worker) {
-    for (std::size_t at = next++; at < pending.size(); at = next++) {
-      const auto [batch, i] = pending[at];
-      const Task& task = run.tasks[batch->first + i];
-      Outcome outcome;
-      try {
-        outcome = fit(task, worker);
-      } catch (const std::exception& error) {
-        outcome = failure_of(task, error.what());
-      }
-      const std::lock_guard lock(mutex);
-      if (failure) return;
-      try {
+  const auto outcome_of_task = [&](const Task& task) {
+    try {
+      return fit(task);
+    } catch (const std::bad_alloc&) {
+      throw;  // says nothing of the task
+    } catch (const std::exception& error) {
+      return failure_of(task, error.what());
+    }
+  };
+  const auto work = [&] {
+    try {
+      for (std::size_t at = next++; at < pending.size(); at = next++) {
+        const auto [batch, i] = pending[at];
+        Outcome outcome = outcome_of_task(run.tasks[batch->first + i]);
+        const std::lock_guard lock(mutex);
         batch->outcomes[i] = std::move(outcome);
         if (--batch->missing == 0) write(run, *batch);
         progress(++done, pending.size());
-      } catch (...) {
-        failure = std::current_exception();
-        return;
       }
+    } catch (...) {  // is thrown again by the caller's thread
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = pending.size();
     }
   };
   std::vector<std::jthread> workers;
-  for (int worker = 1; worker < threads; ++worker) workers.emplace_back(work, worker);
-  work(0);
+  for (int worker = 1; worker < threads; ++worker) workers.emplace_back(work);
+  work();
   workers.clear();  // waits
   if (failure) std::rethrow_exception(failure);
 }

@@ -24,11 +24,11 @@ struct CampaignRun {
   std::filesystem::path directory;
 };
 
-// Calls fit(task, worker) on `threads` workers, 0 .. threads - 1; what it throws becomes the
-// outcome's reason. progress(done, all) is called from any of them. Throws std::runtime_error when
-// results cannot be written.
+// Calls fit(task) and progress(done, all) from `threads` threads. A std::exception of a fit becomes
+// the outcome's reason; that memory is short, and anything else that is thrown, ends the campaign
+// and leaves it. Throws std::runtime_error when results cannot be written.
 void run_campaign(const CampaignRun& run, Shard shard, int threads,
-                  const std::function<Outcome(const Task&, int worker)>& fit,
+                  const std::function<Outcome(const Task&)>& fit,
                   const std::function<void(std::size_t done, std::size_t all)>& progress);
 
 // The outcomes of all tasks, in their order. Throws std::runtime_error that says how many are

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 #include "model/base/module_file.h"
@@ -17,14 +16,6 @@ namespace {
 const NetcdfModule& module() { return module_named<NetcdfModule>("skyfit_netcdf_module"); }
 
 }  // namespace
-
-std::string netcdf_name(std::string_view name) {
-  std::string result(name);
-  std::ranges::replace_if(
-      result, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-  while (result.ends_with('_')) result.pop_back();
-  return result;
-}
 
 NetcdfFile netcdf_file(std::string_view title) {
   return {{},

@@ -11,9 +11,6 @@
 
 namespace skyfit::fit {
 
-// "mie.phase.g1" is mie_phase_g1: letters, digits and _.
-std::string netcdf_name(std::string_view name);
-
 // With the attributes that every file has: Conventions, title, source (this version of skyfit).
 NetcdfFile netcdf_file(std::string_view title);
 

@@ -6,7 +6,6 @@
 // sun spreads. Lengths in metres, angles in radians.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "model/atmosphere/linear_profile.h"

@@ -34,7 +34,7 @@ SunAlongRay::SunAlongRay(double bottom_radius, const ViewRay& ray, const SkyPoin
 // bending between the two points more.
 SunAlongRay::Local SunAlongRay::sun_at(const RayPoint& p) const {
   const double zenith = std::acos(std::clamp(p.mu, -1.0, 1.0));
-  // Seen from each point against the way of the light: from where the ray leaves the air.
+  // At both points what light turns by that comes along the ray from beyond the air.
   const double turned = turns_->bending(height_, view_zenith_) - turns_->bending(p.height, zenith);
   const double around = view_zenith_ - zenith + turned;
   const double sine = std::sin(around), cosine = std::cos(around);

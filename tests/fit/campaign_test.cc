@@ -198,7 +198,7 @@ class RunTest : public CampaignTest {
     try {
       run_campaign(
           {campaign, list, folder() / out}, shard, 2,
-          [&](const Task& task, int) {
+          [&](const Task& task) {
             if (done++ == fail_at) throw Killed();
             return fake_fit(task);
           },

@@ -66,10 +66,6 @@ TEST(Netcdf, SaysWhatCannotBeDone) {
               HasSubstr("b.nc: cannot be read: "));
 }
 
-TEST(Netcdf, NamesAreThoseOfVariables) {
-  EXPECT_EQ(netcdf_name("instrument.azimuth_offset[2]"), "instrument_azimuth_offset_2");
-}
-
 TEST(Netcdf, OfAFitHasItsUnknownsAndSamples) {
   constexpr double kSun = 0.7;
   const refs::Reference reference =

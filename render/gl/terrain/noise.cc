@@ -14,12 +14,12 @@ namespace skyfit {
 namespace {
 
 // Points and octaves are worked on eight at a time.
-constexpr std::size_t kLanes = 8;
-typedef double Doubles __attribute__((vector_size(kLanes * sizeof(double))));
-typedef std::int64_t Integers __attribute__((vector_size(kLanes * sizeof(double))));
-typedef std::uint64_t Bits __attribute__((vector_size(kLanes * sizeof(double))));
+constexpr std::size_t kBatchWidth = 8;
+typedef double Doubles __attribute__((vector_size(kBatchWidth * sizeof(double))));
+typedef std::int64_t Integers __attribute__((vector_size(kBatchWidth * sizeof(double))));
+typedef std::uint64_t Bits __attribute__((vector_size(kBatchWidth * sizeof(double))));
 
-struct Lanes {
+struct Batch {
   Doubles x[3];  // coordinates
   Doubles noise;
 };
@@ -31,14 +31,14 @@ constexpr std::int64_t kNowhere = std::int64_t{1} << 52;
 // chosen by the finaliser of MurmurHash3 over the lattice coordinates, in 0 .. end - 1 where the
 // noise repeats.
 SKYFIT_CLONES
-void lattice_noise(Lanes& lanes, std::int64_t end) {
+void lattice_noise(Batch& batch, std::int64_t end) {
   // Adding and subtracting it rounds to an integer, whose bits are left in the sum.
   constexpr double kRound = 0x1.8p52;
   constexpr auto kRoundBits = std::bit_cast<std::int64_t>(kRound);
   Doubles d[3], fade[3];
   Bits cell[3][2];  // lattice coordinates below and above
   for (int axis = 0; axis < 3; ++axis) {
-    const Doubles x = lanes.x[axis], sum = x + kRound, nearest = sum - kRound;
+    const Doubles x = batch.x[axis], sum = x + kRound, nearest = sum - kRound;
     const Integers above = nearest > x;  // -1 where it is
     const Integers low = (Integers)sum - kRoundBits + above, high = low + 1;
     d[axis] = x - (nearest + __builtin_convertvector(above, Doubles));
@@ -73,35 +73,35 @@ void lattice_noise(Lanes& lanes, std::int64_t end) {
   }
   const Doubles near = edge[0][0] + fade[1] * (edge[1][0] - edge[0][0]);
   const Doubles far = edge[0][1] + fade[1] * (edge[1][1] - edge[0][1]);
-  lanes.noise = near + fade[2] * (far - near);
+  batch.noise = near + fade[2] * (far - near);
 }
 
 double noise_at(const glm::dvec3& x, std::int64_t end) {
-  Lanes lanes{};
-  for (int axis = 0; axis < 3; ++axis) lanes.x[axis][0] = x[axis];
-  lattice_noise(lanes, end);
-  return lanes.noise[0];
+  Batch batch{};
+  for (int axis = 0; axis < 3; ++axis) batch.x[axis][0] = x[axis];
+  lattice_noise(batch, end);
+  return batch.noise[0];
 }
 
 // Calls add(amplitude, noise) from the longest octave to the shortest.
 template <class F>
 void for_octaves(const glm::dvec3& x, double longest, double shortest, F&& add) {
-  Lanes lanes{};
-  std::array<double, kLanes> amplitudes;
+  Batch batch{};
+  std::array<double, kBatchWidth> amplitudes;
   std::size_t count = 0;
   const auto flush = [&] {
-    lattice_noise(lanes, kNowhere);
-    for (std::size_t i = 0; i < count; ++i) add(amplitudes[i], lanes.noise[i]);
+    lattice_noise(batch, kNowhere);
+    for (std::size_t i = 0; i < count; ++i) add(amplitudes[i], batch.noise[i]);
     count = 0;
   };
   double amplitude = 1;
   for (double wavelength = longest; wavelength > 0.5 * shortest; wavelength *= 0.5) {
     // Octaves of one sum must not share their lattice points.
     const glm::dvec3 at = x / wavelength + glm::dvec3(0.37, 0.73, 0.19);
-    for (int axis = 0; axis < 3; ++axis) lanes.x[axis][count] = at[axis];
+    for (int axis = 0; axis < 3; ++axis) batch.x[axis][count] = at[axis];
     amplitudes[count++] = amplitude * std::clamp(2 * wavelength / shortest - 1, 0.0, 1.0);
     amplitude *= 0.5;
-    if (count == kLanes) flush();
+    if (count == kBatchWidth) flush();
   }
   if (count > 0) flush();
 }
@@ -111,12 +111,12 @@ void for_octaves(const glm::dvec3& x, double longest, double shortest, F&& add) 
 double gradient_noise(const glm::dvec3& x) { return noise_at(x, kNowhere); }
 
 glm::dvec3 gradient_noises(const std::array<glm::dvec3, 3>& x) {
-  Lanes lanes{};
+  Batch batch{};
   for (std::size_t i = 0; i < 3; ++i) {
-    for (int axis = 0; axis < 3; ++axis) lanes.x[axis][i] = x[i][axis];
+    for (int axis = 0; axis < 3; ++axis) batch.x[axis][i] = x[i][axis];
   }
-  lattice_noise(lanes, kNowhere);
-  return {lanes.noise[0], lanes.noise[1], lanes.noise[2]};
+  lattice_noise(batch, kNowhere);
+  return {batch.noise[0], batch.noise[1], batch.noise[2]};
 }
 
 double periodic_gradient_noise(const glm::dvec3& x, int period) {
