@@ -15,7 +15,6 @@ FitRequest fit_request(const FitArguments& arguments, refs::Reference reference,
   request.model =
       sky_model_named(arguments.model, refs::standard_spectral_data(), arguments.threads,
                       transfer_for(reference, arguments.scalar), arguments.refraction);
-  if (arguments.refraction) reference.notes.emplace_back("rays of the model are curved by air");
   request.options = fit_options(arguments, *request.model, command);
   request.options.aerosol = known_aerosol(arguments, reference);
   if (const std::optional<int> type = fit::standard_sky_type(reference.name)) {

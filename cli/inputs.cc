@@ -261,14 +261,9 @@ CLI::Option* add_refraction_option(CLI::App& command, bool& refraction) {
 
 std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const SpectralData& spectra,
                                           int threads, Transfer transfer, bool refraction) {
-  if (!refraction) return make_sky_model(name, spectra, threads, transfer);
-  if (name != "reference")
-    throw UsageError("--model", name, "expected reference with --refraction");
-  ReferenceOptions options;
-  options.threads = threads;
-  options.transfer = transfer;
-  options.refraction = true;
-  return std::make_unique<ReferenceModel>(options);
+  const std::string variant =
+      refraction ? fmt::format("{}:{}", name, ReferenceModel::kRefraction) : name;
+  return make_sky_model(variant, spectra, threads, transfer);
 }
 
 void add_iau_option(CLI::App& command, bool& iau, CLI::Option* stokes) {

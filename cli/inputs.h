@@ -85,8 +85,7 @@ void add_threads_option(CLI::App& command, int& threads);
 
 // --refraction: rays of the model `reference` are curved by air.
 CLI::Option* add_refraction_option(CLI::App& command, bool& refraction);
-// A model of the registry, or `reference` with refraction. Throws UsageError where another is to
-// refract.
+// A model of the registry, or its variant with refraction. Throws as make_sky_model() does.
 std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const SpectralData& spectra,
                                           int threads, Transfer transfer, bool refraction);
 

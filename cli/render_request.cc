@@ -163,7 +163,7 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   check_cameras(request);
   request.scene = parse_scene(options, command);
   request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
-  if (!sky_model_entry(options.model).draws_frames) {
+  if (!draws_frames(options.model)) {
     throw UsageError(
         "--model", options.model,
         fmt::format("expected {}; skyfit compare draws the skies of all models", drawing_models()));

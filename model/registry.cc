@@ -33,10 +33,17 @@ std::unique_ptr<SkyModel> make_threaded(const SkyModelRequest& request) {
   return std::make_unique<Model>(request.threads);
 }
 
+constexpr SkyModelVariant kReferenceVariants[] = {
+    {ReferenceModel::kRefraction,
+     "rays are curved by air: view angles are apparent, suns stand where they would without air",
+     false},
+};
+
 std::unique_ptr<SkyModel> make_reference(const SkyModelRequest& request) {
   ReferenceOptions options;
   options.threads = request.threads;
   options.transfer = request.transfer;
+  options.refraction = !request.variants.empty();
   return std::make_unique<ReferenceModel>(options);
 }
 
@@ -70,7 +77,7 @@ std::vector<std::string_view> split(std::string_view text) {
 std::span<const SkyModelEntry> sky_models() {
   static constexpr SkyModelEntry kModels[] = {
       {"reference", "the yardstick: quadrature and converged multiple scattering in shells",
-       make_reference},
+       make_reference, kReferenceVariants},
       {"tables", "what the renderer looks up: tables of the reference", make_tables},
       {"bruneton", "Bruneton & Neyret 2008: 4D tables, multiple scattering",
        make_threaded<BrunetonModel>},
@@ -104,6 +111,14 @@ const SkyModelEntry& sky_model_entry(std::string_view name) {
   }
   throw std::invalid_argument(
       fmt::format("model \"{}\": expected one of {}", name, fmt::join(names, ", ")));
+}
+
+bool draws_frames(std::string_view name) {
+  const SkyModelEntry& entry = sky_model_entry(name);
+  const std::vector<std::string_view> parts = split(name);
+  return entry.draws_frames && std::ranges::none_of(entry.variants, [&](const auto& variant) {
+           return !variant.draws_frames && std::ranges::count(parts, variant.name) > 0;
+         });
 }
 
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,

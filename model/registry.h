@@ -22,6 +22,7 @@ struct SkyModelRequest {
 // A choice that a source leaves open, written behind the model's name: "nielsen:mean-height".
 struct SkyModelVariant {
   std::string_view name, meaning;
+  bool draws_frames = true;
 };
 
 struct SkyModelEntry {
@@ -31,6 +32,8 @@ struct SkyModelEntry {
   std::span<const SkyModelVariant> variants = {};
   bool draws_frames = true;  // of a renderer, with the ground in its light
 };
+// Whether a renderer can draw the model of that name with all its variants.
+bool draws_frames(std::string_view name);
 // Every model, the yardstick first.
 std::span<const SkyModelEntry> sky_models();
 

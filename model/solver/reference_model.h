@@ -31,8 +31,11 @@ struct ReferenceOptions {
 
 class ReferenceModel final : public SkyModel {
  public:
-  explicit ReferenceModel(const ReferenceOptions& options);  // throws std::invalid_argument
-  std::string_view name() const override { return "reference"; }
+  explicit ReferenceModel(const ReferenceOptions& options);      // throws std::invalid_argument
+  static constexpr std::string_view kRefraction = "refraction";  // the variant of the registry
+  std::string_view name() const override {
+    return options_.refraction ? "reference:refraction" : "reference";
+  }
   Transfer transfer() const override { return options_.transfer; }
   bool refracts() const override { return options_.refraction; }
   SkyValues radiance(const Atmosphere<double>& atmosphere,
