@@ -258,10 +258,22 @@ void FourierModes::set_polarised_response() {
   polarised_->set_response(polarised_->second_moments(substitute(dark, n)));
 }
 
+// The source function of I that Q and U make.
+StreamColumns FourierModes::source_of_polarised(StreamLight::Kind kind, std::size_t columns) const {
+  StreamColumns source;
+  if (polarised_->has_air())
+    source = polarised_->intensity_source(polarised_->moments(kind), columns);
+  if (!polarised_->has_matrices()) return source;
+  StreamColumns of_particles = at_rays(polarised_->intensity_moments(kind), columns);
+  if (!polarised_->has_air()) return of_particles;
+  add(of_particles, source);
+  return source;
+}
+
 // From the sources that the layers have now and the light that the ground sends up.
 void FourierModes::solve_light(StreamLight::Kind kind, const Batch& ground, std::size_t columns) {
   // Of the moments of Q and U from step to step, as a share of the largest of I.
-  constexpr double kChange = 1e-6;
+  constexpr double kChange = 1e-5;
   constexpr int kMostSteps = 50;
   StreamColumns& light = light_.light(kind);
   light = substitute(ground, columns);
@@ -273,21 +285,16 @@ void FourierModes::solve_light(StreamLight::Kind kind, const Batch& ground, std:
       own = {light_.down_source, light_.up_source};
       polarised_->begin_steps(kind);
     }
-    Batch unpolarised = polarised_->second_moments(light);
     for (int step = 0; step < (in_steps ? kMostSteps : 1); ++step) {
-      if (in_steps) {
-        moments = analyse(light);
+      if (in_steps) moments = analyse(light);
+      const double change = polarised_->solve(kind, light, moments, step > 0);
+      if (step > 0) {
         light_.down_source = own[0];
         light_.up_source = own[1];
       }
-      const double change = polarised_->solve(kind, unpolarised, moments);
-      light_.add_diffuse_sources(polarised_->intensity_source(polarised_->moments(kind), columns));
-      if (in_steps)
-        light_.add_diffuse_sources(at_rays(polarised_->intensity_moments(kind), columns));
+      light_.add_diffuse_sources(source_of_polarised(kind, columns));
       light = substitute(ground, columns);
       if (change < kChange) break;
-      if (in_steps)
-        unpolarised = polarised_->without_response(kind, polarised_->second_moments(light));
     }
   }
   moments = analyse(light);
@@ -327,18 +334,11 @@ void FourierModes::advance() {
   } else {
     light_.clear_sources(width);
     light_.add_diffuse_sources(at_rays(scattered(moments_, width), width));
-    if (polarised_) {
-      light_.add_diffuse_sources(
-          polarised_->intensity_source(polarised_->moments(StreamLight::kValues), width));
-      if (polarised_->has_matrices())
-        light_.add_diffuse_sources(
-            at_rays(polarised_->intensity_moments(StreamLight::kValues), width));
-    }
+    if (polarised_) light_.add_diffuse_sources(source_of_polarised(StreamLight::kValues, width));
     ground = reflected(ground_);
   }
   if (polarised_)
-    polarised_->advance(moments_.empty() ? Batch() : polarised_->second_moments(light_.values),
-                        moments_);
+    polarised_->advance(light_.values, moments_);
   StreamColumns& values = light_.values;
   values = {width, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
   values.down.back().assign(rays(levels() - 1) * width * kBatchWidth, 0.0);
@@ -361,7 +361,7 @@ void FourierModes::advance() {
 void FourierModes::solve() {
   eliminate();
   set_beam();
-  if (polarised_) set_polarised_response();
+  if (polarised_ && polarised_->has_air()) set_polarised_response();
   set_beam_sources();
   solve_values();
   if (medium_->parameters == 0) return;

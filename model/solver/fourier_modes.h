@@ -79,6 +79,7 @@ class FourierModes {
   void set_polarised_response();
   void solve_values();
   void solve_tangents();
+  StreamColumns source_of_polarised(StreamLight::Kind kind, std::size_t columns) const;
   void solve_light(StreamLight::Kind kind, const Batch& ground, std::size_t columns);
 
   const Streams* streams_;

@@ -110,12 +110,7 @@ void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
   StreamColumns tangent;
   if (columns > 0) {
     tangent = at_rays(scattered(moment_tangents_, columns), columns);
-    if (polarised_) {
-      constexpr auto kTangents = StreamLight::kTangents;
-      add(polarised_->intensity_source(polarised_->moments(kTangents), columns), tangent);
-      if (polarised_->has_matrices())
-        add(at_rays(polarised_->intensity_moments(kTangents), columns), tangent);
-    }
+    if (polarised_) add(source_of_polarised(StreamLight::kTangents, columns), tangent);
   }
   light_.prepare_coupling(coupling, diffuse_sources(), tangent);
   if (polarised_) polarised_->prepare_coupling(coupling, moments_, moment_tangents_);

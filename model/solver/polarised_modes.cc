@@ -3,22 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
-#include <numeric>
 
 namespace skyfit {
 namespace {
 
-std::vector<std::size_t> all_scatterers(const LayerMedium& medium) {
-  std::vector<std::size_t> list(medium.scatterers.size());
-  std::iota(list.begin(), list.end(), 0);
-  return list;
+bool polarised_by_air(const LaneModes& modes) {
+  return std::ranges::any_of(modes, [](int m) { return m < kPolarisedModes; });
 }
 
-std::vector<std::size_t> polarising_scatterers(const LayerMedium& medium) {
+bool has_matrix(const LayerMedium::Scatterer& s) { return !s.matrix.alpha.empty(); }
+
+// The scatterers that give light of these modes polarisation.
+std::vector<std::size_t> polarising_scatterers(const LayerMedium& medium, const LaneModes& modes) {
   std::vector<std::size_t> list;
   for (std::size_t s = 0; s < medium.scatterers.size(); ++s) {
-    if (medium.scatterers[s].polarises) list.push_back(s);
+    const LayerMedium::Scatterer& scatterer = medium.scatterers[s];
+    if ((scatterer.polarises && polarised_by_air(modes)) || has_matrix(scatterer))
+      list.push_back(s);
   }
   return list;
 }
@@ -47,22 +50,32 @@ void add_rows(const Parities& by_l, const Parities& x, std::size_t columns, Pari
   }
 }
 
-double largest(const LevelMoments& moments) {
-  double result = 0;
-  for (const Parities& level : moments) {
-    for (const Batch& numbers : level) {
-      for (const double x : numbers) result = std::max(result, std::abs(x));
+// By column and lane: the largest number, or difference from `before` where there is one.
+std::vector<double> largest(const LevelMoments& moments, std::size_t columns,
+                            const LevelMoments& before = {}) {
+  const std::size_t width = columns * batch::kBatchWidth;
+  std::vector<double> result(width, 0.0);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+      const Batch& x = moments[i][parity];
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        const double from = before.empty() ? 0 : before[i][parity][k];
+        result[k % width] = std::max(result[k % width], std::abs(x[k] - from));
+      }
     }
   }
   return result;
 }
 
-double largest_difference(const LevelMoments& a, const LevelMoments& b) {
+// The change from `before`, as a share of I in each column.
+double change(const SpinMoments& now, const SpinMoments& before, const LevelMoments& intensity,
+              std::size_t columns) {
+  const std::vector<double> all = largest(intensity, columns);
   double result = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t parity = 0; parity < 2; ++parity) {
-      for (std::size_t k = 0; k < a[i][parity].size(); ++k)
-        result = std::max(result, std::abs(a[i][parity][k] - b[i][parity][k]));
+  for (auto moments : {&SpinMoments::b, &SpinMoments::c}) {
+    const std::vector<double> difference = largest(now.*moments, columns, before.*moments);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (difference[k] > result * all[k]) result = all[k] > 0 ? difference[k] / all[k] : 1;
     }
   }
   return result;
@@ -71,8 +84,7 @@ double largest_difference(const LevelMoments& a, const LevelMoments& b) {
 }  // namespace
 
 bool PolarisedModes::any(const LaneModes& modes, const LayerMedium& medium) {
-  return medium.has_matrices() ||
-         std::ranges::any_of(modes, [](int m) { return m < kPolarisedModes; });
+  return medium.has_matrices() || polarised_by_air(modes);
 }
 
 PolarisedModes::PolarisedModes(const Streams& streams, const LayerMedium& intensity,
@@ -81,15 +93,15 @@ PolarisedModes::PolarisedModes(const Streams& streams, const LayerMedium& intens
       intensity_(&intensity),
       polarised_(&polarised),
       modes_(modes),
-      air_(polarising_scatterers(polarised)),
+      polarising_(polarising_scatterers(polarised, modes)),
       intensity_pattern_(pattern_of(Stokes::kI)) {
+  std::ranges::copy_if(polarising_, std::back_inserter(air_),
+                       [&](std::size_t s) { return polarised.scatterers[s].polarises; });
   if (polarised.has_matrices()) set_matrices();
   for (const Stokes which : {Stokes::kQ, Stokes::kU}) {
-    components_.push_back(
-        {pattern_of(which),
-         {streams, polarised, has_matrices() ? all_scatterers(polarised) : air_, modes}});
+    components_.push_back({pattern_of(which), {streams, polarised, polarising_, modes}});
   }
-  set_transport();
+  if (has_air()) set_transport();
 }
 
 // docs/theory (13.18).
@@ -108,7 +120,7 @@ void PolarisedModes::set_matrices() {
   intensity_gamma_.resize(level_count());
   for (std::size_t i = 0; i < level_count(); ++i) {
     for (std::size_t s = 0; s < matrices_.size(); ++s) {
-      if (matrices_[s].alpha[0].empty()) continue;
+      if (!has_matrix(polarised_->scatterers[s])) continue;
       const double* const share = polarised_->scatterers[s].share[i].data();
       add_scaled(share, matrices_[s].alpha, of_level_[i].alpha);
       add_scaled(share, matrices_[s].zeta, of_level_[i].zeta);
@@ -251,12 +263,12 @@ std::array<StreamSources, 2> PolarisedModes::sources(const Batch& moments,
                   suns);
     for (std::size_t c = 0; c < 2; ++c) (r[c].*list).push_back(std::move(light[c]));
   };
-  for (std::size_t s = 0; s < polarised_->scatterers.size(); ++s) {
+  for (const std::size_t s : polarising_) {
     if (polarised_->scatterers[s].polarises) {
       for (std::size_t c = 0; c < 2; ++c)
         r[c].scatterer.push_back(
             source(components_[c].pattern, by_second_moment(s, moments, suns), suns));
-    } else if (has_matrices()) {
+    } else {
       add_of(matrices_[s], &StreamSources::scatterer);
     }
   }
@@ -314,7 +326,7 @@ void PolarisedModes::set_transport() {
   const Batch source_of_unit = scaled(*polarised_, unit, n);
   transport_.assign(n * n * kBatchWidth, 0.0);
   for (const Component& c : components_) {
-    StreamLight light(*streams_, *polarised_, air_, modes_);
+    StreamLight light(*streams_, *polarised_, polarising_, modes_);
     light.clear_sources(n);
     light.add_diffuse_sources(source(c.pattern, source_of_unit, n));
     add_moments(c.pattern, sweep(light, n), transport_);
@@ -376,7 +388,23 @@ void PolarisedModes::add_particle_sources(const LevelMoments& intensity, const S
     components_[c].light.add_diffuse_sources(light[c]);
 }
 
-double PolarisedModes::solve(Kind kind, const Batch& unpolarised, const LevelMoments& intensity) {
+// docs/theory (13.12), of M_2 = second moment of I - R P where I holds what P does to it.
+void PolarisedModes::solve_air(Kind kind, const StreamColumns& light, bool polarised) {
+  State& state = state_[kind];
+  const std::size_t n = level_count();
+  Batch unpolarised = second_moments(light);
+  if (polarised) {
+    Batch response(unpolarised.size());
+    batch::multiply(response_.data(), state.moments.data(), nullptr, response.data(), n, n,
+                    columns(kind));
+    for (std::size_t k = 0; k < response.size(); ++k) unpolarised[k] -= response[k];
+  }
+  state.moments = solve(unpolarised, columns(kind));
+  state.all = total(unpolarised, state.moments, columns(kind));
+}
+
+double PolarisedModes::solve(Kind kind, const StreamColumns& light, const LevelMoments& intensity,
+                             bool polarised) {
   State& state = state_[kind];
   if (has_matrices()) {
     for (std::size_t c = 0; c < components_.size(); ++c) {
@@ -385,37 +413,26 @@ double PolarisedModes::solve(Kind kind, const Batch& unpolarised, const LevelMom
     }
     add_particle_sources(intensity, state.spin, columns(kind));
   }
-  state.moments = solve(unpolarised, columns(kind));
-  state.all = total(unpolarised, state.moments, columns(kind));
+  if (has_air()) solve_air(kind, light, polarised);
   if (!has_matrices()) return 0;
   complete(kind);
   SpinMoments spin =
       basis_->analyse(components_[0].light.light(kind), components_[1].light.light(kind));
-  const double all = largest(intensity),
-               change = state.spin.b.empty()
-                            ? std::max(largest(spin.b), largest(spin.c))
-                            : std::max(largest_difference(spin.b, state.spin.b),
-                                       largest_difference(spin.c, state.spin.c));
+  const double changed = change(spin, state.spin, intensity, columns(kind));
   state.spin = std::move(spin);
-  return all > 0 ? change / all : 0;
-}
-
-Batch PolarisedModes::without_response(Kind kind, Batch second) const {
-  const std::size_t n = level_count();
-  Batch by_polarisation(second.size());
-  batch::multiply(response_.data(), state_[kind].moments.data(), nullptr, by_polarisation.data(), n,
-                  n, columns(kind));
-  for (std::size_t k = 0; k < second.size(); ++k) second[k] -= by_polarisation[k];
-  return second;
+  return changed;
 }
 
 // The light of Q and U itself, from K and the layers' other sources.
 void PolarisedModes::complete(Kind kind) {
-  const Batch scattered_by_air = scaled(*polarised_, state_[kind].all, columns(kind));
-  for (Component& c : components_) {
-    c.light.add_diffuse_sources(source(c.pattern, scattered_by_air, columns(kind)));
-    c.light.light(kind) = sweep(c.light, columns(kind));
-  }
+  if (has_air()) add_air_sources(state_[kind].all, columns(kind));
+  for (Component& c : components_) c.light.light(kind) = sweep(c.light, columns(kind));
+}
+
+void PolarisedModes::add_air_sources(const Batch& moments, std::size_t columns) {
+  const Batch scattered_by_air = scaled(*polarised_, moments, columns);
+  for (Component& c : components_)
+    c.light.add_diffuse_sources(source(c.pattern, scattered_by_air, columns));
 }
 
 void PolarisedModes::set_tangent_sources(const LevelMoments& intensity) {
@@ -426,21 +443,21 @@ void PolarisedModes::set_tangent_sources(const LevelMoments& intensity) {
     components_[c].light.set_tangent_sources(of[c]);
 }
 
-void PolarisedModes::advance(const Batch& second, const LevelMoments& intensity) {
+void PolarisedModes::advance(const StreamColumns& light, const LevelMoments& intensity) {
   const std::size_t suns = polarised_->suns;
   State& state = state_[Kind::kValues];
-  if (state.moments.empty()) {
+  if (intensity.empty()) {
     set_beam_sources();
   } else {
-    for (std::size_t k = 0; k < second.size(); ++k) state.moments[k] += second[k];
-    const Batch scattered_by_air = scaled(*polarised_, state.moments, suns);
-    for (Component& c : components_) {
-      c.light.clear_sources(suns);
-      c.light.add_diffuse_sources(source(c.pattern, scattered_by_air, suns));
+    for (Component& c : components_) c.light.clear_sources(suns);
+    if (has_air()) {
+      const Batch second = second_moments(light);
+      for (std::size_t k = 0; k < second.size(); ++k) state.moments[k] += second[k];
+      add_air_sources(state.moments, suns);
     }
     if (has_matrices()) add_particle_sources(intensity, state.spin, suns);
   }
-  state.moments = polarised_moments(suns);
+  if (has_air()) state.moments = polarised_moments(suns);
   if (has_matrices())
     state.spin =
         basis_->analyse(sweep(components_[0].light, suns), sweep(components_[1].light, suns));
@@ -455,14 +472,22 @@ void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling,
   std::array<StreamColumns, 2> tangent;
   if (tangents > 0) {
     const State& state = state_[Kind::kTangents];
-    const Batch scattered_by_air = scaled(*polarised_, state.all, tangents);
-    for (std::size_t c = 0; c < components_.size(); ++c)
-      tangent[c] = source(components_[c].pattern, scattered_by_air, tangents);
+    if (has_air()) {
+      const Batch scattered_by_air = scaled(*polarised_, state.all, tangents);
+      for (std::size_t c = 0; c < components_.size(); ++c)
+        tangent[c] = source(components_[c].pattern, scattered_by_air, tangents);
+    }
     if (has_matrices()) {
       const std::array<StreamColumns, 2> of_particles =
           scattered([&](std::size_t i) -> const MatrixMoments& { return of_level_[i]; },
                     intensity_tangents, state.spin, tangents);
-      for (std::size_t c = 0; c < components_.size(); ++c) add(of_particles[c], tangent[c]);
+      for (std::size_t c = 0; c < components_.size(); ++c) {
+        if (has_air()) {
+          add(of_particles[c], tangent[c]);
+        } else {
+          tangent[c] = of_particles[c];
+        }
+      }
     }
   }
   const State& state = state_[Kind::kValues];

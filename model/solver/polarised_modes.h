@@ -34,6 +34,7 @@ class PolarisedModes {
                  const LaneModes& modes);
 
   bool has_matrices() const { return basis_.has_value(); }
+  bool has_air() const { return !air_.empty(); }  // which polarises light of these modes
 
   // Numbers of a level are one row of (levels x columns).
   // The second moments of light along the streams.
@@ -48,18 +49,17 @@ class PolarisedModes {
   void set_beam_sources();
   // `intensity` has the moments of I.
   void set_tangent_sources(const LevelMoments& intensity);
-  // P, of values or of derivatives, from the sources that the layers have now and M_2, the second
-  // moments of I without what P does to it. With matrices also the light of Q and U, to which the
-  // particles scatter I of the moments `intensity` and Q and U of the step before; after the first
-  // step, begin_steps() comes before it. Returns how much the moments of Q and U have changed as a
-  // share of the largest of I.
+  // P, of values or of derivatives, from the sources that the layers have now and from I. With
+  // matrices also the light of Q and U, in steps that begin_steps() comes before: the particles
+  // scatter `light` and Q and U of the step before. `polarised` says whether the light of I holds
+  // already what P of the step before does to it. `intensity` has the moments of I. Returns how much
+  // the moments of Q and U have changed as a share of the largest of I.
   void begin_steps(Kind kind);
-  double solve(Kind kind, const Batch& unpolarised, const LevelMoments& intensity);
-  // M_2 from the second moments of all I.
-  Batch without_response(Kind kind, Batch second) const;
-  // One more order of scattering: Q and U from K of the order before, of `second` moments of I and
-  // of all its moments; from the beam when there is none.
-  void advance(const Batch& second, const LevelMoments& intensity);
+  double solve(Kind kind, const StreamColumns& light, const LevelMoments& intensity,
+               bool polarised);
+  // One more order of scattering: Q and U from the light of the order before, I in `light` and as
+  // moments; from the beam when there is none.
+  void advance(const StreamColumns& light, const LevelMoments& intensity);
 
   const Batch& moments(Kind kind) const { return state_[kind].moments; }  // P: (levels x columns)
   // Of Q and U; with matrices.
@@ -119,9 +119,11 @@ class PolarisedModes {
   void set_transport();
   StreamColumns sweep(const StreamLight& light, std::size_t columns) const;
   void complete(Kind kind);
+  void add_air_sources(const Batch& moments, std::size_t columns);
   void add_particle_sources(const LevelMoments& intensity, const SpinMoments& spin,
                             std::size_t columns);
   Batch polarised_moments(std::size_t columns) const;
+  void solve_air(Kind kind, const StreamColumns& light, bool polarised);
   Batch solve(const Batch& unpolarised, std::size_t columns) const;
   Batch total(const Batch& unpolarised, const Batch& moments, std::size_t columns) const;
   // Q and U of particles, from moments and the matrix of each level.
@@ -135,7 +137,7 @@ class PolarisedModes {
   const Streams* streams_;
   const LayerMedium *intensity_, *polarised_;
   LaneModes modes_;
-  std::vector<std::size_t> air_;      // the scatterers that polarise as Rayleigh's matrix does
+  std::vector<std::size_t> polarising_, air_;  // scatterers; air has Rayleigh's matrix
   std::optional<SpinBasis> basis_;    // with matrices of particles
   std::vector<MatrixMoments> matrices_, matrix_tangents_;  // per scatterer, per phase tangent
   // Sums over the scatterers by their shares, per level; gamma also by those of the medium of I.
