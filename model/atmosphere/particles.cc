@@ -248,8 +248,8 @@ ParticleValue ParticleOptics::moment(int l) const {
 ParticleOptics::MatrixMoments ParticleOptics::matrix_moments(int l) const {
   check_moment(l);
   using Spin = AnglePanels::Spin;
-  const double *const kept = panels_->moment(Spin::kKept, l),
-                      *const reversed = panels_->moment(Spin::kReversed, l);
+  const double *const kept = panels_->moment(Spin::kKept, l), *const reversed = panels_->moment(
+                                                                  Spin::kReversed, l);
   const ParticleValue kept_phase = integral(kept, phase_), kept_turning = integral(kept, turning_),
                       reversed_phase = integral(reversed, phase_),
                       reversed_turning = integral(reversed, turning_);

@@ -33,10 +33,9 @@ void wigner_d2(int n, int count, double mu, double* out) {
   for (int j = first; j < count; ++j) {
     out[j] = current;
     const double l = j, up = l + 1;
-    const double next =
-        ((2 * l + 1) * (l * up * mu - 2 * n) * current -
-         up * std::sqrt((l * l - 4) * (l * l - n2)) * before) /
-        (l * std::sqrt((up * up - 4) * (up * up - n2)));
+    const double next = ((2 * l + 1) * (l * up * mu - 2 * n) * current -
+                         up * std::sqrt((l * l - 4) * (l * l - n2)) * before) /
+                        (l * std::sqrt((up * up - 4) * (up * up - n2)));
     before = current;
     current = next;
   }

@@ -86,8 +86,7 @@ void FourierModes::set_basis(const std::vector<ModeBasis>& bases) {
 
 // docs/theory (4.9).
 // Values at the rays from moments: first those of the rays that look up.
-StreamColumns FourierModes::at_rays(const LevelMoments& moments,
-                                    std::size_t columns) const {
+StreamColumns FourierModes::at_rays(const LevelMoments& moments, std::size_t columns) const {
   StreamColumns r{columns, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
   for (int i = 0; i < levels(); ++i) {
     const std::size_t n = rays(i);
@@ -103,8 +102,7 @@ StreamColumns FourierModes::at_rays(const LevelMoments& moments,
 }
 
 // Source moments of light's moments.
-LevelMoments FourierModes::scattered(const LevelMoments& moments,
-                                                            std::size_t columns) const {
+LevelMoments FourierModes::scattered(const LevelMoments& moments, std::size_t columns) const {
   LevelMoments r(moments.size());
   for (std::size_t i = 0; i < r.size(); ++i) {
     for (std::size_t parity = 0; parity < 2; ++parity) {
@@ -117,8 +115,7 @@ LevelMoments FourierModes::scattered(const LevelMoments& moments,
 }
 
 // Values at the rays of moments times chi.
-StreamColumns FourierModes::sources_by(const Parities& chi,
-                                       const LevelMoments& moments) const {
+StreamColumns FourierModes::sources_by(const Parities& chi, const LevelMoments& moments) const {
   LevelMoments q(levels());
   for (int i = 0; i < levels(); ++i) {
     for (std::size_t parity = 0; parity < 2; ++parity) {
@@ -337,8 +334,7 @@ void FourierModes::advance() {
     if (polarised_) light_.add_diffuse_sources(source_of_polarised(StreamLight::kValues, width));
     ground = reflected(ground_);
   }
-  if (polarised_)
-    polarised_->advance(light_.values, moments_);
+  if (polarised_) polarised_->advance(light_.values, moments_);
   StreamColumns& values = light_.values;
   values = {width, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
   values.down.back().assign(rays(levels() - 1) * width * kBatchWidth, 0.0);

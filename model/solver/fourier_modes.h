@@ -87,15 +87,15 @@ class FourierModes {
   LaneModes modes_;
   std::array<std::size_t, 2> rows_{};
   LevelMoments synthesis_, analysis_, omega_;
-  std::vector<Parities> chi_;                           // per scatterer: [l]
-  std::vector<Parities> chi_tangent_;                   // per phase tangent
-  Parities sun_basis_;                                  // [l][sun]
-  Batch albedo_, albedo_tangent_;                       // over pi; 0 in modes above 0
+  std::vector<Parities> chi_;          // per scatterer: [l]
+  std::vector<Parities> chi_tangent_;  // per phase tangent
+  Parities sun_basis_;                 // [l][sun]
+  Batch albedo_, albedo_tangent_;      // over pi; 0 in modes above 0
   std::vector<Batch> reflection_, forward_, backward_;
   StreamLight light_;
   std::optional<PolarisedModes> polarised_;
   LevelMoments moments_, moment_tangents_;  // diffuse
-  Batch ground_, ground_tangent_;                    // diffuse irradiance
+  Batch ground_, ground_tangent_;           // diffuse irradiance
 };
 
 }  // namespace skyfit

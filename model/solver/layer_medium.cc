@@ -262,7 +262,8 @@ FieldColumns field_columns(const Shells& shells, const std::vector<double>& heig
 }
 
 bool LayerMedium::has_matrices() const {
-  return std::ranges::any_of(scatterers, [](const Scatterer& s) { return !s.matrix.alpha.empty(); });
+  return std::ranges::any_of(scatterers,
+                             [](const Scatterer& s) { return !s.matrix.alpha.empty(); });
 }
 
 template <int N>

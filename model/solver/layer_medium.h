@@ -39,8 +39,8 @@ struct LayerMedium {
     Batch alpha, zeta, gamma;
   };
   struct Scatterer {
-    bool polarises = false;            // as Rayleigh scattering does
-    Batch chi;                         // [l]
+    bool polarises = false;  // as Rayleigh scattering does
+    Batch chi;               // [l]
     Matrix matrix;
     std::vector<Batch> share;          // per level, one element: of the extinction
     std::vector<Batch> share_tangent;  // per level: [parameter]

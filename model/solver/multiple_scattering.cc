@@ -136,10 +136,10 @@ Dual<N> MultipleScattering<N>::row_coefficient(const Node& node, const NodeWeigh
   const int intensity = shape.moments - m, air = intensity + (shape.polarised_mode(m) ? 1 : 0),
             spin = shape.spin_rows(m);
   enum class Of { kIntensity, kAir, kB, kC };
-  const Of of = row < intensity      ? Of::kIntensity
-                : row < air          ? Of::kAir
-                : row < air + spin   ? Of::kB
-                                     : Of::kC;
+  const Of of = row < intensity    ? Of::kIntensity
+                : row < air        ? Of::kAir
+                : row < air + spin ? Of::kB
+                                   : Of::kC;
   const int l = of == Of::kIntensity ? row + m
                 : of == Of::kAir     ? 2
                                      : (row - air) % std::max(spin, 1) + std::max(m, 2);

@@ -258,9 +258,8 @@ std::array<StreamSources, 2> PolarisedModes::sources(const Batch& moments,
   const std::size_t suns = polarised_->suns;
   std::array<StreamSources, 2> r;
   const auto add_of = [&](const MatrixMoments& matrix, auto list) {
-    std::array<StreamColumns, 2> light =
-        scattered([&](std::size_t) -> const MatrixMoments& { return matrix; }, intensity, spin,
-                  suns);
+    std::array<StreamColumns, 2> light = scattered(
+        [&](std::size_t) -> const MatrixMoments& { return matrix; }, intensity, spin, suns);
     for (std::size_t c = 0; c < 2; ++c) (r[c].*list).push_back(std::move(light[c]));
   };
   for (const std::size_t s : polarising_) {

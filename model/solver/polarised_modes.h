@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What polarisation does to the azimuth modes of the diffuse field, for one batch. In the modes 0 to
-// 2, air scatters the moment K = M_2 + P of the light, where M_2 is the second moment of I and P
+// What polarisation does to the azimuth modes of the diffuse field, for one batch. In the modes 0
+// to 2, air scatters the moment K = M_2 + P of the light, where M_2 is the second moment of I and P
 // that of Q and U (model/solver/rayleigh_stokes.h). Q and U are absorbed and scattered along each
-// stream by themselves, so that P is a matrix G, levels x levels, times K, and what P adds to M_2 is
-// a matrix R times P; both serve all suns and derivatives:
+// stream by themselves, so that P is a matrix G, levels x levels, times K, and what P adds to M_2
+// is a matrix R times P; both serve all suns and derivatives:
 //   P = G (M_2 + (1 + R) P) + b  (docs/theory, chapter 13),
 // M_2 that of the light without polarisation, b the P of light that the sun's beam polarises.
 // Scattering matrices of particles, where the media have them, make sources of I, Q and U from the
@@ -52,8 +52,8 @@ class PolarisedModes {
   // P, of values or of derivatives, from the sources that the layers have now and from I. With
   // matrices also the light of Q and U, in steps that begin_steps() comes before: the particles
   // scatter `light` and Q and U of the step before. `polarised` says whether the light of I holds
-  // already what P of the step before does to it. `intensity` has the moments of I. Returns how much
-  // the moments of Q and U have changed as a share of the largest of I.
+  // already what P of the step before does to it. `intensity` has the moments of I. Returns how
+  // much the moments of Q and U have changed as a share of the largest of I.
   void begin_steps(Kind kind);
   double solve(Kind kind, const StreamColumns& light, const LevelMoments& intensity,
                bool polarised);
@@ -66,7 +66,8 @@ class PolarisedModes {
   const SpinMoments& spin_moments(Kind kind) const { return state_[kind].spin; }
   // Moments of the source function of I that the particles' matrices make of Q and U.
   LevelMoments intensity_moments(Kind kind) const;
-  // What turns b_l of a scatterer, or its derivative by a phase tangent of the media, into I: gamma.
+  // What turns b_l of a scatterer, or its derivative by a phase tangent of the media, into I:
+  // gamma.
   struct MatrixMoments {
     Parities alpha, zeta, gamma;  // empty of a scatterer without a matrix
   };
@@ -137,8 +138,8 @@ class PolarisedModes {
   const Streams* streams_;
   const LayerMedium *intensity_, *polarised_;
   LaneModes modes_;
-  std::vector<std::size_t> polarising_, air_;  // scatterers; air has Rayleigh's matrix
-  std::optional<SpinBasis> basis_;    // with matrices of particles
+  std::vector<std::size_t> polarising_, air_;              // scatterers; air has Rayleigh's matrix
+  std::optional<SpinBasis> basis_;                         // with matrices of particles
   std::vector<MatrixMoments> matrices_, matrix_tangents_;  // per scatterer, per phase tangent
   // Sums over the scatterers by their shares, per level; gamma also by those of the medium of I.
   std::vector<MatrixMoments> of_level_;

@@ -144,9 +144,8 @@ ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<O
       for (auto& [which, values] : light) {
         Dual<N>& sum = values[i * optics.size() + w];
         if (suns[i].is_refracted()) {
-          for (const Dual<N>& of_scatterer :
-               single_scattering(optics[w], along, sunlit,
-                                 phases_at(optics[w], suns[i], sunlit.nu, which)))
+          for (const Dual<N>& of_scatterer : single_scattering(
+                   optics[w], along, sunlit, phases_at(optics[w], suns[i], sunlit.nu, which)))
             sum += of_scatterer;
         }
         for (std::size_t s = 0; s < single.size(); ++s)

@@ -176,8 +176,7 @@ SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunA
 
 template <int N>
 std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
-                                       const SunlitNodes& sunlit,
-                                       const PhaseAtNodes<N>& phase) {
+                                       const SunlitNodes& sunlit, const PhaseAtNodes<N>& phase) {
   const std::size_t count = nodes.points.size(), profiles = optics.profiles.size();
   std::vector<const double*> columns;
   std::vector<double> extinction;

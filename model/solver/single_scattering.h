@@ -38,8 +38,8 @@ struct SunlitNodes {
 SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunAlongRay& sun);
 
 // Radiance per unit solar irradiance of every scatterer without its phase function (sr^0): multiply
-// by P_i(nu) and add. With the values of the phase functions at the nodes, per scatterer, the result
-// holds them already: nu changes along a refracted ray.
+// by P_i(nu) and add. With the values of the phase functions at the nodes, per scatterer, the
+// result holds them already: nu changes along a refracted ray.
 template <int N>
 using PhaseAtNodes = std::vector<std::vector<Dual<N>>>;
 template <int N>
