@@ -245,7 +245,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("N|all")
       ->transform(CLI::Transformer(std::map<std::string, int>{{"all", 0}}).description(""))
       ->check(CLI::Range(0, 20).description(""));
-  command.add_option("--out", options.out, "frame.png or frame.exr; may be repeated")
+  command.add_option("--out", options.out, "frame.png, frame.exr or frame.npy; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_flag(

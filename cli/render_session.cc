@@ -51,6 +51,8 @@ void write_frame(const Frame& frame, const std::filesystem::path& file, const To
   check_light(frame);
   if (file.extension() == ".exr") {
     write_exr(frame, file);
+  } else if (file.extension() == ".npy") {
+    write_npy(frame, file);
   } else {
     write_png(frame, file, tone);
   }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "model/base/module_file.h"
+#include "model/base/npy_file.h"
 #include "model/literature/evaluate.h"
 #include "model/numerics/angles.h"
 #include "render/module/module.h"
@@ -116,6 +117,12 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 }
 
 void write_exr(const Frame& frame, const fs::path& file) { module().write_exr(frame, file); }
+
+void write_npy(const Frame& frame, const fs::path& file) {
+  write_npy(file,
+            {static_cast<std::size_t>(frame.height), static_cast<std::size_t>(frame.width), 3},
+            frame.rgb);
+}
 
 void write_png(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
   ToneOptions exposed = tone;

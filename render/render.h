@@ -267,6 +267,9 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 // std::runtime_error that names it.
 void write_exr(const Frame& frame, const std::filesystem::path& file);
 
+// R, G and B in the frame's primaries (cd/m^2), height x width x 3, for NumPy.
+void write_npy(const Frame& frame, const std::filesystem::path& file);
+
 enum class ToneCurve {
   kFilmic,       // a fit of the ACES film curve, Narkowicz 2015
   kExponential,  // 1 - exp(-k L), Sperlhofer 2011

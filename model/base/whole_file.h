@@ -17,6 +17,10 @@
 
 namespace skyfit {
 
+// Whether a name stands for the standard output: "-" with the extension of what goes there, as in
+// "-.png". It is made like a file and written there as a whole.
+bool is_stdout(const std::filesystem::path& file);
+
 // Several files that are published together. The names of the temporary ones are our own, with the
 // target's extension, so that a program that draws or encodes them sees no text of a user.
 class WholeFiles {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "model/base/npy_file.h"
 #include "model/base/whole_file.h"
 #include "render/image/gamut.h"
 #include "render/image/tone.h"
@@ -148,6 +149,11 @@ void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file
   }
   spec.channelnames.insert(spec.channelnames.end(), map.layers.begin(), map.layers.end());
   if (layers > 0) pixels = interleaved(pixels, colors, map.layer_values, layers);
+  if (file.extension() == ".npy")
+    return write_npy(file,
+                     {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width),
+                      colors + layers},
+                     pixels);
   write_whole(file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
