@@ -175,6 +175,8 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   request.panels = options.panels;
   request.stats = options.stats;
   request.threads = options.threads;
+  if (const auto directory = user_cache_directory(); directory && !options.no_cache)
+    request.cache = std::make_shared<ContentCache>(*directory);
   return request;
 }
 

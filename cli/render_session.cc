@@ -8,7 +8,7 @@
 #include "model/atmosphere/lowered_ground.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
-#include "model/tables/tables.h"
+#include "model/tables/table_cache.h"
 #include "render/panels.h"
 
 namespace skyfit::cli {
@@ -19,18 +19,23 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
       report_(std::move(report)),
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
                             request.light.transfer)),
-      renderer_(request.scene, request.device),
+      renderer_(request.scene, request.device, request.cache),
+      keeps_tables_(request.cache && timeline.size() == 1),
       timeline_(std::move(timeline), [this](const Preset& preset) { return tables_of(preset); }) {}
 
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
   const auto atmosphere = lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
+  const TableSizes sizes;
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
-  if (request_.light.orders > 0) {
-    return compute_tables(atmosphere, color, TableSizes{}, request_.threads, progress,
-                          request_.light);
-  }
-  return compute_tables_of(*model_, atmosphere, color, TableSizes{}, request_.threads, progress);
+  const auto compute = [&] {
+    if (request_.light.orders > 0)
+      return compute_tables(atmosphere, color, sizes, request_.threads, progress, request_.light);
+    return compute_tables_of(*model_, atmosphere, color, sizes, request_.threads, progress);
+  };
+  if (!keeps_tables_) return compute();
+  return cached_tables(*request_.cache, {request_.model, request_.light, atmosphere, color, sizes},
+                       compute);
 }
 
 Frame RenderSession::draw(const Shot& shot, double time_s,

@@ -31,6 +31,7 @@ class RenderSession {
   Report report_;
   std::unique_ptr<SkyModel> model_;
   Renderer renderer_;
+  bool keeps_tables_;  // in the cache: not the many of an atmosphere that changes
   Timeline timeline_;
   Timeline::Tables shown_;  // what renderer_ has
 };

@@ -54,10 +54,10 @@ double basin_depth_m(const Scene& scene) {
   return std::max(0.0, -std::max(scene.lowest_m, scene.water_level_m));
 }
 
-Renderer::Renderer(const Scene& scene, GraphicsDevice device)
+Renderer::Renderer(const Scene& scene, GraphicsDevice device, std::shared_ptr<ContentCache> cache)
     : basin_depth_m_(basin_depth_m(scene)) {
   validate(scene);
-  drawer_ = module().make_drawer(raised(scene, basin_depth_m_), device);
+  drawer_ = module().make_drawer(raised(scene, basin_depth_m_), device, std::move(cache));
 }
 
 Renderer::~Renderer() = default;

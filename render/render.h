@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "model/atmosphere/preset.h"
+#include "model/base/content_cache.h"
 #include "model/base/input_file.h"
 #include "model/tables/tables.h"
 #include "render/color_space.h"
@@ -218,9 +219,11 @@ class FrameDrawer;  // of the module, render/module/module.h
 // memory.
 class Renderer {
  public:
+  // `cache` keeps the ground and its textures from one process to the next; null: none.
   // Throws std::invalid_argument for a scene that validate() refuses, std::runtime_error that names
   // a file that cannot be read or says that there is no OpenGL to draw with.
-  explicit Renderer(const Scene& scene = {}, GraphicsDevice device = GraphicsDevice::kSoftware);
+  explicit Renderer(const Scene& scene = {}, GraphicsDevice device = GraphicsDevice::kSoftware,
+                    std::shared_ptr<ContentCache> cache = nullptr);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "render/gl/atmosphere/atmosphere_pass.h"
 #include "render/gl/context/context.h"
@@ -61,11 +62,12 @@ std::int64_t device_clock_ns() {
 
 class GlRenderer final : public FrameDrawer {
  public:
-  GlRenderer(const Scene& scene, GraphicsDevice device)
+  GlRenderer(const Scene& scene, GraphicsDevice device, std::shared_ptr<ContentCache> cache)
       : scene_(scene),
         device_(device),
+        cache_(std::move(cache)),
         context_(make_context(device)),
-        materials_(scene.textures),
+        materials_(scene.textures, cache_.get()),
         atmosphere_(device) {}
 
   void set_atmosphere(const AtmosphereTables& tables) override {
@@ -85,7 +87,7 @@ class GlRenderer final : public FrameDrawer {
       albedo_ = albedo;
       terrain_.reset();
       make_ground(tables);
-      terrain_.emplace(*ground_, radius_m_);
+      terrain_.emplace(*ground_, radius_m_, cache_.get());
     }
     if (meshes_.size() < scene_.meshes.size()) {
       for (const PlacedMesh& mesh : scene_.meshes) {
@@ -338,6 +340,7 @@ class GlRenderer final : public FrameDrawer {
 
   Scene scene_;
   GraphicsDevice device_;
+  std::shared_ptr<ContentCache> cache_;  // may be null
   std::unique_ptr<GlContext> context_;
   FrameGraph graph_;
   double radius_m_ = 0;
@@ -358,8 +361,9 @@ class GlRenderer final : public FrameDrawer {
 
 }  // namespace
 
-std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device) {
-  return std::make_unique<GlRenderer>(scene, device);
+std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device,
+                                         std::shared_ptr<ContentCache> cache) {
+  return std::make_unique<GlRenderer>(scene, device, std::move(cache));
 }
 
 }  // namespace skyfit

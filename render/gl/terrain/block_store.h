@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vertices of blocks in the device's memory: those of a frame are made when they are missing,
-// in parallel, and stay for the frames that follow; the longest unused make room.
+// in parallel, and stay for the frames that follow; the longest unused make room. A cache keeps them
+// for other processes.
 #pragma once
 
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "model/base/content_cache.h"
 #include "render/gl/context/objects.h"
 #include "render/gl/terrain/block_mesh.h"
 
@@ -16,8 +19,8 @@ class BlockStore {
  public:
   static constexpr int kMostBlocks = 6144;  // 68 kB each
 
-  // Both outlive the store.
-  BlockStore(const Ground& ground, double radius_m);
+  // `ground` and `cache` outlive the store; `cache` may be null.
+  BlockStore(const Ground& ground, double radius_m, ContentCache* cache);
 
   // What is provided from now on stays until the next call.
   void begin_frame() { ++frame_, made_ = 0; }
@@ -42,11 +45,16 @@ class BlockStore {
     BlockHeights heights;
     std::int64_t used;  // by which frame
   };
+  // One after the other.
+  void make(std::span<const CubeBlock> blocks, std::span<BlockHeights> heights,
+            std::span<BlockVertex> vertices) const;
   void reserve(int blocks);
   int free_slot();
 
   const Ground& ground_;
   double radius_m_;
+  ContentCache* cache_;
+  std::string ground_name_;  // in the cache
   GlBuffer vertices_;
   int capacity_ = 0, next_ = 0;
   std::int64_t frame_ = 0;
