@@ -36,7 +36,8 @@ struct RenderRequest {
   std::vector<std::string> extensions;  // of its frames: .png, .exr
   bool panels = false;                  // beside each PNG of a picture
   bool stats = false;
-  std::shared_ptr<ContentCache> cache;  // may be null
+  std::shared_ptr<ContentCache> cache;  // null with --no-cache and where there is no place for one
+  std::string cache_trouble;            // why there is no place
   int threads = 1;
 };
 

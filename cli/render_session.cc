@@ -14,14 +14,19 @@
 namespace skyfit::cli {
 
 RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline,
-                             Report report)
+                             double first_time_s, TimeAccount& time, Report report)
     : request_(request),
+      time_(time),
       report_(std::move(report)),
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
                             request.light.transfer)),
-      renderer_(request.scene, request.device, request.cache),
       keeps_tables_(request.cache && timeline.size() == 1),
-      timeline_(std::move(timeline), [this](const Preset& preset) { return tables_of(preset); }) {}
+      timeline_(
+          std::move(timeline), [this](const Preset& preset) { return tables_of(preset); },
+          first_time_s),
+      renderer_(request.scene, request.device, request.cache) {
+  time_.done("opening the renderer");
+}
 
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
   const auto atmosphere = lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
@@ -41,15 +46,19 @@ AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
 Frame RenderSession::draw(const Shot& shot, double time_s,
                           const std::function<void(double)>& progress) {
   const Timeline::Now now = timeline_.at(time_s);
+  time_.done("waiting for tables");
   if (now.tables != shown_) {
     renderer_.set_atmosphere(now.preset, *now.tables);
     shown_ = now.tables;
+    time_.done("tables to the renderer");
   }
   FrameOptions frame = request_.frame;
   place_camera(
       shot.camera, shot.sun, now.preset.atmosphere.bottom_radius_m,
       [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
-  return renderer_.draw(frame, progress);
+  Frame drawn = renderer_.draw(frame, progress);
+  time_.done("frame: other", drawn.statistics.steps);
+  return drawn;
 }
 
 void write_frame(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone) {

@@ -187,6 +187,9 @@ struct FrameStatistics {
   int blocks_made = 0;    // that were not in the store of an earlier frame
   std::vector<PassTime> passes;  // by the device's timers
   double milliseconds = 0;       // from the frame's begin to its end, reading back not counted
+  // Of Renderer::draw(), by the wall clock, one after the other: "ground" until all is chosen that
+  // is seen, "passes" until the device has drawn, "pixels" until they are in Frame.
+  std::vector<PassTime> steps = {};
 };
 
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.

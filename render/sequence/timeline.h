@@ -36,8 +36,9 @@ class Timeline {
   using Compute = std::function<AtmosphereTables(const Preset&)>;
   using Tables = std::shared_ptr<const AtmosphereTables>;
 
-  // `compute` is called from another thread, one call at a time.
-  Timeline(std::vector<TimelineStep> steps, Compute compute);
+  // `compute` is called from another thread, one call at a time, at once for the tables of
+  // `first_time_s`.
+  Timeline(std::vector<TimelineStep> steps, Compute compute, double first_time_s);
 
   struct Now {
     Preset preset;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <stdexcept>
@@ -60,6 +61,22 @@ std::int64_t device_clock_ns() {
   return now;
 }
 
+// Steps one after the other by the wall clock.
+class StepClock {
+ public:
+  void done(const char* step) {
+    const Clock::time_point now = Clock::now();
+    steps_.push_back({step, std::chrono::duration<double, std::milli>(now - last_).count()});
+    last_ = now;
+  }
+  const std::vector<PassTime>& steps() const { return steps_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+  std::vector<PassTime> steps_;
+};
+
 class GlRenderer final : public FrameDrawer {
  public:
   GlRenderer(const Scene& scene, GraphicsDevice device, std::shared_ptr<ContentCache> cache)
@@ -111,7 +128,12 @@ class GlRenderer final : public FrameDrawer {
     const int samples = sampled.samples_per_side;
     Frame frame;
     before_.reset();
-    frame.statistics = start_frame(sampled, true, report).wait();
+    StepClock clock;
+    frame.statistics = start_frame(sampled, true, [&](double done) {
+                         clock.done("ground");
+                         report(done);
+                       }).wait();
+    clock.done("passes");
     report(0.9);
     frame.primaries = options.primaries;
     frame.width = options.width;
@@ -121,6 +143,8 @@ class GlRenderer final : public FrameDrawer {
     if (options.layers) frame.layers = resolve_layers(graph_, samples, frame);
     add_directions(options.camera, frame);
     if (options.glare == Glare::kEye) frame.glare = glare_of(frame);
+    clock.done("pixels");
+    frame.statistics.steps = clock.steps();
     report(1);
     return frame;
   }
