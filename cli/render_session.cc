@@ -43,8 +43,9 @@ AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
                        compute);
 }
 
-Frame RenderSession::draw(const Shot& shot, double time_s,
-                          const std::function<void(double)>& progress) {
+// Makes the atmosphere of a time that of the renderer.
+Preset RenderSession::show(double time_s) {
+  if (steady_) return *steady_;
   const Timeline::Now now = timeline_.at(time_s);
   time_.done("waiting for tables");
   if (now.tables != shown_) {
@@ -52,9 +53,20 @@ Frame RenderSession::draw(const Shot& shot, double time_s,
     shown_ = now.tables;
     time_.done("tables to the renderer");
   }
+  if (timeline_.is_steady()) {
+    steady_ = now.preset;
+    shown_.reset();
+    timeline_.forget();
+  }
+  return now.preset;
+}
+
+Frame RenderSession::draw(const Shot& shot, double time_s,
+                          const std::function<void(double)>& progress) {
+  const Preset preset = show(time_s);
   FrameOptions frame = request_.frame;
   place_camera(
-      shot.camera, shot.sun, now.preset.atmosphere.bottom_radius_m,
+      shot.camera, shot.sun, preset.atmosphere.bottom_radius_m,
       [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
   Frame drawn = renderer_.draw(frame, progress);
   time_.done("frame: other", drawn.statistics.steps);

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cli/render_request.h"
@@ -30,6 +31,7 @@ class RenderSession {
 
  private:
   AtmosphereTables tables_of(const Preset& preset) const;
+  Preset show(double time_s);
 
   const RenderRequest& request_;
   TimeAccount& time_;
@@ -38,7 +40,8 @@ class RenderSession {
   bool keeps_tables_;  // in the cache: not the many of an atmosphere that changes
   Timeline timeline_;
   Renderer renderer_;
-  Timeline::Tables shown_;  // what renderer_ has
+  Timeline::Tables shown_;        // what renderer_ has
+  std::optional<Preset> steady_;  // shown without end; then the tables are with renderer_ alone
 };
 
 // Writes PNG or EXR, by the extension.

@@ -230,7 +230,8 @@ void ContentCache::keep(const CacheKey& key, const std::vector<std::span<const s
     fs::remove(temporary, ignored);
     const std::scoped_lock lock(mutex_);
     writable_ = false;
-    note(fmt::format("cannot be written: {}", error.what()));
+    const std::string_view message = error.what();  // path: what: reason
+    note(fmt::format("cannot be written: {}", message.substr(message.rfind(": ") + 2)));
     return;
   }
   const std::scoped_lock lock(mutex_);

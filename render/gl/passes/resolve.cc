@@ -8,7 +8,6 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -21,28 +20,32 @@
 namespace skyfit {
 namespace {
 
-// Calls f(pixel, sample) for every sample; OpenGL's rows run upward, a frame's downward.
+// Calls f(pixel, sample) for every sample, for those of a pixel in the same order whatever the
+// threads; OpenGL's rows run upward, a frame's downward.
 template <class F>
 void for_samples(const Frame& frame, int samples_per_side, F&& f) {
-  const auto width = static_cast<std::size_t>(frame.width) * samples_per_side;
-  for (int y = 0; y < frame.height * samples_per_side; ++y) {
-    const auto row =
-        static_cast<std::size_t>(frame.height - 1 - y / samples_per_side) * frame.width;
-    for (std::size_t x = 0; x < width; ++x)
-      f(row + x / samples_per_side, static_cast<std::size_t>(y) * width + x);
-  }
+  const auto side = static_cast<std::size_t>(samples_per_side);
+  const auto columns = static_cast<std::size_t>(frame.width),
+             rows = static_cast<std::size_t>(frame.height);
+  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t upward) {
+    const std::size_t first = (rows - 1 - upward) * columns;
+    for (std::size_t y = upward * side; y < (upward + 1) * side; ++y) {
+      for (std::size_t x = 0; x < columns * side; ++x) f(first + x / side, y * columns * side + x);
+    }
+  });
 }
 
 // No light is negative. `values`: [pixel][3], in units of `unit` in each channel.
 void bring_into_gamut(const ColorSpace& space, const ColorChannels& unit,
                       std::vector<float>& values) {
-  for (std::size_t i = 0; i < values.size(); i += 3) {
-    if (std::min({values[i], values[i + 1], values[i + 2]}) >= 0) continue;
+  tbb::parallel_for(std::size_t{0}, values.size() / 3, [&](std::size_t pixel) {
+    const std::size_t i = 3 * pixel;
+    if (std::min({values[i], values[i + 1], values[i + 2]}) >= 0) return;
     ColorChannels color;
     for (std::size_t k = 0; k < 3; ++k) color[k] = unit[k] * values[i + k];
     const ColorChannels mapped = into_gamut(color, luminance_of(color, space), space);
     for (std::size_t k = 0; k < 3; ++k) values[i + k] = static_cast<float>(mapped[k] / unit[k]);
-  }
+  });
 }
 
 // [pixel][3], the mean of the samples.
@@ -76,13 +79,15 @@ std::vector<float> resolve_direct(const FrameGraph& graph, int samples_per_side,
 void resolve_discs(const FrameGraph& graph, int samples_per_side, Frame& frame) {
   const std::vector<float> discs = graph.read_back(kDiscWrite, GL_RGBA, 4);
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
-  std::map<std::size_t, std::array<float, 4>> covered;
+  std::vector<std::array<float, 4>> sums(frame.luminance.size(), {0, 0, 0, 0});
   for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
     if (discs[4 * sample + 3] <= 0) return;
-    for (std::size_t k = 0; k < 4; ++k) covered[pixel][k] += part * discs[4 * sample + k];
+    for (std::size_t k = 0; k < 4; ++k) sums[pixel][k] += part * discs[4 * sample + k];
   });
   const ColorSpace& space = color_space(frame.primaries);
-  for (const auto& [pixel, sum] : covered) {
+  for (std::size_t pixel = 0; pixel < sums.size(); ++pixel) {
+    const std::array<float, 4>& sum = sums[pixel];
+    if (sum[3] <= 0) continue;
     const ColorChannels light = {sum[0], sum[1], sum[2]};
     const double luminance = luminance_of(light, space);
     const ColorChannels mapped = into_gamut(light, luminance, space);
