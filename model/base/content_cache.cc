@@ -203,7 +203,7 @@ void ContentCache::keep(const CacheKey& key, const std::vector<std::span<const s
     sizes.push_back(part.size());
     bytes += part.size();
   }
-  if (bytes > limit_bytes_ / kTrimShare * 4) return;  // it would leave no room for others
+  if (bytes > limit_bytes_ / 4) return;  // it would leave no room for others
   fs::path temporary;
   {
     const std::scoped_lock lock(mutex_);

@@ -46,9 +46,9 @@ class CacheKey {
 
 class ContentCache {
  public:
-  // Of all entries together. More only while runs are writing: each a sixteenth of it at most
+  // Of all entries together. More only while runs are writing: each a sixteenth of it, or an entry,
   // before it removes what was used longest ago.
-  static constexpr std::uintmax_t kLimitBytes = std::uintmax_t{2} << 30;
+  static constexpr std::uintmax_t kLimitBytes = 2000000000;
 
   // Nothing is made before the first entry. Only in a directory of this user, which others cannot
   // write to.
@@ -64,6 +64,7 @@ class ContentCache {
   using Room = std::function<std::span<std::byte>(std::size_t part, std::uint64_t bytes)>;
   virtual bool find(const CacheKey& key, const Room& room);
 
+  // Not what would take more than a quarter of the limit.
   virtual void keep(const CacheKey& key, const std::vector<std::span<const std::byte>>& parts);
 
   // What first kept this object from reading or writing entries, in one line that names the

@@ -51,7 +51,7 @@ std::string room_of(const std::string& path, std::span<const RoomRule> rules) {
 // such as dlfcn.h.
 bool is_system_header(const std::string& name) {
   static const std::regex system(
-      "[a-z0-9_]+|(dlfcn|link|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
+      "[a-z0-9_]+|(dlfcn|elf|link|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
       "[a-z]+\\.h");
   return std::regex_match(name, system);
 }

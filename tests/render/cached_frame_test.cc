@@ -3,6 +3,9 @@
 // for a made-up planet and for one of maps, and after the map has changed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "tests/render/frame_fixture.h"
 #include "tests/render/map_fixture.h"
 

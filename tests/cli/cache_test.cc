@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures with a cache that is empty, full, damaged, switched off or impossible are the same file;
+// --stats accounts for the wall time.
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "tests/cli/program.h"
+
+namespace skyfit::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+class CacheTest : public ProgramTest {
+ protected:
+  // A picture of the model whose tables take least.
+  Outcome render(const std::string& out, const std::vector<std::string>& more,
+                 const std::vector<std::string>& environment) const {
+    std::vector<std::string> arguments = {
+        "render", "--preset", "earth-clear", "--model", "nielsen",           "--view",
+        "valley", "--size",   "32x18",       "--out",   out,        "--samples-per-side",
+        "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments, environment);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome;
+  }
+
+  std::set<fs::path> entries() const {
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(caches_.path() / "skyfit"))
+      files.insert(entry.path());
+    return files;
+  }
+
+  const TemporaryDirectory caches_;
+  const std::vector<std::string> here_ = {"XDG_CACHE_HOME=" + caches_.path().string()};
+};
+
+TEST_F(CacheTest, APictureIsTheSameWithAndWithoutIt) {
+  render("without.png", {"--no-cache"}, here_);
+  EXPECT_FALSE(fs::exists(caches_.path() / "skyfit"));
+  render("first.png", {}, here_);
+  const std::set<fs::path> kept = entries();
+  EXPECT_GT(kept.size(), 20u) << "tables, textures, blocks of terrain";
+  render("second.png", {}, here_);
+  EXPECT_EQ(entries(), kept) << "all was found";
+  for (const fs::path& file : kept) {
+    std::fstream damaged(file, std::ios::binary | std::ios::in | std::ios::out);
+    damaged.seekp(static_cast<std::streamoff>(fs::file_size(file) / 2));
+    damaged.put('!');
+  }
+  const Outcome outcome = render("damaged.png", {"--stats"}, here_);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_EQ(entries(), kept) << "and replaced";
+  const std::string picture = read("without.png");
+  for (const char* name : {"first.png", "second.png", "damaged.png"})
+    EXPECT_TRUE(read(name) == picture) << name;
+}
+
+TEST_F(CacheTest, NoPlaceForItIsToldWithTheStatisticsAlone) {
+  const std::vector<std::string> nowhere = {"XDG_CACHE_HOME=", "HOME="};
+  EXPECT_THAT(render("a.png", {}, nowhere).err, IsEmpty());
+  const Outcome told = render("b.png", {"--stats"}, nowhere);
+  EXPECT_EQ(told.err,
+            "skyfit: no cache: neither XDG_CACHE_HOME nor HOME is an absolute path\n");
+  EXPECT_TRUE(read("a.png") == read("b.png"));
+  const fs::path file = write("file", "not a directory");
+  const Outcome file_told = render("c.png", {"--stats"}, {"XDG_CACHE_HOME=" + file.string()});
+  EXPECT_THAT(file_told.err,
+              StartsWith("skyfit: no cache: " + (file / "skyfit").string() + ": cannot be read: "));
+  EXPECT_EQ(lines(file_told.err).size(), 1u);
+}
+
+TEST_F(CacheTest, TheStatisticsAddUpToTheWallTime) {
+  const std::vector<std::string> rows = lines(render("a.png", {"--stats"}, here_).out);
+  const auto head = std::ranges::find(rows, "wall time since the start of the process");
+  ASSERT_NE(head, rows.end());
+  double sum = 0, total = 0, rest = -1;
+  for (auto row = head + 1; row != rows.end(); ++row) {
+    const double seconds = std::strtod(row->substr(35).c_str(), nullptr);
+    if (row->starts_with("  total ")) {
+      total = seconds;
+    } else {
+      EXPECT_GE(seconds, 0) << *row;
+      sum += seconds;
+      if (row->starts_with("  rest ")) rest = seconds;
+    }
+  }
+  const double rounding = 0.0005 * static_cast<double>(rows.end() - head);
+  EXPECT_NEAR(sum, total, rounding);
+  EXPECT_GT(total, 0);
+  EXPECT_GE(rest, 0);
+  EXPECT_LT(rest, 0.02 * total + rounding) << "what has no name";
+}
+
+TEST_F(CacheTest, TheDoctorSaysWhereItIs) {
+  const Outcome outcome = run({"doctor"}, here_);
+  EXPECT_THAT(outcome.out, HasSubstr("ok      cache of frames: " +
+                                     (caches_.path() / "skyfit").string() +
+                                     ", 0 entries, 0.0 MB of at most 2000 MB\n"));
+}
+
+}  // namespace
+}  // namespace skyfit::cli
