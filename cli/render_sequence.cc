@@ -120,8 +120,7 @@ void render_sequence(const RenderRequest& request) {
     Progress progress("rendering");
     for (int i = 0; i < frames; ++i) shooting.frame(i, progress);
   }
-  if (request.stats)
-    print_statistics(shooting.statistics().medians(), shooting.time(), request);
+  if (request.stats) print_statistics(shooting.statistics().medians(), shooting.time(), request);
   print(fmt::format("{}: {} frames at {:.9g} per second, {} drawn, {} kept{}\n", request.out_dir,
                     frames, request.sequence.frames_per_second, shooting.drawn(),
                     frames - shooting.drawn(), film(request, shooting.store())));

@@ -21,9 +21,9 @@ using Report = std::function<void(double, std::string_view)>;
 
 class RenderSession {
  public:
-  // Opens the scene, while the tables of the time at which the first frame will be drawn are made in
-  // the background. `report` hears of the tables, `time` of all that is done. Throws what Renderer
-  // and make_sky_model() throw.
+  // Opens the scene, while the tables of the time at which the first frame will be drawn are made
+  // in the background. `report` hears of the tables, `time` of all that is done. Throws what
+  // Renderer and make_sky_model() throw.
   RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline,
                 double first_time_s, TimeAccount& time, Report report);
 

@@ -103,7 +103,6 @@ class ContentCache {
 // $XDG_CACHE_HOME/skyfit, or $HOME/.cache/skyfit; nothing where neither is an absolute path (XDG
 // Base Directory Specification 0.8).
 std::optional<std::filesystem::path> user_cache_directory();
-inline constexpr const char* kNoCachePlace =
-    "neither XDG_CACHE_HOME nor HOME is an absolute path";
+inline constexpr const char* kNoCachePlace = "neither XDG_CACHE_HOME nor HOME is an absolute path";
 
 }  // namespace skyfit

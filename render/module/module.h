@@ -25,7 +25,8 @@ class FrameDrawer {
 struct RenderModule {
   static constexpr int kRevision = 9;
   int revision;
-  std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice, std::shared_ptr<ContentCache>);
+  std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
+                                              std::shared_ptr<ContentCache>);
   void (*write_exr)(const Frame&, const std::filesystem::path&);
   void (*write_map)(const SkyMap&, Primaries, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);

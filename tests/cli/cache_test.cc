@@ -22,8 +22,8 @@ class CacheTest : public ProgramTest {
   Outcome render(const std::string& out, const std::vector<std::string>& more,
                  const std::vector<std::string>& environment) const {
     std::vector<std::string> arguments = {
-        "render", "--preset", "earth-clear", "--model", "nielsen",           "--view",
-        "valley", "--size",   "32x18",       "--out",   out,        "--samples-per-side",
+        "render", "--preset", "earth-clear", "--model", "nielsen", "--view",
+        "valley", "--size",   "32x18",       "--out",   out,       "--samples-per-side",
         "1"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run(arguments, environment);
@@ -67,8 +67,7 @@ TEST_F(CacheTest, NoPlaceForItIsToldWithTheStatisticsAlone) {
   const std::vector<std::string> nowhere = {"XDG_CACHE_HOME=", "HOME="};
   EXPECT_THAT(render("a.png", {}, nowhere).err, IsEmpty());
   const Outcome told = render("b.png", {"--stats"}, nowhere);
-  EXPECT_EQ(told.err,
-            "skyfit: no cache: neither XDG_CACHE_HOME nor HOME is an absolute path\n");
+  EXPECT_EQ(told.err, "skyfit: no cache: neither XDG_CACHE_HOME nor HOME is an absolute path\n");
   EXPECT_TRUE(read("a.png") == read("b.png"));
   const fs::path file = write("file", "not a directory");
   const Outcome file_told = render("c.png", {"--stats"}, {"XDG_CACHE_HOME=" + file.string()});
@@ -101,9 +100,9 @@ TEST_F(CacheTest, TheStatisticsAddUpToTheWallTime) {
 
 TEST_F(CacheTest, TheDoctorSaysWhereItIs) {
   const Outcome outcome = run({"doctor"}, here_);
-  EXPECT_THAT(outcome.out, HasSubstr("ok      cache of frames: " +
-                                     (caches_.path() / "skyfit").string() +
-                                     ", 0 entries, 0.0 MB of at most 2000 MB\n"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("ok      cache of frames: " + (caches_.path() / "skyfit").string() +
+                        ", 0 entries, 0.0 MB of at most 2000 MB\n"));
 }
 
 }  // namespace

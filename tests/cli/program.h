@@ -21,7 +21,8 @@ struct Outcome {
 class ProgramTest : public ::testing::Test {
  protected:
   // Runs the program with the folder as its working directory and caches that no user has.
-  // `environment` holds NAME=VALUE to add; `out` is the file that takes stdout instead of Outcome::out.
+  // `environment` holds NAME=VALUE to add; `out` is the file that takes stdout instead of
+  // Outcome::out.
   Outcome run(const std::vector<std::string>& arguments,
               const std::vector<std::string>& environment = {}, const std::string& out = {}) const;
 

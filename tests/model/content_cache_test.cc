@@ -83,8 +83,7 @@ TEST_F(ContentCacheTest, NobodyElseCanRead) {
   ContentCache cache(directory_);
   keep(cache, "a", kParts);
   EXPECT_EQ(fs::status(directory_).permissions(), fs::perms::owner_all);
-  EXPECT_EQ(fs::status(file_of("a")).permissions(),
-            fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(fs::status(file_of("a")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
 TEST_F(ContentCacheTest, AKeyIsAListOfThings) {

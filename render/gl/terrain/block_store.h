@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vertices of blocks in the device's memory: those of a frame are made when they are missing,
-// in parallel, and stay for the frames that follow; the longest unused make room. A cache keeps them
-// for other processes.
+// in parallel, and stay for the frames that follow; the longest unused make room. A cache keeps
+// them for other processes.
 #pragma once
 
 #include <map>

@@ -161,7 +161,8 @@ std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels) {
 
 MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory,
                             ContentCache* cache) {
-  if (directory.empty()) return cache != nullptr ? kept_texture(texture, *cache) : make_texture(texture);
+  if (directory.empty())
+    return cache != nullptr ? kept_texture(texture, *cache) : make_texture(texture);
   const std::filesystem::path file = directory / fmt::format("{}.png", name_of(texture));
   if (!std::filesystem::exists(file)) {
     MaterialTexels texels = make_texture(texture);

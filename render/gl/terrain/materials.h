@@ -25,8 +25,8 @@ enum class Texture { kGrains, kCrags };  // soft and grainy; with ridges and cra
 MaterialTexels make_texture(Texture texture);
 
 // From DIRECTORY/grains.png and crags.png, slices one below the other; made and saved when it is
-// missing. Without a directory: from the cache, which may be null, or made. Throws std::runtime_error that names a file that
-// cannot be read or written or has another size.
+// missing. Without a directory: from the cache, which may be null, or made. Throws
+// std::runtime_error that names a file that cannot be read or written or has another size.
 MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory,
                             ContentCache* cache = nullptr);
 
