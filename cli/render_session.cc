@@ -28,8 +28,12 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
   time_.done("opening the renderer");
 }
 
+Atmosphere<double> RenderSession::drawn_atmosphere(const Preset& preset) const {
+  return lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
+}
+
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
-  const auto atmosphere = lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
+  const auto atmosphere = drawn_atmosphere(preset);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
   const TableSizes sizes;
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
@@ -43,9 +47,17 @@ AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
                        compute);
 }
 
+FrameOptions RenderSession::placed(const Shot& shot, const Preset& preset) const {
+  FrameOptions frame = request_.frame;
+  place_camera(
+      shot.camera, shot.sun, preset.atmosphere.bottom_radius_m,
+      [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
+  return frame;
+}
+
 // Makes the atmosphere of a time that of the renderer.
 Preset RenderSession::show(double time_s) {
-  if (steady_) return *steady_;
+  if (settled_) return *timeline_.steady();
   const Timeline::Now now = timeline_.at(time_s);
   time_.done("waiting for tables");
   if (now.tables != shown_) {
@@ -53,8 +65,8 @@ Preset RenderSession::show(double time_s) {
     shown_ = now.tables;
     time_.done("tables to the renderer");
   }
-  if (timeline_.is_steady()) {
-    steady_ = now.preset;
+  if (timeline_.steady() != nullptr) {
+    settled_ = true;
     shown_.reset();
     timeline_.forget();
   }
@@ -63,12 +75,15 @@ Preset RenderSession::show(double time_s) {
 
 Frame RenderSession::draw(const Shot& shot, double time_s,
                           const std::function<void(double)>& progress) {
+  // Before the first frame of an atmosphere that stays, while its tables are made.
+  if (const Preset* preset = timeline_.steady(); preset != nullptr && !settled_) {
+    renderer_.set_ground(drawn_atmosphere(*preset),
+                         color_rule(refs::spectral_data_of(preset->atmosphere)));
+    renderer_.prepare(placed(shot, *preset));
+    time_.done("ground");
+  }
   const Preset preset = show(time_s);
-  FrameOptions frame = request_.frame;
-  place_camera(
-      shot.camera, shot.sun, preset.atmosphere.bottom_radius_m,
-      [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
-  Frame drawn = renderer_.draw(frame, progress);
+  Frame drawn = renderer_.draw(placed(shot, preset), progress);
   time_.done("frame: other", drawn.statistics.steps);
   return drawn;
 }

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "cli/render_request.h"
@@ -31,6 +30,8 @@ class RenderSession {
 
  private:
   AtmosphereTables tables_of(const Preset& preset) const;
+  Atmosphere<double> drawn_atmosphere(const Preset& preset) const;
+  FrameOptions placed(const Shot& shot, const Preset& preset) const;
   Preset show(double time_s);
 
   const RenderRequest& request_;
@@ -40,8 +41,8 @@ class RenderSession {
   bool keeps_tables_;  // in the cache: not the many of an atmosphere that changes
   Timeline timeline_;
   Renderer renderer_;
-  Timeline::Tables shown_;        // what renderer_ has
-  std::optional<Preset> steady_;  // shown without end; then the tables are with renderer_ alone
+  Timeline::Tables shown_;  // what renderer_ has
+  bool settled_ = false;    // it has them for all times, and alone
 };
 
 // Writes PNG or EXR, by the extension.

@@ -184,7 +184,7 @@ struct FrameStatistics {
   // Culled nodes of the tree: outside the frustum, behind the planet's horizon.
   int blocks_outside = 0, blocks_behind = 0;
   int blocks_hidden = 0;  // every patch of theirs outside the frustum or behind nearer ground
-  int blocks_made = 0;    // that were not in the store of an earlier frame
+  int blocks_made = 0;    // that no earlier frame had, by this frame or its prepare()
   std::vector<PassTime> passes;  // by the device's timers
   double milliseconds = 0;       // from the frame's begin to its end, reading back not counted
   // Of Renderer::draw(), by the wall clock, one after the other: "ground" until all is chosen that
@@ -235,8 +235,14 @@ class Renderer {
   // Throws std::invalid_argument when the planet has another radius than before.
   void set_atmosphere(const Preset& preset, const AtmosphereTables& tables);
 
+  // What of a frame needs no tables, for while they are computed; set_atmosphere() and draw() do it
+  // where it was not done: the ground of an atmosphere, lowered_by() as its tables, and the blocks
+  // of it that a frame sees. Throws as they do; a camera below the ground prepares nothing.
+  void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color);
+  void prepare(const FrameOptions& options);
+
   // Height of the ground above the bottom radius, in metres, at a place or at the coast. Needs an
-  // atmosphere, which knows the radius.
+  // atmosphere or a ground, which know the radius.
   double ground_height_m(const std::optional<Site>& site) const;
 
   // Progress in 0..1; may be empty. Throws std::invalid_argument for options that validate()
@@ -253,6 +259,8 @@ class Renderer {
   FrameStatistics wait();
 
  private:
+  bool is_above_ground(const FrameOptions& options) const;
+  FrameOptions raised(const FrameOptions& options) const;
   FrameOptions above_lowest_ground(const FrameOptions& options) const;
 
   std::unique_ptr<FrameDrawer> drawer_;

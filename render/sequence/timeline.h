@@ -48,8 +48,9 @@ class Timeline {
   // Throws what `compute` throws.
   Now at(double time_s);
 
-  bool is_steady() const { return steps_.size() == 1; }  // the same at all times
-  void forget() { made_.clear(); }                       // tables, until they are asked for again
+  // The preset of all times; null where it changes.
+  const Preset* steady() const { return steps_.size() == 1 ? &steps_[0].preset : nullptr; }
+  void forget() { made_.clear(); }  // tables, until they are asked for again
 
  private:
   struct Made {

@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/base/content_cache.h"
@@ -23,12 +24,12 @@ class BlockStore {
   BlockStore(const Ground& ground, double radius_m, ContentCache* cache);
 
   // What is provided from now on stays until the next call.
-  void begin_frame() { ++frame_, made_ = 0; }
+  void begin_frame() { ++frame_; }
 
   // Makes what is missing. Throws std::length_error when a frame needs more than kMostBlocks.
   void provide(std::span<const CubeBlock> blocks);
 
-  int made() const { return made_; }  // since begin_frame()
+  int take_made() { return std::exchange(made_, 0); }  // since the last call
 
   // Of a block of this frame: where its vertices begin, in vertices.
   GLint first_vertex(const CubeBlock& block) const {
