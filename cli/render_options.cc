@@ -256,6 +256,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                    "then holds them, too");
   command.add_flag("--stats", options.stats, "Print triangles, blocks and the time of every pass");
   add_threads_option(command, options.threads);
+  command.add_flag("--no-cache", options.no_cache,
+                   "Compute tables, ground and textures anew instead of reading or keeping them in "
+                   "$XDG_CACHE_HOME/skyfit or ~/.cache/skyfit");
   add_camera_options(command, options);
   add_sun_options(command, options);
   add_scene_options(command, options);

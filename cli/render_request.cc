@@ -181,6 +181,12 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   request.panels = options.panels;
   request.stats = options.stats;
   request.threads = options.threads;
+  if (options.no_cache) return request;
+  if (const auto directory = user_cache_directory()) {
+    request.cache = std::make_shared<ContentCache>(*directory);
+  } else {
+    request.cache_trouble = kNoCachePlace;
+  }
   return request;
 }
 

@@ -66,12 +66,15 @@ int write_error(int number, std::string_view bytes) {
   return 0;
 }
 
-// The error number of writing, flushing and closing, or 0.
-int write_error(const fs::path& file, std::string_view bytes) {
+// The error number of writing, forcing to the disk if `sync`, and closing, or 0.
+int write_error(const fs::path& file, std::span<const std::string_view> parts, bool sync) {
   const int number = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (number < 0) return errno;
-  int failed = write_error(number, bytes);
-  if (failed == 0 && ::fsync(number) != 0 && errno != EINVAL) failed = errno;
+  int failed = 0;
+  for (const std::string_view bytes : parts) {
+    if (failed == 0) failed = write_error(number, bytes);
+  }
+  if (sync && failed == 0 && ::fsync(number) != 0 && errno != EINVAL) failed = errno;
   const int closed = ::close(number) != 0 ? errno : 0;
   return failed != 0 ? failed : closed;
 }
@@ -137,7 +140,7 @@ WholeFiles::WholeFiles(std::vector<fs::path> targets) : targets_(std::move(targe
 }
 
 void WholeFiles::write(std::size_t index, std::string_view bytes) const {
-  if (const int error = write_error(temporaries_[index], bytes); error != 0)
+  if (const int error = write_error(temporaries_[index], {&bytes, 1}, true); error != 0)
     fail(index, std::strerror(error));
 }
 
@@ -176,7 +179,12 @@ void write_whole_file(const fs::path& file, std::string_view bytes) {
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  if (const int error = write_error(file, bytes); error != 0)
+  if (const int error = write_error(file, {&bytes, 1}, true); error != 0)
+    fail_to_write(file, std::strerror(error));
+}
+
+void write_losable_file(const fs::path& file, std::span<const std::string_view> parts) {
+  if (const int error = write_error(file, parts, false); error != 0)
     fail_to_write(file, std::strerror(error));
 }
 

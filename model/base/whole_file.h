@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,8 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
 
 // Not atomic: for files inside of a staging directory.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
+// The same of parts, one after the other, and not forced to the disk: for what may be lost.
+void write_losable_file(const std::filesystem::path& file, std::span<const std::string_view> parts);
 
 // Throws when the file cannot be created in its folder, or its name is that of something that is no
 // file; leaves nothing behind. Called before long work whose result goes there.

@@ -160,6 +160,8 @@ void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file
 void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
   OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("png:compressionLevel",
+                 3);  // noise hardly shrinks: half the time of 6, 5 % larger
   for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
   const std::vector<std::uint8_t> bytes = tone_mapped(frame, tone);
   write_whole(file, spec, OIIO::TypeDesc::UINT8, bytes.data());

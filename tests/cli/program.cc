@@ -35,7 +35,9 @@ Outcome ProgramTest::run(const std::vector<std::string>& arguments,
                          const std::string& in) const {
   std::vector<std::string> argv = {SKYFIT_PROGRAM};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> env = environment;
+  std::vector<std::string> env = environment;  // the first of a name counts
+  env.emplace_back("XDG_CACHE_HOME=" SKYFIT_TEST_CACHES);
+  env.emplace_back("MESA_SHADER_CACHE_DIR=" SKYFIT_TEST_CACHES);  // wherever the other is
   for (char** variable = environ; *variable != nullptr; ++variable) env.emplace_back(*variable);
 
   const fs::path out_file = out.empty() ? capture_ / "out" : fs::path(out),
