@@ -68,7 +68,7 @@ TEST_F(PipesTest, AnEmptyStandardInputIsNoPreset) {
 TEST_F(PipesTest, AFileGoesToTheStandardOutputAndTheRestToStderr) {
   const Outcome exported = run({"export", "earth-clear", "--to", "calcmysky", "--out", "-.atmo"});
   ASSERT_EQ(exported.status, 0) << exported.err;
-  EXPECT_THAT(exported.out, HasSubstr("scatterer"));
+  EXPECT_THAT(exported.out, StartsWith("# Atmosphere of the preset earth-clear"));
   EXPECT_THAT(exported.err, HasSubstr("loss by what it cannot hold"));
   EXPECT_TRUE(files().empty());
   write("b.atmo", exported.out);
