@@ -51,7 +51,7 @@ struct HorizontalCoupling {
   std::vector<Sun> suns;      // of the solved suns
   std::vector<char> coupled;  // [sun]: whether light from neighbouring places is taken as theirs
   std::vector<double> step;   // [layer][ray]: psi of a layer, radians
-  // Below the horizon, where light falls steeply with the sun, the step is not taken to first
+  // In twilight, where light falls steeply with the sun, the step is not taken to first
   // order: light under a sun and of a mode is made of that of other suns and modes at the far end,
   // docs/theory (7.7). What it takes of one of them, for cosine and for sine series, and less its
   // own:
