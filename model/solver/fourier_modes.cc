@@ -141,14 +141,14 @@ StreamSources FourierModes::diffuse_sources() const {
   polarised_->add_sources(sources);
   if (!polarised_->has_matrices()) return sources;
   const LevelMoments& spin = polarised_->spin_moments(StreamLight::kValues).b;
-  const auto add_of = [&](const std::vector<PolarisedModes::MatrixMoments>& matrices,
+  const auto add_of = [&](const std::vector<ParticleMatrices::Moments>& matrices,
                           std::vector<StreamColumns>& to) {
     for (std::size_t s = 0; s < matrices.size(); ++s) {
       if (!matrices[s].gamma[0].empty()) add(sources_by(matrices[s].gamma, spin), to[s]);
     }
   };
-  add_of(polarised_->matrices(), sources.scatterer);
-  add_of(polarised_->matrix_tangents(), sources.phase);
+  add_of(polarised_->particles().scatterers(), sources.scatterer);
+  add_of(polarised_->particles().tangents(), sources.phase);
   return sources;
 }
 
@@ -261,7 +261,8 @@ StreamColumns FourierModes::source_of_polarised(StreamLight::Kind kind, std::siz
   if (polarised_->has_air())
     source = polarised_->intensity_source(polarised_->moments(kind), columns);
   if (!polarised_->has_matrices()) return source;
-  StreamColumns of_particles = at_rays(polarised_->intensity_moments(kind), columns);
+  StreamColumns of_particles = at_rays(
+      polarised_->particles().intensity_moments(polarised_->spin_moments(kind), columns), columns);
   if (!polarised_->has_air()) return of_particles;
   add(of_particles, source);
   return source;

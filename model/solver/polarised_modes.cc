@@ -28,59 +28,6 @@ std::vector<std::size_t> polarising_scatterers(const LayerMedium& medium, const 
 
 const double* second_moment_of(const LayerMedium::Scatterer& s) { return at(s.chi, 1, 2, 0); }
 
-// sum += factor x, the factor by lane.
-void add_scaled(const double* factor, const Parities& x, Parities& sum) {
-  for (std::size_t parity = 0; parity < 2; ++parity) {
-    sum[parity].resize(x[parity].size(), 0.0);
-    batch::add_scaled(factor, x[parity].data(), sum[parity].data(),
-                      x[parity].size() / batch::kBatchWidth);
-  }
-}
-
-// sum += by_l x, a number per row of x.
-void add_rows(const Parities& by_l, const Parities& x, std::size_t columns, Parities& sum) {
-  Batch product;
-  for (std::size_t parity = 0; parity < 2; ++parity) {
-    sum[parity].resize(x[parity].size(), 0.0);
-    if (by_l[parity].empty()) continue;
-    product.resize(x[parity].size());
-    batch::scale_rows(by_l[parity].data(), x[parity].data(), product.data(),
-                      by_l[parity].size() / batch::kBatchWidth, columns);
-    for (std::size_t k = 0; k < product.size(); ++k) sum[parity][k] += product[k];
-  }
-}
-
-// By column and lane: the largest number, or difference from `before` where there is one.
-std::vector<double> largest(const LevelMoments& moments, std::size_t columns,
-                            const LevelMoments& before = {}) {
-  const std::size_t width = columns * batch::kBatchWidth;
-  std::vector<double> result(width, 0.0);
-  for (std::size_t i = 0; i < moments.size(); ++i) {
-    for (std::size_t parity = 0; parity < 2; ++parity) {
-      const Batch& x = moments[i][parity];
-      for (std::size_t k = 0; k < x.size(); ++k) {
-        const double from = before.empty() ? 0 : before[i][parity][k];
-        result[k % width] = std::max(result[k % width], std::abs(x[k] - from));
-      }
-    }
-  }
-  return result;
-}
-
-// The change from `before`, as a share of I in each column.
-double change(const SpinMoments& now, const SpinMoments& before, const LevelMoments& intensity,
-              std::size_t columns) {
-  const std::vector<double> all = largest(intensity, columns);
-  double result = 0;
-  for (auto moments : {&SpinMoments::b, &SpinMoments::c}) {
-    const std::vector<double> difference = largest(now.*moments, columns, before.*moments);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (difference[k] > result * all[k]) result = all[k] > 0 ? difference[k] / all[k] : 1;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 bool PolarisedModes::any(const LaneModes& modes, const LayerMedium& medium) {
@@ -97,38 +44,11 @@ PolarisedModes::PolarisedModes(const Streams& streams, const LayerMedium& intens
       intensity_pattern_(pattern_of(Stokes::kI)) {
   std::ranges::copy_if(polarising_, std::back_inserter(air_),
                        [&](std::size_t s) { return polarised.scatterers[s].polarises; });
-  if (polarised.has_matrices()) set_matrices();
+  if (polarised.has_matrices()) particles_.emplace(streams, intensity, polarised, modes);
   for (const Stokes which : {Stokes::kQ, Stokes::kU}) {
     components_.push_back({pattern_of(which), {streams, polarised, polarising_, modes}});
   }
   if (has_air()) set_transport();
-}
-
-// docs/theory (13.18).
-void PolarisedModes::set_matrices() {
-  basis_.emplace(*streams_, modes_, polarised_->moments);
-  const auto by_mode = [&](const LayerMedium::Matrix& matrix) {
-    if (matrix.alpha.empty()) return MatrixMoments{};
-    return MatrixMoments{basis_->by_mode(matrix.alpha), basis_->by_mode(matrix.zeta),
-                         basis_->by_mode(matrix.gamma)};
-  };
-  for (const LayerMedium::Scatterer& s : polarised_->scatterers)
-    matrices_.push_back(by_mode(s.matrix));
-  for (const LayerMedium::PhaseTangent& t : polarised_->phase_tangents)
-    matrix_tangents_.push_back(by_mode(t.matrix));
-  of_level_.resize(level_count());
-  intensity_gamma_.resize(level_count());
-  for (std::size_t i = 0; i < level_count(); ++i) {
-    for (std::size_t s = 0; s < matrices_.size(); ++s) {
-      if (!has_matrix(polarised_->scatterers[s])) continue;
-      const double* const share = polarised_->scatterers[s].share[i].data();
-      add_scaled(share, matrices_[s].alpha, of_level_[i].alpha);
-      add_scaled(share, matrices_[s].zeta, of_level_[i].zeta);
-      add_scaled(share, matrices_[s].gamma, of_level_[i].gamma);
-      add_scaled(intensity_->scatterers[s].share[i].data(), matrices_[s].gamma,
-                 intensity_gamma_[i]);
-    }
-  }
 }
 
 // docs/theory (13.5) and (13.7).
@@ -233,33 +153,13 @@ void PolarisedModes::set_beam(const LevelMoments& beam) {
     components_[c].light.set_beam(std::move(of_beam[c]));
 }
 
-// docs/theory (13.19).
-template <class MatrixOf>
-std::array<StreamColumns, 2> PolarisedModes::scattered(const MatrixOf& matrix_of,
-                                                       const LevelMoments& intensity,
-                                                       const SpinMoments& spin,
-                                                       std::size_t columns) const {
-  LevelMoments kept(level_count()), turned(level_count());
-  for (std::size_t i = 0; i < level_count(); ++i) {
-    const MatrixMoments& matrix = matrix_of(i);
-    for (std::size_t parity = 0; parity < 2; ++parity)
-      turned[i][parity].assign(intensity[i][parity].size(), 0.0);
-    add_rows(matrix.gamma, intensity[i], columns, kept[i]);
-    if (spin.b.empty()) continue;
-    add_rows(matrix.alpha, spin.b[i], columns, kept[i]);
-    add_rows(matrix.zeta, spin.c[i], columns, turned[i]);
-  }
-  return basis_->at_rays(kept, turned, columns);
-}
-
 std::array<StreamSources, 2> PolarisedModes::sources(const Batch& moments,
                                                      const LevelMoments& intensity,
                                                      const SpinMoments& spin) const {
   const std::size_t suns = polarised_->suns;
   std::array<StreamSources, 2> r;
-  const auto add_of = [&](const MatrixMoments& matrix, auto list) {
-    std::array<StreamColumns, 2> light = scattered(
-        [&](std::size_t) -> const MatrixMoments& { return matrix; }, intensity, spin, suns);
+  const auto add_of = [&](const ParticleMatrices::Moments& matrix, auto list) {
+    std::array<StreamColumns, 2> light = particles_->scattered_by(matrix, intensity, spin, suns);
     for (std::size_t c = 0; c < 2; ++c) (r[c].*list).push_back(std::move(light[c]));
   };
   for (const std::size_t s : polarising_) {
@@ -268,10 +168,12 @@ std::array<StreamSources, 2> PolarisedModes::sources(const Batch& moments,
         r[c].scatterer.push_back(
             source(components_[c].pattern, by_second_moment(s, moments, suns), suns));
     } else {
-      add_of(matrices_[s], &StreamSources::scatterer);
+      add_of(particles_->scatterers()[s], &StreamSources::scatterer);
     }
   }
-  for (const MatrixMoments& matrix : matrix_tangents_) add_of(matrix, &StreamSources::phase);
+  if (!particles_) return r;
+  for (const ParticleMatrices::Moments& matrix : particles_->tangents())
+    add_of(matrix, &StreamSources::phase);
   return r;
 }
 
@@ -280,13 +182,6 @@ void PolarisedModes::add_sources(StreamSources& sources) const {
   for (const std::size_t s : air_)
     add(source(intensity_pattern_, by_second_moment(s, moments(Kind::kValues), suns), suns),
         sources.scatterer[s]);
-}
-
-LevelMoments PolarisedModes::intensity_moments(Kind kind) const {
-  LevelMoments r(level_count());
-  for (std::size_t i = 0; i < level_count(); ++i)
-    add_rows(intensity_gamma_[i], state_[kind].spin.b[i], columns(kind), r[i]);
-  return r;
 }
 
 // docs/theory (13.9).
@@ -380,9 +275,7 @@ void PolarisedModes::begin_steps(Kind kind) {
 
 void PolarisedModes::add_particle_sources(const LevelMoments& intensity, const SpinMoments& spin,
                                           std::size_t columns) {
-  const std::array<StreamColumns, 2> light =
-      scattered([&](std::size_t i) -> const MatrixMoments& { return of_level_[i]; }, intensity,
-                spin, columns);
+  const std::array<StreamColumns, 2> light = particles_->scattered(intensity, spin, columns);
   for (std::size_t c = 0; c < components_.size(); ++c)
     components_[c].light.add_diffuse_sources(light[c]);
 }
@@ -415,9 +308,9 @@ double PolarisedModes::solve(Kind kind, const StreamColumns& light, const LevelM
   if (has_air()) solve_air(kind, light, polarised);
   if (!has_matrices()) return 0;
   complete(kind);
-  SpinMoments spin =
-      basis_->analyse(components_[0].light.light(kind), components_[1].light.light(kind));
-  const double changed = change(spin, state.spin, intensity, columns(kind));
+  SpinMoments spin = particles_->basis().analyse(components_[0].light.light(kind),
+                                                 components_[1].light.light(kind));
+  const double changed = ParticleMatrices::change(spin, state.spin, intensity, columns(kind));
   state.spin = std::move(spin);
   return changed;
 }
@@ -458,8 +351,8 @@ void PolarisedModes::advance(const StreamColumns& light, const LevelMoments& int
   }
   if (has_air()) state.moments = polarised_moments(suns);
   if (has_matrices())
-    state.spin =
-        basis_->analyse(sweep(components_[0].light, suns), sweep(components_[1].light, suns));
+    state.spin = particles_->basis().analyse(sweep(components_[0].light, suns),
+                                             sweep(components_[1].light, suns));
 }
 
 void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling,
@@ -478,8 +371,7 @@ void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling,
     }
     if (has_matrices()) {
       const std::array<StreamColumns, 2> of_particles =
-          scattered([&](std::size_t i) -> const MatrixMoments& { return of_level_[i]; },
-                    intensity_tangents, state.spin, tangents);
+          particles_->scattered(intensity_tangents, state.spin, tangents);
       for (std::size_t c = 0; c < components_.size(); ++c) {
         if (has_air()) {
           add(of_particles[c], tangent[c]);

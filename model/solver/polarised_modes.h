@@ -7,7 +7,8 @@
 //   P = G (M_2 + (1 + R) P) + b  (docs/theory, chapter 13),
 // M_2 that of the light without polarisation, b the P of light that the sun's beam polarises.
 // Scattering matrices of particles, where the media have them, make sources of I, Q and U from the
-// moments of all three in every mode (model/solver/spin_basis.h); these are found by iteration.
+// moments of all three in every mode (model/solver/particle_matrices.h); these are found by
+// iteration.
 #pragma once
 
 #include <array>
@@ -16,8 +17,8 @@
 #include <span>
 #include <vector>
 
+#include "model/solver/particle_matrices.h"
 #include "model/solver/rayleigh_stokes.h"
-#include "model/solver/spin_basis.h"
 #include "model/solver/stream_light.h"
 
 namespace skyfit {
@@ -33,7 +34,7 @@ class PolarisedModes {
   PolarisedModes(const Streams& streams, const LayerMedium& intensity, const LayerMedium& polarised,
                  const LaneModes& modes);
 
-  bool has_matrices() const { return basis_.has_value(); }
+  bool has_matrices() const { return particles_.has_value(); }
   bool has_air() const { return !air_.empty(); }  // which polarises light of these modes
 
   // Numbers of a level are one row of (levels x columns).
@@ -64,15 +65,7 @@ class PolarisedModes {
   const Batch& moments(Kind kind) const { return state_[kind].moments; }  // P: (levels x columns)
   // Of Q and U; with matrices.
   const SpinMoments& spin_moments(Kind kind) const { return state_[kind].spin; }
-  // Moments of the source function of I that the particles' matrices make of Q and U.
-  LevelMoments intensity_moments(Kind kind) const;
-  // What turns b_l of a scatterer, or its derivative by a phase tangent of the media, into I:
-  // gamma.
-  struct MatrixMoments {
-    Parities alpha, zeta, gamma;  // empty of a scatterer without a matrix
-  };
-  const std::vector<MatrixMoments>& matrices() const { return matrices_; }
-  const std::vector<MatrixMoments>& matrix_tangents() const { return matrix_tangents_; }
+  const ParticleMatrices& particles() const { return *particles_; }  // with matrices
   // Adds to the source functions of I, per unit of each scatterer's share, what air makes of P.
   void add_sources(StreamSources& sources) const;
 
@@ -112,7 +105,6 @@ class PolarisedModes {
     return polarised_->suns * (kind == Kind::kValues ? 1 : polarised_->parameters);
   }
   Pattern pattern_of(Stokes which) const;
-  void set_matrices();
   StreamColumns source(const Pattern& pattern, const Batch& moments, std::size_t columns) const;
   void add_moments(const Pattern& pattern, const StreamColumns& light, Batch& moments) const;
   Batch scaled(const LayerMedium& medium, const Batch& moments, std::size_t columns) const;
@@ -127,10 +119,6 @@ class PolarisedModes {
   void solve_air(Kind kind, const StreamColumns& light, bool polarised);
   Batch solve(const Batch& unpolarised, std::size_t columns) const;
   Batch total(const Batch& unpolarised, const Batch& moments, std::size_t columns) const;
-  // Q and U of particles, from moments and the matrix of each level.
-  template <class MatrixOf>
-  std::array<StreamColumns, 2> scattered(const MatrixOf& matrix_of, const LevelMoments& intensity,
-                                         const SpinMoments& spin, std::size_t columns) const;
   // Of Q and U per unit of each scatterer's share.
   std::array<StreamSources, 2> sources(const Batch& moments, const LevelMoments& intensity,
                                        const SpinMoments& spin) const;
@@ -138,12 +126,8 @@ class PolarisedModes {
   const Streams* streams_;
   const LayerMedium *intensity_, *polarised_;
   LaneModes modes_;
-  std::vector<std::size_t> polarising_, air_;              // scatterers; air has Rayleigh's matrix
-  std::optional<SpinBasis> basis_;                         // with matrices of particles
-  std::vector<MatrixMoments> matrices_, matrix_tangents_;  // per scatterer, per phase tangent
-  // Sums over the scatterers by their shares, per level; gamma also by those of the medium of I.
-  std::vector<MatrixMoments> of_level_;
-  LevelMoments intensity_gamma_;
+  std::vector<std::size_t> polarising_, air_;  // scatterers; air has Rayleigh's matrix
+  std::optional<ParticleMatrices> particles_;
   Pattern intensity_pattern_;
   std::vector<Component> components_;     // Q and U
   Batch transport_, response_, inverse_;  // G, R and (1 - G (1 + R))^-1
