@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The examples of docs/python.md run in their order, and the stubs name what the package has."""
+"""The examples of docs/python.md and of the notebook run in their order, and the stubs name what the package has."""
 
 import ast
+import json
 import os
 import re
 from pathlib import Path
+
+import pytest
 
 import skyfit
 
@@ -19,6 +22,18 @@ def test_examples_of_the_document_run(tmp_path, monkeypatch):
     names = {}
     for example in examples:
         exec(compile(example, "docs/python.md", "exec"), names)
+
+
+def test_notebook_runs(tmp_path, monkeypatch):
+    matplotlib = pytest.importorskip("matplotlib", reason="the notebook draws with matplotlib")
+    matplotlib.use("Agg")
+    monkeypatch.chdir(tmp_path)
+    notebook = json.loads((SOURCE / "docs" / "python.ipynb").read_text())
+    names = {}
+    cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert len(cells) >= 5
+    for cell in cells:
+        exec(compile("".join(cell["source"]), "docs/python.ipynb", "exec"), names)
 
 
 def public(names):
