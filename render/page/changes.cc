@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/page/changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/atmosphere/parameters.h"
+
+namespace skyfit {
+namespace {
+
+// Of tables that hold logarithms already.
+Table difference(const Table& before, const Table& after) {
+  Table change = after;
+  for (std::size_t i = 0; i < change.rgba.size(); ++i) change.rgba[i] -= before.rgba[i];
+  return change;
+}
+
+// Of others, which are 0 at the top of the atmosphere and at night.
+Table ratio(const Table& before, const Table& after) {
+  constexpr float kNothing = 1e-12f;
+  Table change = after;
+  for (std::size_t i = 0; i < change.rgba.size(); ++i) {
+    change.rgba[i] =
+        std::log(std::max(after.rgba[i], kNothing) / std::max(before.rgba[i], kNothing));
+  }
+  return change;
+}
+
+// Every so many of the angles of a table of phase functions, both ends among them.
+Table thinned(const Table& phase) {
+  constexpr int kEvery = 15;
+  if (phase.width == 1) return phase;
+  Table thin{(phase.width - 1) / kEvery + 1, phase.height, 1, {}};
+  for (int y = 0; y < thin.height; ++y) {
+    for (int x = 0; x < thin.width; ++x) {
+      const auto at = phase.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * phase.width +
+                                                static_cast<std::ptrdiff_t>(x) * kEvery);
+      thin.rgba.insert(thin.rgba.end(), at, at + 4);
+    }
+  }
+  return thin;
+}
+
+}  // namespace
+
+AtmosphereTables table_change(const AtmosphereTables& before, const AtmosphereTables& after) {
+  if (before.phases.of_constituent != after.phases.of_constituent)
+    throw std::invalid_argument(
+        "expected a parameter of a phase function that no other constituent shares");
+  AtmosphereTables change = after;
+  change.optical_depth = ratio(before.optical_depth, after.optical_depth);
+  change.irradiance = ratio(before.irradiance, after.irradiance);
+  change.rayleigh_like = difference(before.rayleigh_like, after.rayleigh_like);
+  change.single = difference(before.single, after.single);
+  change.phase = thinned(difference(before.phase, after.phase));
+  return change;
+}
+
+Atmosphere<double> changed(const Atmosphere<double>& atmosphere, const Parameter& parameter,
+                           double value) {
+  Atmosphere<double> other = atmosphere;
+  set_parameter(other, parameter, value);
+  return other;
+}
+
+}  // namespace skyfit

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/page/sky_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "model/atmosphere/ground_spectrum.h"
+#include "model/version.h"
+#include "render/glsl/shader_text.h"
+#include "render/glsl/table_defines.h"
+#include "render/page/changes.h"
+#include "render/page/page_errors.h"
+#include "render/page/table_packing.h"
+
+namespace skyfit {
+namespace {
+
+using nlohmann::json;
+
+// Optical depths are divided into differences, phase functions are steep.
+constexpr Packing kDepthPacking{.step = 1.0 / 2048, .logarithm = true, .least = 1e-9};
+constexpr Packing kIrradiancePacking{.step = 1.0 / 1024, .logarithm = true, .least = 1e-12};
+constexpr Packing kPhasePacking{.step = 1.0 / 1024};
+constexpr Packing kChangePacking{};
+
+Packing scattering_packing(const TableSizes& sizes) { return {.row = sizes.scattering_mu_s}; }
+
+json packed_tables(const AtmosphereTables& tables) {
+  return {{"optical_depth", packed(tables.optical_depth, kDepthPacking)},
+          {"irradiance", packed(tables.irradiance, kIrradiancePacking)},
+          {"rayleigh_like", packed(tables.rayleigh_like, scattering_packing(tables.sizes))},
+          {"single", packed(tables.single, scattering_packing(tables.sizes))},
+          {"phase", packed(tables.phase, kPhasePacking)}};
+}
+
+json packed_change(const AtmosphereTables& change) {
+  return {{"optical_depth", packed(change.optical_depth, kChangePacking)},
+          {"irradiance", packed(change.irradiance, kChangePacking)},
+          {"rayleigh_like", packed(change.rayleigh_like, scattering_packing(change.sizes))},
+          {"single", packed(change.single, scattering_packing(change.sizes))},
+          {"phase", packed(change.phase, kChangePacking)}};
+}
+
+// What the shader has besides tables.
+json uniforms_of(const AtmosphereTables& tables) {
+  json albedo = json::array();
+  for (const WavelengthNode& node : tables.color.nodes)
+    albedo.push_back(ground_albedo_at(tables.atmosphere, node.wavelength_nm));
+  return {{"phase_parameters", phase_parameters(tables.phases)}, {"ground_albedo", albedo}};
+}
+
+// The tables of an atmosphere and of those with its sliders at their ends; what the page says of
+// them.
+class PageTables {
+ public:
+  explicit PageTables(const SkyPageRequest& request)
+      : request_(request), color_(color_rule(request.spectra)) {
+    const Atmosphere<double>& atmosphere = request.preset.atmosphere;
+    tables_ = compute_tables(atmosphere, color_, kPageSizes, request.threads, {});
+    tables_.rayleigh_like = as_decoded(tables_.rayleigh_like, scattering_packing(kPageSizes));
+    tables_.single = as_decoded(tables_.single, scattering_packing(kPageSizes));
+    coarse_ = compute_tables(atmosphere, color_, kChangeSizes, request.threads, {});
+    errors_.preset = preset_error();
+    report();
+    for (const PageSlider& slider : request.sliders) add(slider);
+  }
+
+  const AtmosphereTables& tables() const { return tables_; }
+  const json& sliders() const { return sliders_; }
+  const SkyPageErrors& errors() const { return errors_; }
+
+ private:
+  struct End {
+    double value;
+    AtmosphereTables change;
+  };
+
+  double preset_error() const {
+    const std::vector<SkyPoint> points = compared_points(std::array{0.0, 1500.0, 10000.0});
+    return largest_error(
+        table_luminances(tables_, {}, tables_.phases, points),
+        reference_luminances(request_.preset.atmosphere, request_.spectra, points,
+                             request_.threads));
+  }
+
+  void report() {
+    request_.progress(static_cast<double>(++done_) /
+                      static_cast<double>(1 + request_.sliders.size()));
+  }
+
+  End end_at(const PageSlider& slider, double value) const try {
+    return {value, table_change(coarse_, compute_tables(changed(request_.preset.atmosphere,
+                                                                slider.parameter, value),
+                                                        color_, kChangeSizes, request_.threads, {}))};
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(
+        fmt::format("the slider {} = {:.6g}: {}", slider.parameter.name(), value, error.what()));
+  }
+
+  // Of the page with a slider at a value.
+  double error_at(const PageSlider& slider, const std::vector<End>& ends, double value) const {
+    static const std::vector<SkyPoint> points = compared_points(std::array{0.0});
+    const Atmosphere<double> atmosphere =
+        changed(request_.preset.atmosphere, slider.parameter, value);
+    const auto shares = end_shares(slider, value);
+    std::vector<WeightedTables> changes;
+    for (const End& end : ends)
+      changes.push_back({end.change, end.value < slider.value ? shares[0] : shares[1]});
+    return largest_error(
+        table_luminances(tables_, changes, phase_classes(atmosphere), points),
+        reference_luminances(atmosphere, request_.spectra, points, request_.threads));
+  }
+
+  void add(const PageSlider& slider) {
+    std::vector<End> ends;
+    json ends_json = json::array();
+    double at_end = 0, half_way = 0;
+    for (const double value : {slider.low, slider.high}) {
+      if (value == slider.value) continue;
+      ends.push_back(end_at(slider, value));
+      ends_json.push_back({{"value", value},
+                           {"tables", packed_change(ends.back().change)},
+                           {"uniforms", uniforms_of(ends.back().change)}});
+    }
+    for (const End& end : ends) {
+      at_end = std::max(at_end, error_at(slider, ends, end.value));
+      half_way = std::max(half_way, error_at(slider, ends, slider.between(end.value)));
+    }
+    errors_.at_end.push_back(at_end);
+    errors_.half_way.push_back(half_way);
+    const ParameterInfo info = parameter_info(slider.parameter);
+    sliders_.push_back({{"name", info.name},
+                        {"meaning", info.meaning},
+                        {"unit", info.unit},
+                        {"low", slider.low},
+                        {"value", slider.value},
+                        {"high", slider.high},
+                        {"logarithmic", slider.logarithmic},
+                        {"sigma", slider.sigma ? json(*slider.sigma) : json()},
+                        {"error", std::max(at_end, half_way)},
+                        {"ends", ends_json}});
+    report();
+  }
+
+  const SkyPageRequest& request_;
+  ColorRule color_;
+  AtmosphereTables tables_, coarse_;
+  SkyPageErrors errors_;
+  json sliders_ = json::array();
+  int done_ = 0;
+};
+
+std::string mat3_define(std::string_view name, const std::array<std::array<double, 3>, 3>& rows) {
+  std::string text(name);
+  for (std::size_t column = 0; column < 3; ++column) {
+    for (std::size_t row = 0; row < 3; ++row)
+      text += fmt::format("{} {:.9g}", column + row > 0 ? "," : "", rows[row][column]);
+  }
+  return text;
+}
+
+json shaders(const AtmosphereTables& tables) {
+  std::vector<std::string> defined = table_defines(tables);
+  defined.insert(
+      defined.end(),
+      {"CHANGES", fmt::format("CHANGE_SIZE {}, {}, {}, {}", kChangeSizes.scattering_mu_s,
+                              kChangeSizes.scattering_azimuth, kChangeSizes.scattering_ground,
+                              kChangeSizes.scattering_sky),
+       fmt::format("CHANGE_HEIGHTS {}", kChangeSizes.scattering_r),
+       mat3_define("SRGB_FROM_XYZ", kLinearSrgbFromXyz)});
+  const auto text = [&](const char* path) {
+    return ShaderText(path, ShaderLanguage::kGlslEs300, defined).text();
+  };
+  return {{"vertex", text("render/page/picture.vert")},
+          {"sky", text("render/page/sky.frag")},
+          {"display", text("render/page/display.frag")}};
+}
+
+json page_data(const SkyPageRequest& request, const PageTables& page) {
+  const AtmosphereTables& tables = page.tables();
+  const Atmosphere<double>& atmosphere = request.preset.atmosphere;
+  json nodes = json::array();
+  for (const WavelengthNode& node : tables.color.nodes) {
+    nodes.push_back({{"wavelength_nm", node.wavelength_nm},
+                     {"irradiance", request.spectra.solar_irradiance.at(node.wavelength_nm)}});
+  }
+  json uniforms = uniforms_of(tables);
+  uniforms["depolarisation"] = tables.phases.depolarisation;
+  return {{"preset", {{"name", request.preset.name}, {"note", request.preset.note}}},
+          {"version", kVersion},
+          {"planet",
+           {{"radius_m", atmosphere.bottom_radius_m},
+            {"thickness_m", atmosphere.top_radius_m - atmosphere.bottom_radius_m}}},
+          {"sun_radius_deg", 0.5 * atmosphere.star.angular_diameter_deg},
+          {"nodes", nodes},
+          {"xyz_from_nodes", tables.color.xyz_from_nodes},
+          {"error", page.errors().preset},
+          {"uniforms", uniforms},
+          {"tables", packed_tables(tables)},
+          {"sliders", page.sliders()},
+          {"shaders", shaders(tables)}};
+}
+
+// Within <script type="application/json">, where only "<" could end it.
+std::string in_script(const json& data) {
+  std::string text;
+  for (const char c : data.dump(-1, ' ', false, json::error_handler_t::replace)) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+// The template's {{name}} by their texts, which are not searched again.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& parts) {
+  std::string result;
+  while (true) {
+    const std::size_t open = page.find("{{");
+    result += page.substr(0, open);
+    if (open == std::string_view::npos) return result;
+    const std::size_t close = page.find("}}", open);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    const auto part = std::ranges::find(parts, name, [](const auto& p) { return p.first; });
+    if (part == parts.end()) throw std::logic_error(fmt::format("page.html: {}", name));
+    result += part->second;
+    page.remove_prefix(close + 2);
+  }
+}
+
+}  // namespace
+
+SkyPage sky_page(const SkyPageRequest& request) {
+  const PageTables tables(request);
+  std::string script;
+  for (const char* file : {"tables.js", "sky.js", "controls.js"})
+    script += embedded_shader(std::string("render/page/") + file);
+  return {filled(embedded_shader("render/page/page.html"),
+                 {{"name", escaped(request.preset.name)},
+                  {"version", kVersion},
+                  {"style", std::string(embedded_shader("render/page/page.css"))},
+                  {"script", script},
+                  {"preset", "data:application/json;base64," + base64(preset_to_json(request.preset))},
+                  {"data", in_script(page_data(request, tables))}}),
+          tables.errors()};
+}
+
+}  // namespace skyfit
