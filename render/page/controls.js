@@ -7,11 +7,12 @@ element('data').remove();
 
 // What is shown. Heights in m, angles in radians; `look` is above the horizon that the observer sees.
 const state = {
-  sunElevation: 20 * kDegree, sunAzimuth: 180 * kDegree, look: 14 * kDegree, azimuth: 150 * kDegree,
+  sunElevation: 25 * kDegree, sunAzimuth: 180 * kDegree, look: 13 * kDegree, azimuth: 180 * kDegree,
   altitude_m: 2, field: 75 * kDegree, stops: 0,
 };
 const kLowestSun = -12 * kDegree;
-let renderer, exposure, pointer = null, moving = false, resolution = 1;
+let renderer, exposure, pointer = null, moving = false;
+let resolution = 0.5;  // share of the sides' pixels that is drawn while something moves; the first picture is such
 
 // ---- places and angles
 
@@ -70,14 +71,14 @@ const compass = (azimuth) => ['N', 'NE', 'E', 'SE', 'S', 'SW', 'W', 'NW'][Math.r
 
 // ---- drawing
 
-// The mean logarithm of the view becomes middle grey, brighter views a little brighter; highlights stay below white. Space does
-// not count. m^2/cd.
+// The rule of metered_exposure() (render/sequence/exposure.cc) without its cases of discs and of space, which does not count
+// here: the mean logarithm becomes middle grey, a little more in bright views, and highlights stay below white. m^2/cd.
 function automaticExposure(luminances) {
-  const sorted = [...luminances].sort((a, b) => a - b), highlight = sorted[Math.floor(0.97 * (sorted.length - 1))];
-  const seen = sorted.filter((luminance) => luminance > 1e-3 * highlight);
+  const sorted = luminances.sort((a, b) => a - b), quantile = (share) => sorted[Math.floor(share * (sorted.length - 1))];
+  const highlight = quantile(0.99), seen = sorted.filter((luminance) => luminance > 1e-3 * highlight);
   const mean = seen.length ? Math.exp(seen.reduce((sum, luminance) => sum + Math.log(luminance), 0) / seen.length) : 0;
-  const level = Math.max(mean, 0.02);
-  return Math.min((0.18 * (level / 500) ** 0.15) / level, 1.4 / Math.max(highlight, 1e-9));
+  const level = Math.max(mean / (0.18 * (Math.max(mean, 0.02) / 500) ** 0.15), highlight, quantile(0.86) / 0.5);
+  return 1 / Math.max(level, 0.02 / 0.18);
 }
 
 let requested = false, settled = null;
@@ -105,7 +106,11 @@ function draw() {
   renderer.draw(view(), exposure * 2 ** state.stops);
   measure();
   placeSun();
-  if (moving && performance.now() - began > 60) resolution = Math.max(0.3, 0.8 * resolution);
+  if (moving) {
+    renderer.finish();
+    const spent = performance.now() - began;
+    resolution = clamp(resolution * (spent > 60 ? 0.8 : spent < 20 ? 1.25 : 1), 0.3, 1);
+  }
   if (exposure !== wanted) redraw();
 }
 
@@ -125,6 +130,7 @@ function measure() {
   const x = clamp(Math.floor((pointer[0] / canvas.clientWidth) * width), 0, width - 1);
   const y = clamp(Math.floor((1 - pointer[1] / canvas.clientHeight) * height), 0, height - 1);
   const light = renderer.lightAt(x, y), at = anglesOf(directionAt(...pointer));
+  element('probe').classList.add('measured');
   element('luminance').textContent = digits(light.luminance_cd_m2);
   element('aim').textContent = `${degrees(at.elevation)} above the horizontal, azimuth ${degrees(at.azimuth)} (${compass(at.azimuth)})`;
   const most = Math.max(...light.spectral_radiance.map((s) => s.value), 1e-30);
@@ -210,7 +216,9 @@ function addSliders() {
     const id = `parameter-${i}`, label = document.createElement('label'), output = document.createElement('output');
     label.className = 'row';
     label.htmlFor = id;
-    label.append(textElement('code', slider.name), output);
+    const name = textElement('code', '');
+    name.append(...slider.name.split(/(?<=[._])/).flatMap((part) => [part, document.createElement('wbr')]));
+    label.append(name, output);
     const input = document.createElement('input');
     Object.assign(input, { id, type: 'range', min: slider.low < slider.value ? -1 : 0, max: slider.high > slider.value ? 1 : 0, step: 0.01 });
     if (slider.sigma) {
@@ -314,15 +322,17 @@ function describe() {
 }
 
 async function start() {
+  state.azimuth = state.sunAzimuth + 0.55 * Math.atan(tangent()[0]);  // the sun is in the left half
   readAddress();
   if (matchMedia('(max-width: 640px)').matches) element('toggle').setAttribute('aria-expanded', 'false');
   describe();
   listen();
   renderer = new SkyRenderer(element('sky'), data);
   await renderer.load();
-  show();
+  moving = true;
   draw();
   performance.mark('first picture');
+  show();
   await renderer.loadSliders();
   addSliders();
   redraw();

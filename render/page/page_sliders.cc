@@ -41,8 +41,9 @@ Reach reach_of(Quantity quantity) {
     case Quantity::kPhaseG2:
       return {0, 0.05};
     case Quantity::kPhaseWeight:
-    case Quantity::kAlbedo:
       return {0, 0.3};
+    case Quantity::kAlbedo:
+      return {0, 0.15};
     case Quantity::kIndexReal:
       return {0, 0.05};
   }

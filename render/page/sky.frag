@@ -10,6 +10,8 @@ layout(location = 1) out vec4 disc;
 
 void main() {
   ViewRay ray = view_ray(normalize(ray_through(screen)));
+  // In the air the cosine of the zenith angle has the digits, from afar the impact parameter.
+  if (camera_km < thickness_km) ray.hits_ground = ray_hits_ground(camera_km, ray.mu, bottom_km);
   vec3 sun = suns[0].xyz;
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Place start = place_of(ray, sun, nu);

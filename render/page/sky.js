@@ -211,6 +211,13 @@ class SkyRenderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
+  // Waits until what was asked for is drawn.
+  finish() {
+    const gl = this.gl;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
   read(target, x, y, width, height, attachment) {
     const gl = this.gl, values = new Float32Array(4 * width * height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);

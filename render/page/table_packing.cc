@@ -72,7 +72,7 @@ std::vector<std::uint8_t> differences(const Table& table, const Steps& steps, in
 std::string deflated(const std::vector<std::uint8_t>& bytes) {
   constexpr int kRaw = -15, kMemory = 9;  // no header; as zlib.h explains
   z_stream stream{};
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kRaw, kMemory, Z_FILTERED) != Z_OK)
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kRaw, kMemory, Z_FILTERED) != Z_OK)
     throw std::runtime_error("zlib cannot be initialised");
   std::string out(deflateBound(&stream, bytes.size()), '\0');
   stream.next_in = const_cast<Bytef*>(bytes.data());  // which zlib does not write to

@@ -54,7 +54,8 @@ vec3 gamut_mapped(vec3 color, Number luminance, mat3 from_xyz, mat3 xyz_from) {
       high = share;
     }
   }
-  vec3 mapped = max(color_from_oklab(of_lightness_1 * vec3(1.0, low, low), from_xyz), vec3(0.0));
+  vec3 mapped = color_from_oklab(of_lightness_1 * vec3(1.0, low, low), from_xyz);
+  mapped *= vec3(greaterThan(mapped, vec3(least_channel(mapped))));  // the least is 0 but for rounding
   return mapped * (luminance / (xyz_from * mapped).y);
 }
 
