@@ -46,9 +46,6 @@ Table thinned(const Table& phase) {
 }  // namespace
 
 AtmosphereTables table_change(const AtmosphereTables& before, const AtmosphereTables& after) {
-  if (before.phases.of_constituent != after.phases.of_constituent)
-    throw std::invalid_argument(
-        "expected a parameter of a phase function that no other constituent shares");
   AtmosphereTables change = after;
   change.optical_depth = ratio(before.optical_depth, after.optical_depth);
   change.irradiance = ratio(before.irradiance, after.irradiance);
@@ -56,6 +53,12 @@ AtmosphereTables table_change(const AtmosphereTables& before, const AtmosphereTa
   change.single = difference(before.single, after.single);
   change.phase = thinned(difference(before.phase, after.phase));
   return change;
+}
+
+void require_same_classes(const Atmosphere<double>& before, const Atmosphere<double>& after) {
+  if (phase_classes(before).of_constituent != phase_classes(after).of_constituent)
+    throw std::invalid_argument(
+        "expected a parameter of a phase function that no other constituent shares");
 }
 
 Atmosphere<double> changed(const Atmosphere<double>& atmosphere, const Parameter& parameter,

@@ -22,9 +22,12 @@ inline constexpr TableSizes kChangeSizes = {.optical_depth_mu = 32,
                                             .outside_azimuth = 4};
 
 // Tables of the atmosphere `after` whose texels are the differences of the natural logarithms from
-// those of `before`; both have kChangeSizes. Of phase functions 274 angles are kept. Throws
-// std::invalid_argument when the two differ in which constituents share a phase function.
+// those of `before`; both have kChangeSizes. Of phase functions 274 angles are kept.
 AtmosphereTables table_change(const AtmosphereTables& before, const AtmosphereTables& after);
+
+// Throws std::invalid_argument when the two differ in which constituents share a phase function:
+// their tables have nothing in common.
+void require_same_classes(const Atmosphere<double>& before, const Atmosphere<double>& after);
 
 // The atmosphere with another value of one of its parameters.
 Atmosphere<double> changed(const Atmosphere<double>& atmosphere, const Parameter& parameter,

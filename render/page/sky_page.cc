@@ -62,6 +62,9 @@ class PageTables {
   explicit PageTables(const SkyPageRequest& request)
       : request_(request), color_(color_rule(request.spectra)) {
     const Atmosphere<double>& atmosphere = request.preset.atmosphere;
+    for (const PageSlider& slider : request.sliders) {
+      for (const double value : {slider.low, slider.high}) check_end(slider, value);
+    }
     tables_ = compute_tables(atmosphere, color_, kPageSizes, request.threads, {});
     tables_.rayleigh_like = as_decoded(tables_.rayleigh_like, scattering_packing(kPageSizes));
     tables_.single = as_decoded(tables_.single, scattering_packing(kPageSizes));
@@ -94,13 +97,20 @@ class PageTables {
                       static_cast<double>(1 + request_.sliders.size()));
   }
 
-  End end_at(const PageSlider& slider, double value) const try {
-    return {value, table_change(coarse_, compute_tables(changed(request_.preset.atmosphere,
-                                                                slider.parameter, value),
-                                                        color_, kChangeSizes, request_.threads, {}))};
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(
-        fmt::format("the slider {} = {:.6g}: {}", slider.parameter.name(), value, error.what()));
+  void check_end(const PageSlider& slider, double value) const {
+    try {
+      const auto atmosphere = changed(request_.preset.atmosphere, slider.parameter, value);
+      validate(atmosphere);
+      require_same_classes(request_.preset.atmosphere, atmosphere);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(
+          fmt::format("the slider {} = {:.6g}: {}", slider.parameter.name(), value, error.what()));
+    }
+  }
+
+  AtmosphereTables change_at(const PageSlider& slider, double value) const {
+    const auto atmosphere = changed(request_.preset.atmosphere, slider.parameter, value);
+    return table_change(coarse_, compute_tables(atmosphere, color_, kChangeSizes, request_.threads, {}));
   }
 
   // Of the page with a slider at a value.
@@ -123,7 +133,7 @@ class PageTables {
     double at_end = 0, half_way = 0;
     for (const double value : {slider.low, slider.high}) {
       if (value == slider.value) continue;
-      ends.push_back(end_at(slider, value));
+      ends.push_back({value, change_at(slider, value)});
       ends_json.push_back({{"value", value},
                            {"tables", packed_change(ends.back().change)},
                            {"uniforms", uniforms_of(ends.back().change)}});
