@@ -23,8 +23,8 @@ std::vector<PageSlider> fitted_sliders(const Preset& preset, const Preset& fitte
     require_parameter(preset.atmosphere, parameter);
   std::vector<PageSlider> sliders = page_sliders(preset.atmosphere, covariance.parameters);
   for (PageSlider& slider : sliders) {
-    const auto at = std::ranges::find(covariance.parameters, slider.parameter) -
-                    covariance.parameters.begin();
+    const auto at =
+        std::ranges::find(covariance.parameters, slider.parameter) - covariance.parameters.begin();
     slider.sigma = std::sqrt(covariance.matrix(at, at));
   }
   return sliders;

@@ -41,15 +41,17 @@ void run_view(const ViewArguments& arguments) {
   write_whole_file(arguments.out, page.html);
   print(fmt::format("{}: {:.2f} MB, {} sliders\n", arguments.out,
                     1e-6 * static_cast<double>(page.html.size()), sliders.size()));
-  print(fmt::format("luminance within {:.2g} % of the model reference (suns to 88 deg, views to 89 "
-                    "deg from the zenith, up to 10 km)\n",
-                    100 * page.errors.preset));
+  print(
+      fmt::format("luminance within {:.2g} % of the model reference (suns to 88 deg, views to 89 "
+                  "deg from the zenith, up to 10 km)\n",
+                  100 * page.errors.preset));
   for (std::size_t i = 0; i < sliders.size(); ++i) {
-    print(fmt::format("slider {}: {:.4g} to {:.4g} {}, within {:.2g} % at its ends and {:.2g} % "
-                      "half-way\n",
-                      sliders[i].parameter.name(), sliders[i].low, sliders[i].high,
-                      parameter_info(sliders[i].parameter).unit, 100 * page.errors.at_end[i],
-                      100 * page.errors.half_way[i]));
+    print(
+        fmt::format("slider {}: {:.4g} to {:.4g} {}, within {:.2g} % at its ends and {:.2g} % "
+                    "half-way\n",
+                    sliders[i].parameter.name(), sliders[i].low, sliders[i].high,
+                    parameter_info(sliders[i].parameter).unit, 100 * page.errors.at_end[i],
+                    100 * page.errors.half_way[i]));
   }
 }
 
@@ -77,7 +79,8 @@ void add_view_command(CLI::App& app) {
       ->excludes(with);
   add_threads_option(command, arguments->threads);
   command.footer(
-      "The page needs WebGL 2 and no network: drag the sun or the view, move the sliders, point at\n"
+      "The page needs WebGL 2 and no network: drag the sun or the view, move the sliders, point "
+      "at\n"
       "the sky to measure it. Its light comes from look-up tables of the model reference. How far\n"
       "it is from `skyfit sky` is measured as it is made, printed here and stated in the page.\n"
       "Sliders are approximate: they blend tables of the preset's value and of two others.\n"

@@ -137,8 +137,8 @@ void accumulate_ray(const AtmosphereTables& tables, const TableRay& ray, double 
   for (const double weight : {1 - turn + first, turn - first}) {
     accumulate(tables.rayleigh_like, u, v, w, share * weight, rayleigh_like);
     for (std::size_t c = 0; c < single.size(); ++c)
-      accumulate(tables.single, u, v, w.later(static_cast<int>(c) * s.scattering_r),
-                 share * weight, single[c]);
+      accumulate(tables.single, u, v, w.later(static_cast<int>(c) * s.scattering_r), share * weight,
+                 single[c]);
     u.low += s.scattering_mu_s;
     u.high += s.scattering_mu_s;
   }

@@ -24,8 +24,8 @@ std::string_view embedded_shader(std::string_view path);
 
 enum class ShaderLanguage { kGlsl450, kGlslEs300 };
 
-// One shader, flattened, and where each of its lines came from. (#line would do, but Mesa's compiler
-// forgets its file number.)
+// One shader, flattened, and where each of its lines came from. (#line would do, but Mesa's
+// compiler forgets its file number.)
 class ShaderText {
  public:
   // `extra` sources are looked up first; each of `defined`, a name or a name and its value, is
@@ -35,8 +35,8 @@ class ShaderText {
 
   const std::string& text() const { return text_; }
 
-  // The first error of a driver's log, "0:14(3): error: ..." (Mesa) or "0(14) : error ..." (NVIDIA),
-  // as "path:line: ...".
+  // The first error of a driver's log, "0:14(3): error: ..." (Mesa) or "0(14) : error ..."
+  // (NVIDIA), as "path:line: ...".
   std::string translated(const std::string& log) const;
 
  private:

@@ -65,8 +65,7 @@ ColorChannels from_oklab(const Oklab& lab, const ColorSpace& space) {
 
 ColorChannels into_gamut(const ColorChannels& color, double luminance, const ColorSpace& space) {
   const Matrices& m = matrices_of(space);
-  return channels(
-      view_transform::gamut_mapped(vector(color), luminance, m.from_xyz, m.xyz_from));
+  return channels(view_transform::gamut_mapped(vector(color), luminance, m.from_xyz, m.xyz_from));
 }
 
 ColorChannels into_display(const ColorChannels& color) {
@@ -76,8 +75,8 @@ ColorChannels into_display(const ColorChannels& color) {
 
 ColorChannels displayed(const ColorChannels& color, double luminance, double curved_luminance) {
   const Matrices& m = matrices_of(color_space(Primaries::kRec709));
-  return channels(view_transform::displayed(vector(color), luminance, curved_luminance,
-                                            m.from_xyz, m.xyz_from));
+  return channels(view_transform::displayed(vector(color), luminance, curved_luminance, m.from_xyz,
+                                            m.xyz_from));
 }
 
 }  // namespace skyfit

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that a colour space or a display cannot hold. What is changed keeps its hue, the angle in
 // the plane a, b of Oklab (render/image/oklab.h): along a straight line to white in linear light,
-// blue becomes purple and orange becomes yellow. render/shaders/view_transform.glsl has the formulas.
+// blue becomes purple and orange becomes yellow. render/shaders/view_transform.glsl has the
+// formulas.
 #pragma once
 
 #include <array>

@@ -15,7 +15,8 @@ namespace {
 
 double curved(double x, ToneCurve curve) {
   if (curve == ToneCurve::kClip) return std::clamp(x, 0.0, 1.0);
-  return curve == ToneCurve::kFilmic ? view_transform::film_curve(x) : 1 - std::exp(-std::max(x, 0.0));
+  return curve == ToneCurve::kFilmic ? view_transform::film_curve(x)
+                                     : 1 - std::exp(-std::max(x, 0.0));
 }
 
 // Uniform in 0..1 from a pixel and channel, without a visible pattern.

@@ -42,13 +42,12 @@ std::vector<double> reference_luminances(const Atmosphere<double>& atmosphere,
 
 std::vector<double> table_luminances(const AtmosphereTables& tables,
                                      std::span<const WeightedTables> changes,
-                                     const PhaseClasses& phases,
-                                     std::span<const SkyPoint> points) {
+                                     const PhaseClasses& phases, std::span<const SkyPoint> points) {
   std::vector<double> luminances;
   for (const SkyPoint& p : points) {
     const double mu = std::cos(p.view_zenith), mu_s = std::cos(p.sun_zenith);
-    const double nu = mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) *
-                                      std::cos(p.relative_azimuth);
+    const double nu =
+        mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) * std::cos(p.relative_azimuth);
     const NodeValues light =
         lookup_changed_radiance(tables, changes, phases, {p.altitude_m, mu, mu_s}, nu, false);
     double sum = 0;
@@ -60,8 +59,7 @@ std::vector<double> table_luminances(const AtmosphereTables& tables,
 
 double largest_error(std::span<const double> a, std::span<const double> b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max(largest, std::abs(a[i] / b[i] - 1));
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] / b[i] - 1));
   return largest;
 }
 

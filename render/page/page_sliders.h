@@ -13,8 +13,8 @@ namespace skyfit {
 
 struct PageSlider {
   Parameter parameter;
-  double low, value, high;  // low <= value <= high, low < high; in the parameter's unit
-  bool logarithmic;         // moves evenly in the logarithm
+  double low, value, high;           // low <= value <= high, low < high; in the parameter's unit
+  bool logarithmic;                  // moves evenly in the logarithm
   std::optional<double> sigma = {};  // of a fit
 
   // Half-way from `value` to an end.
@@ -26,8 +26,8 @@ struct PageSlider {
 std::vector<Parameter> main_parameters(const Atmosphere<double>& atmosphere);
 
 // About the atmosphere's value and within the bounds of a fit: amounts from half to twice it,
-// heights and radii from two thirds to one and a half, others by a difference. Parameters for which that is
-// no range (an amount of 0) get none.
+// heights and radii from two thirds to one and a half, others by a difference. Parameters for which
+// that is no range (an amount of 0) get none.
 std::vector<PageSlider> page_sliders(const Atmosphere<double>& atmosphere,
                                      std::span<const Parameter> parameters);
 

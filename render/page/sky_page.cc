@@ -86,10 +86,9 @@ class PageTables {
 
   double preset_error() const {
     const std::vector<SkyPoint> points = compared_points(std::array{0.0, 1500.0, 10000.0});
-    return largest_error(
-        table_luminances(tables_, {}, tables_.phases, points),
-        reference_luminances(request_.preset.atmosphere, request_.spectra, points,
-                             request_.threads));
+    return largest_error(table_luminances(tables_, {}, tables_.phases, points),
+                         reference_luminances(request_.preset.atmosphere, request_.spectra, points,
+                                              request_.threads));
   }
 
   void report() {
@@ -110,7 +109,8 @@ class PageTables {
 
   AtmosphereTables change_at(const PageSlider& slider, double value) const {
     const auto atmosphere = changed(request_.preset.atmosphere, slider.parameter, value);
-    return table_change(coarse_, compute_tables(atmosphere, color_, kChangeSizes, request_.threads, {}));
+    return table_change(coarse_,
+                        compute_tables(atmosphere, color_, kChangeSizes, request_.threads, {}));
   }
 
   // Of the page with a slider at a value.
@@ -177,13 +177,13 @@ std::string mat3_define(std::string_view name, const std::array<std::array<doubl
 
 json shaders(const AtmosphereTables& tables) {
   std::vector<std::string> defined = table_defines(tables);
-  defined.insert(
-      defined.end(),
-      {"CHANGES", fmt::format("CHANGE_SIZE {}, {}, {}, {}", kChangeSizes.scattering_mu_s,
+  defined.insert(defined.end(),
+                 {"CHANGES",
+                  fmt::format("CHANGE_SIZE {}, {}, {}, {}", kChangeSizes.scattering_mu_s,
                               kChangeSizes.scattering_azimuth, kChangeSizes.scattering_ground,
                               kChangeSizes.scattering_sky),
-       fmt::format("CHANGE_HEIGHTS {}", kChangeSizes.scattering_r),
-       mat3_define("SRGB_FROM_XYZ", kLinearSrgbFromXyz)});
+                  fmt::format("CHANGE_HEIGHTS {}", kChangeSizes.scattering_r),
+                  mat3_define("SRGB_FROM_XYZ", kLinearSrgbFromXyz)});
   const auto text = [&](const char* path) {
     return ShaderText(path, ShaderLanguage::kGlslEs300, defined).text();
   };
@@ -274,14 +274,15 @@ SkyPage sky_page(const SkyPageRequest& request) {
   std::string script;
   for (const char* file : {"tables.js", "sky.js", "controls.js"})
     script += embedded_shader(std::string("render/page/") + file);
-  return {filled(embedded_shader("render/page/page.html"),
-                 {{"name", escaped(request.preset.name)},
-                  {"version", kVersion},
-                  {"style", std::string(embedded_shader("render/page/page.css"))},
-                  {"script", script},
-                  {"preset", "data:application/json;base64," + base64(preset_to_json(request.preset))},
-                  {"data", in_script(page_data(request, tables))}}),
-          tables.errors()};
+  return {
+      filled(embedded_shader("render/page/page.html"),
+             {{"name", escaped(request.preset.name)},
+              {"version", kVersion},
+              {"style", std::string(embedded_shader("render/page/page.css"))},
+              {"script", script},
+              {"preset", "data:application/json;base64," + base64(preset_to_json(request.preset))},
+              {"data", in_script(page_data(request, tables))}}),
+      tables.errors()};
 }
 
 }  // namespace skyfit

@@ -10,6 +10,7 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
+#include "model/atmosphere/parameters.h"
 #include "model/atmosphere/preset.h"
 #include "model/base/process.h"
 #include "tests/cli/program.h"
@@ -39,9 +40,11 @@ class ViewInBrowser : public ProgramTest {
     html.insert(html.rfind("</body>"),
                 "<script type=\"module\">\nconst result = document.createElement('pre');\n"
                 "try {\n  await skyfit.ready;\n  result.textContent = 'RESULT' + JSON.stringify("
-                "await (async () => {" + script + "})()) + 'END';\n"
-                "} catch (error) { result.textContent = String(error); }\n"
-                "document.body.append(result);\n</script>\n");
+                "await (async () => {" +
+                    script +
+                    "})()) + 'END';\n"
+                    "} catch (error) { result.textContent = String(error); }\n"
+                    "document.body.append(result);\n</script>\n");
     const std::filesystem::path file = write("in_browser.html", html);
     const skyfit::Outcome shown = skyfit::run(
         {*browser(),
@@ -56,7 +59,8 @@ class ViewInBrowser : public ProgramTest {
     const std::size_t begin = shown.output.rfind("RESULT{"), end = shown.output.rfind("}END");
     if (begin == std::string::npos || end == std::string::npos || end < begin) {
       ADD_FAILURE() << "the page says nothing: "
-                    << shown.output.substr(shown.output.size() - std::min<std::size_t>(shown.output.size(), 2000));
+                    << shown.output.substr(shown.output.size() -
+                                           std::min<std::size_t>(shown.output.size(), 2000));
       return {};
     }
     return json::parse(shown.output.substr(begin + 6, end - begin - 5));
@@ -65,9 +69,17 @@ class ViewInBrowser : public ProgramTest {
   // altitude_m, sun zenith, view zenith, azimuth (deg), value: the rows of `skyfit sky`.
   std::vector<std::vector<double>> sky(const std::string& preset, const std::string& altitudes,
                                        const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {"sky", "--preset", preset, "--sun-zenith-deg",
-                                          "0,30,60,75,85,88", "--view-zenith-deg", "5,40,70,85,89",
-                                          "--azimuth-deg", "0,60,180", "--altitude-m", altitudes};
+    std::vector<std::string> arguments = {"sky",
+                                          "--preset",
+                                          preset,
+                                          "--sun-zenith-deg",
+                                          "0,30,60,75,85,88",
+                                          "--view-zenith-deg",
+                                          "5,40,70,85,89",
+                                          "--azimuth-deg",
+                                          "0,60,180",
+                                          "--altitude-m",
+                                          altitudes};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome printed = run(arguments);
     EXPECT_EQ(printed.status, 0) << printed.err;
@@ -80,8 +92,8 @@ class ViewInBrowser : public ProgramTest {
     return rows;
   }
 
-  static std::string lights_script(const std::vector<std::vector<double>>& rows,
-                                   const json& parameters) {
+  static std::string luminances_script(const std::vector<std::vector<double>>& rows,
+                                       const json& parameters) {
     json asked = json::array();
     for (const auto& row : rows) {
       asked.push_back({{"altitudeM", row[0]},
@@ -90,16 +102,17 @@ class ViewInBrowser : public ProgramTest {
                        {"azimuthDeg", row[3]},
                        {"parameters", parameters}});
     }
-    return "return {lights: " + asked.dump() + ".map((at) => skyfit.light(at))};";
+    return "return {luminances: " + asked.dump() +
+           ".map((at) => skyfit.light(at).luminance_cd_m2)};";
   }
 
-  void expect_luminances(const std::vector<std::vector<double>>& rows, const json& lights,
+  void expect_luminances(const std::vector<std::vector<double>>& rows, const json& luminances,
                          double tolerance) const {
-    ASSERT_EQ(lights.size(), rows.size());
+    ASSERT_EQ(luminances.size(), rows.size());
     double worst = 0;
     std::string where;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double error = lights[i]["luminance_cd_m2"].get<double>() / rows[i][4] - 1;
+      const double error = luminances[i].get<double>() / rows[i][4] - 1;
       if (std::abs(error) < std::abs(worst)) continue;
       worst = error;
       where = fmt::format("{} m, sun {}, view {}, azimuth {} deg", rows[i][0], rows[i][1],
@@ -112,16 +125,18 @@ class ViewInBrowser : public ProgramTest {
 
 TEST_F(ViewInBrowser, PixelsAreTheSky) {
   if (!browser()) GTEST_SKIP() << "needs chromium in PATH";
-  ASSERT_EQ(run({"view", "earth-clear", "--parameters", "ozone.column", "--out", "sky.html"}).status, 0);
+  ASSERT_EQ(
+      run({"view", "earth-clear", "--parameters", "ozone.column", "--out", "sky.html"}).status, 0);
   const auto rows = sky("earth-clear", "0,2000,10000");
-  const json result = evaluated("sky.html", lights_script(rows, json::object()));
-  ASSERT_TRUE(result.contains("lights"));
-  expect_luminances(rows, result["lights"], kPage);
+  const json result = evaluated("sky.html", luminances_script(rows, json::object()));
+  ASSERT_TRUE(result.contains("luminances"));
+  expect_luminances(rows, result["luminances"], kPage);
 }
 
 TEST_F(ViewInBrowser, SpectralRadiancesAreTheSky) {
   if (!browser()) GTEST_SKIP() << "needs chromium in PATH";
-  ASSERT_EQ(run({"view", "earth-clear", "--parameters", "ozone.column", "--out", "sky.html"}).status, 0);
+  ASSERT_EQ(
+      run({"view", "earth-clear", "--parameters", "ozone.column", "--out", "sky.html"}).status, 0);
   const json light = evaluated("sky.html",
                                "return skyfit.light({sunZenithDeg: 60, viewZenithDeg: 40, "
                                "azimuthDeg: 60});");
@@ -139,8 +154,10 @@ TEST_F(ViewInBrowser, SpectralRadiancesAreTheSky) {
 
 TEST_F(ViewInBrowser, SlidersGiveTheSkyOfAChangedPreset) {
   if (!browser()) GTEST_SKIP() << "needs chromium in PATH";
-  ASSERT_EQ(run({"view", "earth-clear", "--parameters", "mie.scattering,mie.phase.g1,ground.albedo", "--out",
-                 "sky.html"}).status, 0);
+  ASSERT_EQ(run({"view", "earth-clear", "--parameters", "mie.scattering,mie.phase.g1,ground.albedo",
+                 "--out", "sky.html"})
+                .status,
+            0);
   const std::vector<std::pair<Parameter, double>> ends = {{Parameter::kMieScattering, 1.8e-4},
                                                           {Parameter::kMiePhaseG1, 0.75},
                                                           {Parameter::kGroundAlbedo, 0.3}};
@@ -149,21 +166,24 @@ TEST_F(ViewInBrowser, SlidersGiveTheSkyOfAChangedPreset) {
     set_parameter(preset.atmosphere, parameter, value);
     write("changed.json", preset_to_json(preset));
     const auto rows = sky("./changed.json", "0");
-    const json result = evaluated("sky.html", lights_script(rows, {{parameter.name(), value}}));
-    ASSERT_TRUE(result.contains("lights"));
+    const json result = evaluated("sky.html", luminances_script(rows, {{parameter.name(), value}}));
+    ASSERT_TRUE(result.contains("luminances"));
     std::printf("[ slider ] %s\n", parameter.name().c_str());
-    expect_luminances(rows, result["lights"], kSliderEnd);
+    expect_luminances(rows, result["luminances"], kSliderEnd);
   }
 }
 
 TEST_F(ViewInBrowser, AFittedPresetHasItsParametersAsSliders) {
   if (!browser()) GTEST_SKIP() << "needs chromium in PATH";
-  ASSERT_EQ(run({"fit", "--reference", "cie:12", "--sun-zenith-deg", "40", "--lobes", "1", "--starts",
-                 "1", "--out", "fitted"}).status, 0);
+  ASSERT_EQ(run({"fit", "--reference", "cie:12", "--sun-zenith-deg", "40", "--lobes", "1",
+                 "--starts", "1", "--out", "fitted"})
+                .status,
+            0);
   ASSERT_EQ(run({"view", "fitted/preset.json", "--out", "sky.html"}).status, 0);
-  const json shown = evaluated("sky.html",
-                               "return {names: [...document.querySelectorAll('#sliders code')].map("
-                               "(code) => code.textContent), words: document.body.innerText};");
+  const json shown = evaluated(
+      "sky.html",
+      "return {names: [...document.querySelectorAll('#sliders code')].map("
+      "(code) => code.textContent), words: document.getElementById('sliders').textContent};");
   const json record = json::parse(read("fitted/preset.json"))["fit"]["covariance"]["parameters"];
   EXPECT_EQ(shown["names"], record);
   EXPECT_THAT(shown["words"].get<std::string>(), HasSubstr("one sigma"));

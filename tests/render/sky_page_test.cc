@@ -155,7 +155,8 @@ TEST_F(EsShaders, EverySharedFormulaCompiles) {
     // The geometry and the mapping first, on which others stand, see model/shared/shared.h.
     const std::string text =
         "#include \"model/shared/geometry.glsl\"\n#include \"model/shared/mapping.glsl\"\n#include "
-        "\"" + std::string(file.path) + "\"\nout vec4 y;\nvoid main() { y = vec4(0.0); }\n";
+        "\"" +
+        std::string(file.path) + "\"\nout vec4 y;\nvoid main() { y = vec4(0.0); }\n";
     const ShaderSource source{"test.frag", text};
     EXPECT_EQ(complaint(GL_FRAGMENT_SHADER,
                         ShaderText("test.frag", ShaderLanguage::kGlslEs300, {}, {&source, 1})),
@@ -168,8 +169,8 @@ TEST_F(EsShaders, EverySharedFormulaCompiles) {
 
 TEST_F(EsShaders, ErrorsNameTheFile) {
   const ShaderSource source{"test.frag", "\nout vec4 y;\nvoid main() { y = vec4(oops); }\n"};
-  EXPECT_THAT(complaint(GL_FRAGMENT_SHADER, ShaderText("test.frag", ShaderLanguage::kGlslEs300, {},
-                                                       {&source, 1})),
+  EXPECT_THAT(complaint(GL_FRAGMENT_SHADER,
+                        ShaderText("test.frag", ShaderLanguage::kGlslEs300, {}, {&source, 1})),
               HasSubstr("test.frag:3: "));
 }
 
