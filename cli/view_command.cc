@@ -30,6 +30,9 @@ std::vector<PageSlider> sliders_of(const ViewArguments& arguments, const Preset&
   }
   if (arguments.with.empty()) return usual_sliders(preset, arguments.preset);
   const std::string file = (std::filesystem::path(arguments.with) / "preset.json").string();
+  if (!std::filesystem::exists(file))
+    throw UsageError("--with", arguments.with,
+                     "expected a directory that skyfit fit left, which has a preset.json");
   return fitted_sliders(preset, preset_named(file), file);
 }
 
@@ -41,17 +44,18 @@ void run_view(const ViewArguments& arguments) {
   write_whole_file(arguments.out, page.html);
   print(fmt::format("{}: {:.2f} MB, {} sliders\n", arguments.out,
                     1e-6 * static_cast<double>(page.html.size()), sliders.size()));
-  print(
-      fmt::format("luminance within {:.2g} % of the model reference (suns to 88 deg, views to 89 "
-                  "deg from the zenith, up to 10 km)\n",
-                  100 * page.errors.preset));
+  print("largest error of the luminance (suns to 88 deg, views to 89 deg from the zenith):\n");
+  for (std::size_t i = 0; i < kComparedAltitudes_m.size(); ++i)
+    print(fmt::format("  from {:.0f} m: {:.2g} %\n", kComparedAltitudes_m[i],
+                      100 * page.errors.preset[i]));
   for (std::size_t i = 0; i < sliders.size(); ++i) {
+    const ParameterInfo info = parameter_info(sliders[i].parameter);
     print(
-        fmt::format("slider {}: {:.4g} to {:.4g} {}, within {:.2g} % at its ends and {:.2g} % "
-                    "half-way\n",
-                    sliders[i].parameter.name(), sliders[i].low, sliders[i].high,
-                    parameter_info(sliders[i].parameter).unit, 100 * page.errors.at_end[i],
-                    100 * page.errors.half_way[i]));
+        fmt::format("  with {} = {:.4g} to {:.4g}{}: {:.2g} % at tabulated values, {:.2g} % "
+                    "half-way between\n",
+                    info.name, sliders[i].low, sliders[i].high,
+                    info.unit == "1" ? "" : fmt::format(" {}", info.unit),
+                    100 * page.errors.tabulated[i], 100 * page.errors.half_way[i]));
   }
 }
 

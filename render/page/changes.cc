@@ -10,10 +10,14 @@
 namespace skyfit {
 namespace {
 
-// Of tables that hold logarithms already.
+// Of tables that hold logarithms already. What is as dark as these can be is no measure.
 Table difference(const Table& before, const Table& after) {
+  const auto darkest = static_cast<float>(std::log(kDarkestScattering)) + 1e-3f;
   Table change = after;
-  for (std::size_t i = 0; i < change.rgba.size(); ++i) change.rgba[i] -= before.rgba[i];
+  for (std::size_t i = 0; i < change.rgba.size(); ++i) {
+    const bool dark = before.rgba[i] <= darkest || after.rgba[i] <= darkest;
+    change.rgba[i] = dark ? 0 : after.rgba[i] - before.rgba[i];
+  }
   return change;
 }
 
@@ -26,6 +30,20 @@ Table ratio(const Table& before, const Table& after) {
         std::log(std::max(after.rgba[i], kNothing) / std::max(before.rgba[i], kNothing));
   }
   return change;
+}
+
+// Every so many of the heights of a table of `classes` one after the other, all ends among them.
+Table at_fewer_heights(const Table& table, int classes) {
+  const int heights = table.depth / classes;
+  Table thin{table.width, table.height, classes * kChangeSizes.scattering_r, {}};
+  const std::ptrdiff_t slice = 4 * static_cast<std::ptrdiff_t>(table.width) * table.height;
+  for (int c = 0; c < classes; ++c) {
+    for (int z = 0; z < heights; z += kEveryHeight) {
+      const auto at = table.rgba.begin() + slice * (c * heights + z);
+      thin.rgba.insert(thin.rgba.end(), at, at + slice);
+    }
+  }
+  return thin;
 }
 
 // Every so many of the angles of a table of phase functions, both ends among them.
@@ -49,9 +67,11 @@ AtmosphereTables table_change(const AtmosphereTables& before, const AtmosphereTa
   AtmosphereTables change = after;
   change.optical_depth = ratio(before.optical_depth, after.optical_depth);
   change.irradiance = ratio(before.irradiance, after.irradiance);
-  change.rayleigh_like = difference(before.rayleigh_like, after.rayleigh_like);
-  change.single = difference(before.single, after.single);
-  change.phase = thinned(difference(before.phase, after.phase));
+  change.sizes = kChangeSizes;
+  change.rayleigh_like = at_fewer_heights(difference(before.rayleigh_like, after.rayleigh_like), 1);
+  change.single = at_fewer_heights(difference(before.single, after.single),
+                                   static_cast<int>(after.phases.others.size()));
+  change.phase = difference(thinned(before.phase), thinned(after.phase));
   return change;
 }
 

@@ -7,7 +7,8 @@
 
 namespace skyfit {
 
-// Texels of the differences.
+// Texels of the differences; and of the tables that are subtracted: light is traced from height to
+// height, so they need more of these than the differences keep, every third.
 inline constexpr TableSizes kChangeSizes = {.optical_depth_mu = 32,
                                             .optical_depth_r = 24,
                                             .irradiance_mu_s = 24,
@@ -21,8 +22,16 @@ inline constexpr TableSizes kChangeSizes = {.optical_depth_mu = 32,
                                             .outside_mu_s = 8,
                                             .outside_azimuth = 4};
 
-// Tables of the atmosphere `after` whose texels are the differences of the natural logarithms from
-// those of `before`; both have kChangeSizes. Of phase functions 274 angles are kept.
+inline constexpr int kEveryHeight = 3;
+inline constexpr TableSizes kComparedSizes = [] {
+  TableSizes sizes = kChangeSizes;
+  sizes.scattering_r = (kChangeSizes.scattering_r - 1) * kEveryHeight + 1;
+  return sizes;
+}();
+
+// Tables of the atmosphere `after`, of kChangeSizes, whose texels are the differences of the
+// natural logarithms from those of `before`; both have kComparedSizes. Of phase functions 274
+// angles are kept.
 AtmosphereTables table_change(const AtmosphereTables& before, const AtmosphereTables& after);
 
 // Throws std::invalid_argument when the two differ in which constituents share a phase function:

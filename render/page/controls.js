@@ -235,8 +235,8 @@ function addSliders() {
       showValue();
       apply();
     });
-    const sigma = slider.sigma ? ` ± ${quantity(slider.sigma, slider.unit)} (one sigma, the band)` : '';
-    element('sliders').append(label, textElement('p', `${slider.meaning}; fitted ${quantity(slider.value, slider.unit)}${sigma}`.replace(slider.sigma ? '' : /; fitted .*/, ''), 'meaning'), input);
+    const sigma = slider.sigma ? `; one sigma of the fit, the band: ±${quantity(slider.sigma, slider.unit)}` : '';
+    element('sliders').append(label, textElement('p', slider.meaning + sigma, 'meaning'), input);
     shows.push(showValue);
     showValue();
   });
@@ -311,14 +311,15 @@ function listen() {
 
 // ---- start
 
-const percent = (share) => `${(100 * share).toPrecision(2)} %`;
+const percent = (share) => (share < 1 ? `${(100 * share).toPrecision(2)} %` : `a factor ${(1 + share).toPrecision(2)}`);
 
 function describe() {
   element('note').textContent = data.preset.note;
+  const skies = data.errors.map(({ altitude_m: m, error }) => `${percent(error)} ${m === 0 ? 'at the ground' : `from ${length(m)}`}`);
   const sliders = data.sliders.map((slider) => slider.error);
   element('accuracy').textContent =
-      `Luminances lie within ${percent(data.error)} of the model reference (sun 2° to 90° high, views 1° to 85° above the horizontal, up to 10 km).` +
-      (sliders.length ? ` Sliders are approximate: each by itself within ${percent(Math.max(...sliders))}.` : '');
+      `Luminances are those of the model reference within ${skies.join(', ')} (sun from 2° and views from 1° above the horizontal on).` +
+      (sliders.length ? ` Sliders are approximate: each by itself within ${percent(Math.max(...sliders))} at the ground.` : '');
 }
 
 async function start() {

@@ -11,8 +11,8 @@
 
 namespace skyfit {
 
-// Suns 0 to 88 deg and views 5 to 89 deg from the zenith, from these heights.
-std::vector<SkyPoint> compared_points(std::span<const double> altitudes_m);
+// Suns 0 to 88 deg and views 5 to 89 deg from the zenith, from one height.
+std::vector<SkyPoint> compared_points(double altitude_m);
 
 // [point], cd/m^2, by luminance_rule().
 std::vector<double> reference_luminances(const Atmosphere<double>& atmosphere,

@@ -95,17 +95,23 @@ std::vector<PageSlider> page_sliders(const Atmosphere<double>& atmosphere,
   return sliders;
 }
 
-double PageSlider::between(double end) const {
-  return logarithmic ? std::sqrt(value * end) : 0.5 * (value + end);
+std::array<double, 2> PageSlider::tabulated() const {
+  if (low == value) return {half_way(value, high), high};
+  if (high == value) return {low, half_way(value, low)};
+  return {low, high};
 }
 
-std::array<double, 2> end_shares(const PageSlider& slider, double value) {
-  const auto even = [&](double x) { return slider.logarithmic ? std::log(x) : x; };
-  const double at = even(value) - even(slider.value), low = even(slider.low) - even(slider.value),
-               high = even(slider.high) - even(slider.value);
-  if (low == 0) return {0, at / high};
-  if (high == 0) return {at / low, 0};
-  return {at * (at - high) / (low * (low - high)), at * (at - low) / (high * (high - low))};
+double PageSlider::half_way(double from, double to) const {
+  return logarithmic ? std::sqrt(from * to) : 0.5 * (from + to);
+}
+
+std::array<double, 2> change_shares(const PageSlider& slider, double value) {
+  const auto even = [&](double x) {
+    return slider.logarithmic ? std::log(x / slider.value) : x - slider.value;
+  };
+  const auto [first, second] = slider.tabulated();
+  const double at = even(value), a = even(first), b = even(second);
+  return {at * (at - b) / (a * (a - b)), at * (at - a) / (b * (b - a))};
 }
 
 }  // namespace skyfit

@@ -17,8 +17,11 @@ struct PageSlider {
   bool logarithmic;                  // moves evenly in the logarithm
   std::optional<double> sigma = {};  // of a fit
 
-  // Half-way from `value` to an end.
-  double between(double end) const;
+  // The two values besides the preset's for which a page has tables: the ends, or where the
+  // preset's value is an end, the other end and half-way to it. Ascending.
+  std::array<double, 2> tabulated() const;
+  // Half-way between two values, in what the slider is even in.
+  double half_way(double from, double to) const;
 };
 
 // Amounts, scale heights and single scattering albedos of aerosols, the asymmetry of their only or
@@ -31,8 +34,8 @@ std::vector<Parameter> main_parameters(const Atmosphere<double>& atmosphere);
 std::vector<PageSlider> page_sliders(const Atmosphere<double>& atmosphere,
                                      std::span<const Parameter> parameters);
 
-// The shares of the changes at the low and the high end that stand for a value of the slider: the
-// parabola through both ends and no change at the preset's value, in what the slider is even in.
-std::array<double, 2> end_shares(const PageSlider& slider, double value);
+// The shares of the changes at tabulated() that stand for a value of the slider: the parabola
+// through them and no change at the preset's value, in what the slider is even in.
+std::array<double, 2> change_shares(const PageSlider& slider, double value);
 
 }  // namespace skyfit

@@ -117,21 +117,19 @@ class SkyRenderer {
     this.uniforms = structuredClone(this.data.uniforms);
   }
 
-  // The changes at the ends of the sliders, which the first picture does not need.
+  // The changes by the sliders, which the first picture does not need.
   async loadSliders() {
     for (const slider of this.data.sliders) {
-      for (const end of slider.ends) end.decoded = await decodedTables(end.tables);
+      for (const change of slider.changes) change.decoded = await decodedTables(change.tables);
     }
     this.setParameters(this.parameters);
   }
 
-  // The shares of the changes at a slider's ends that stand for a value: end_shares() of render/page/page_sliders.cc.
-  static endShares(slider, value) {
-    const even = (x) => (slider.logarithmic ? Math.log(x) : x) - (slider.logarithmic ? Math.log(slider.value) : slider.value);
-    const at = even(value), ends = slider.ends.map((end) => even(end.value));
-    if (ends.length === 1) return [at / ends[0]];
-    const [low, high] = ends;
-    return [(at * (at - high)) / (low * (low - high)), (at * (at - low)) / (high * (high - low))];
+  // The shares of a slider's changes that stand for a value: change_shares() of render/page/page_sliders.cc.
+  static changeShares(slider, value) {
+    const even = (x) => (slider.logarithmic ? Math.log(x / slider.value) : x - slider.value);
+    const at = even(value), [a, b] = slider.changes.map((change) => even(change.value));
+    return [(at * (at - b)) / (a * (a - b)), (at * (at - a)) / (b * (b - a))];
   }
 
   // One value to each slider, in the unit of its parameter.
@@ -141,22 +139,20 @@ class SkyRenderer {
     this.uniforms = structuredClone(uniforms);
     const sums = {};
     sliders.forEach((slider, i) => {
-      const shares = SkyRenderer.endShares(slider, values[i]);
-      slider.ends.forEach((end, e) => {
-        for (const [name, table] of Object.entries(end.decoded)) {
+      const shares = SkyRenderer.changeShares(slider, values[i]);
+      slider.changes.forEach((change, c) => {
+        for (const [name, table] of Object.entries(change.decoded)) {
           sums[name] ??= { ...table, values: new Float32Array(table.values.length) };
-          const sum = sums[name].values, share = shares[e];
+          const sum = sums[name].values, share = shares[c];
           if (share !== 0) for (let k = 0; k < sum.length; ++k) sum[k] += share * table.values[k];
         }
       });
-      // What is no table is linear in the parameter, on either side of the preset's value.
-      const end = slider.ends.find((e) => (e.value - slider.value) * (values[i] - slider.value) > 0);
-      if (!end) return;
-      const share = (values[i] - slider.value) / (end.value - slider.value);
+      // What is no table is linear in the parameter.
+      const change = slider.changes[1], share = (values[i] - slider.value) / (change.value - slider.value);
       const add = (to, from, before) => to.map((x, k) => x + share * (from[k] - before[k]));
-      this.uniforms.ground_albedo = add(this.uniforms.ground_albedo, end.uniforms.ground_albedo, uniforms.ground_albedo);
+      this.uniforms.ground_albedo = add(this.uniforms.ground_albedo, change.uniforms.ground_albedo, uniforms.ground_albedo);
       this.uniforms.phase_parameters = this.uniforms.phase_parameters.map(
-          (phase, c) => add(phase, end.uniforms.phase_parameters[c], uniforms.phase_parameters[c]));
+          (phase, c) => add(phase, change.uniforms.phase_parameters[c], uniforms.phase_parameters[c]));
     });
     for (const [name, sum] of Object.entries(sums)) {
       gl.deleteTexture(this.changes[name].texture);

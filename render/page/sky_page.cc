@@ -27,23 +27,24 @@ using nlohmann::json;
 constexpr Packing kDepthPacking{.step = 1.0 / 2048, .logarithm = true, .least = 1e-9};
 constexpr Packing kIrradiancePacking{.step = 1.0 / 1024, .logarithm = true, .least = 1e-12};
 constexpr Packing kPhasePacking{.step = 1.0 / 1024};
-constexpr Packing kChangePacking{};
+constexpr Packing kChangePacking{.step = 1.0 / 100};
 
-Packing scattering_packing(const TableSizes& sizes) { return {.row = sizes.scattering_mu_s}; }
+constexpr Packing kScatteringPacking{.step = 1.0 / 160, .row = kPageSizes.scattering_mu_s};
+constexpr Packing kScatteringChangePacking{.step = 1.0 / 100, .row = kChangeSizes.scattering_mu_s};
 
 json packed_tables(const AtmosphereTables& tables) {
   return {{"optical_depth", packed(tables.optical_depth, kDepthPacking)},
           {"irradiance", packed(tables.irradiance, kIrradiancePacking)},
-          {"rayleigh_like", packed(tables.rayleigh_like, scattering_packing(tables.sizes))},
-          {"single", packed(tables.single, scattering_packing(tables.sizes))},
+          {"rayleigh_like", packed(tables.rayleigh_like, kScatteringPacking)},
+          {"single", packed(tables.single, kScatteringPacking)},
           {"phase", packed(tables.phase, kPhasePacking)}};
 }
 
 json packed_change(const AtmosphereTables& change) {
   return {{"optical_depth", packed(change.optical_depth, kChangePacking)},
           {"irradiance", packed(change.irradiance, kChangePacking)},
-          {"rayleigh_like", packed(change.rayleigh_like, scattering_packing(change.sizes))},
-          {"single", packed(change.single, scattering_packing(change.sizes))},
+          {"rayleigh_like", packed(change.rayleigh_like, kScatteringChangePacking)},
+          {"single", packed(change.single, kScatteringChangePacking)},
           {"phase", packed(change.phase, kChangePacking)}};
 }
 
@@ -63,13 +64,13 @@ class PageTables {
       : request_(request), color_(color_rule(request.spectra)) {
     const Atmosphere<double>& atmosphere = request.preset.atmosphere;
     for (const PageSlider& slider : request.sliders) {
-      for (const double value : {slider.low, slider.high}) check_end(slider, value);
+      for (const double value : slider.tabulated()) check(slider, value);
     }
     tables_ = compute_tables(atmosphere, color_, kPageSizes, request.threads, {});
-    tables_.rayleigh_like = as_decoded(tables_.rayleigh_like, scattering_packing(kPageSizes));
-    tables_.single = as_decoded(tables_.single, scattering_packing(kPageSizes));
-    coarse_ = compute_tables(atmosphere, color_, kChangeSizes, request.threads, {});
-    errors_.preset = preset_error();
+    tables_.rayleigh_like = as_decoded(tables_.rayleigh_like, kScatteringPacking);
+    tables_.single = as_decoded(tables_.single, kScatteringPacking);
+    coarse_ = compute_tables(atmosphere, color_, kComparedSizes, request.threads, {});
+    errors_.preset = preset_errors();
     report();
     for (const PageSlider& slider : request.sliders) add(slider);
   }
@@ -79,16 +80,18 @@ class PageTables {
   const SkyPageErrors& errors() const { return errors_; }
 
  private:
-  struct End {
-    double value;
-    AtmosphereTables change;
-  };
-
-  double preset_error() const {
-    const std::vector<SkyPoint> points = compared_points(std::array{0.0, 1500.0, 10000.0});
-    return largest_error(table_luminances(tables_, {}, tables_.phases, points),
-                         reference_luminances(request_.preset.atmosphere, request_.spectra, points,
-                                              request_.threads));
+  // By altitude.
+  std::array<double, kComparedAltitudes_m.size()> preset_errors() const {
+    const Atmosphere<double>& atmosphere = request_.preset.atmosphere;
+    std::array<double, kComparedAltitudes_m.size()> errors{};
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const std::vector<SkyPoint> points = compared_points(std::min(
+          kComparedAltitudes_m[i], 0.9 * (atmosphere.top_radius_m - atmosphere.bottom_radius_m)));
+      errors[i] = largest_error(
+          table_luminances(tables_, {}, tables_.phases, points),
+          reference_luminances(atmosphere, request_.spectra, points, request_.threads));
+    }
+    return errors;
   }
 
   void report() {
@@ -96,7 +99,7 @@ class PageTables {
                       static_cast<double>(1 + request_.sliders.size()));
   }
 
-  void check_end(const PageSlider& slider, double value) const {
+  void check(const PageSlider& slider, double value) const {
     try {
       const auto atmosphere = changed(request_.preset.atmosphere, slider.parameter, value);
       validate(atmosphere);
@@ -110,40 +113,45 @@ class PageTables {
   AtmosphereTables change_at(const PageSlider& slider, double value) const {
     const auto atmosphere = changed(request_.preset.atmosphere, slider.parameter, value);
     return table_change(coarse_,
-                        compute_tables(atmosphere, color_, kChangeSizes, request_.threads, {}));
+                        compute_tables(atmosphere, color_, kComparedSizes, request_.threads, {}));
   }
 
-  // Of the page with a slider at a value.
-  double error_at(const PageSlider& slider, const std::vector<End>& ends, double value) const {
-    static const std::vector<SkyPoint> points = compared_points(std::array{0.0});
+  // Of the page with a slider at a value, from the ground.
+  double error_at(const PageSlider& slider, const std::vector<AtmosphereTables>& changes,
+                  double value) const {
+    static const std::vector<SkyPoint> points = compared_points(0);
     const Atmosphere<double> atmosphere =
         changed(request_.preset.atmosphere, slider.parameter, value);
-    const auto shares = end_shares(slider, value);
-    std::vector<WeightedTables> changes;
-    for (const End& end : ends)
-      changes.push_back({end.change, end.value < slider.value ? shares[0] : shares[1]});
+    const auto shares = change_shares(slider, value);
+    const std::array<WeightedTables, 2> weighted = {
+        {{changes[0], shares[0]}, {changes[1], shares[1]}}};
     return largest_error(
-        table_luminances(tables_, changes, phase_classes(atmosphere), points),
+        table_luminances(tables_, weighted, phase_classes(atmosphere), points),
         reference_luminances(atmosphere, request_.spectra, points, request_.threads));
   }
 
+  // At the tabulated values, and half-way between neighbours of these and the preset's.
+  void measure(const PageSlider& slider, const std::vector<AtmosphereTables>& changes) {
+    const auto [first, second] = slider.tabulated();
+    std::array values = {first, slider.value, second};
+    std::ranges::sort(values);
+    errors_.tabulated.push_back(
+        std::max(error_at(slider, changes, first), error_at(slider, changes, second)));
+    errors_.half_way.push_back(
+        std::max(error_at(slider, changes, slider.half_way(values[0], values[1])),
+                 error_at(slider, changes, slider.half_way(values[1], values[2]))));
+  }
+
   void add(const PageSlider& slider) {
-    std::vector<End> ends;
-    json ends_json = json::array();
-    double at_end = 0, half_way = 0;
-    for (const double value : {slider.low, slider.high}) {
-      if (value == slider.value) continue;
-      ends.push_back({value, change_at(slider, value)});
-      ends_json.push_back({{"value", value},
-                           {"tables", packed_change(ends.back().change)},
-                           {"uniforms", uniforms_of(ends.back().change)}});
+    std::vector<AtmosphereTables> changes;
+    json changes_json = json::array();
+    for (const double value : slider.tabulated()) {
+      changes.push_back(change_at(slider, value));
+      changes_json.push_back({{"value", value},
+                              {"tables", packed_change(changes.back())},
+                              {"uniforms", uniforms_of(changes.back())}});
     }
-    for (const End& end : ends) {
-      at_end = std::max(at_end, error_at(slider, ends, end.value));
-      half_way = std::max(half_way, error_at(slider, ends, slider.between(end.value)));
-    }
-    errors_.at_end.push_back(at_end);
-    errors_.half_way.push_back(half_way);
+    measure(slider, changes);
     const ParameterInfo info = parameter_info(slider.parameter);
     sliders_.push_back({{"name", info.name},
                         {"meaning", info.meaning},
@@ -153,8 +161,8 @@ class PageTables {
                         {"high", slider.high},
                         {"logarithmic", slider.logarithmic},
                         {"sigma", slider.sigma ? json(*slider.sigma) : json()},
-                        {"error", std::max(at_end, half_way)},
-                        {"ends", ends_json}});
+                        {"error", std::max(errors_.tabulated.back(), errors_.half_way.back())},
+                        {"changes", changes_json}});
     report();
   }
 
@@ -200,6 +208,9 @@ json page_data(const SkyPageRequest& request, const PageTables& page) {
     nodes.push_back({{"wavelength_nm", node.wavelength_nm},
                      {"irradiance", request.spectra.solar_irradiance.at(node.wavelength_nm)}});
   }
+  json errors = json::array();
+  for (std::size_t i = 0; i < kComparedAltitudes_m.size(); ++i)
+    errors.push_back({{"altitude_m", kComparedAltitudes_m[i]}, {"error", page.errors().preset[i]}});
   json uniforms = uniforms_of(tables);
   uniforms["depolarisation"] = tables.phases.depolarisation;
   return {{"preset", {{"name", request.preset.name}, {"note", request.preset.note}}},
@@ -210,7 +221,7 @@ json page_data(const SkyPageRequest& request, const PageTables& page) {
           {"sun_radius_deg", 0.5 * atmosphere.star.angular_diameter_deg},
           {"nodes", nodes},
           {"xyz_from_nodes", tables.color.xyz_from_nodes},
-          {"error", page.errors().preset},
+          {"errors", errors},
           {"uniforms", uniforms},
           {"tables", packed_tables(tables)},
           {"sliders", page.sliders()},
@@ -274,15 +285,22 @@ SkyPage sky_page(const SkyPageRequest& request) {
   std::string script;
   for (const char* file : {"tables.js", "sky.js", "controls.js"})
     script += embedded_shader(std::string("render/page/") + file);
-  return {
+  std::string html =
       filled(embedded_shader("render/page/page.html"),
              {{"name", escaped(request.preset.name)},
               {"version", kVersion},
               {"style", std::string(embedded_shader("render/page/page.css"))},
               {"script", script},
               {"preset", "data:application/json;base64," + base64(preset_to_json(request.preset))},
-              {"data", in_script(page_data(request, tables))}}),
-      tables.errors()};
+              {"data", in_script(page_data(request, tables))}});
+  if (html.size() > kMostPageBytes) {
+    throw std::invalid_argument(
+        fmt::format("{}: a page with {} sliders has {:.1f} MB: expected at most {:.0f} MB, which "
+                    "fewer sliders give",
+                    request.preset.name, request.sliders.size(),
+                    1e-6 * static_cast<double>(html.size()), 1e-6 * kMostPageBytes));
+  }
+  return {std::move(html), tables.errors()};
 }
 
 }  // namespace skyfit

@@ -6,6 +6,7 @@
 // GLSL ES 3.00. docs/view.md says what the page shows.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,11 +23,11 @@ inline constexpr TableSizes kPageSizes = {.optical_depth_mu = 128,
                                           .optical_depth_r = 64,
                                           .irradiance_mu_s = 48,
                                           .irradiance_r = 12,
-                                          .scattering_r = 24,
-                                          .scattering_ground = 12,
-                                          .scattering_sky = 48,
-                                          .scattering_mu_s = 48,
-                                          .scattering_azimuth = 16,
+                                          .scattering_r = 32,
+                                          .scattering_ground = 10,
+                                          .scattering_sky = 40,
+                                          .scattering_mu_s = 44,
+                                          .scattering_azimuth = 14,
                                           .outside_sky = 4,
                                           .outside_mu_s = 8,
                                           .outside_azimuth = 4};
@@ -39,13 +40,16 @@ struct SkyPageRequest {
   std::function<void(double)> progress = [](double) {};  // 0..1
 };
 
-// |luminance of the page / that of the model reference - 1|, the largest of 450 skies each: views
-// 0 to 89 deg from the zenith, suns 0 to 88 deg, observers at the ground, 1.5 km and 10 km.
+inline constexpr std::size_t kMostPageBytes = 8'000'000;
+
+// |luminance of the page / that of the model reference - 1|, the largest of 180 skies each: views
+// 5 to 89 deg and suns 0 to 88 deg from the zenith.
+inline constexpr std::array kComparedAltitudes_m = {0.0, 1500.0, 10000.0};
 struct SkyPageErrors {
-  double preset = 0;
-  // Of each slider: at the worse of its ends, and half-way between the preset's value and an end;
-  // views from the ground.
-  std::vector<double> at_end, half_way;
+  std::array<double, kComparedAltitudes_m.size()> preset{};  // by altitude
+  // Of each slider, from the ground: at values for which the page has tables, its ends among them;
+  // half-way between these and the preset's value.
+  std::vector<double> tabulated, half_way;
 };
 
 struct SkyPage {
@@ -54,7 +58,7 @@ struct SkyPage {
 };
 
 // Throws std::invalid_argument where the model cannot do the atmosphere or one with a slider at its
-// end, with the slider's name.
+// end, with the slider's name, and where the page would have more than kMostPageBytes.
 SkyPage sky_page(const SkyPageRequest& request);
 
 }  // namespace skyfit
