@@ -15,7 +15,7 @@
 #include "render/glsl/shader_text.h"
 #include "render/glsl/table_defines.h"
 #include "render/page/changes.h"
-#include "render/page/page_errors.h"
+#include "render/page/page_tables.h"
 #include "render/page/table_packing.h"
 
 namespace skyfit {
@@ -29,7 +29,6 @@ constexpr Packing kIrradiancePacking{.step = 1.0 / 1024, .logarithm = true, .lea
 constexpr Packing kPhasePacking{.step = 1.0 / 1024};
 constexpr Packing kChangePacking{.step = 1.0 / 100};
 
-constexpr Packing kScatteringPacking{.step = 1.0 / 160, .row = kPageSizes.scattering_mu_s};
 constexpr Packing kScatteringChangePacking{.step = 1.0 / 100, .row = kChangeSizes.scattering_mu_s};
 
 json packed_tables(const AtmosphereTables& tables) {
@@ -56,123 +55,26 @@ json uniforms_of(const AtmosphereTables& tables) {
   return {{"phase_parameters", phase_parameters(tables.phases)}, {"ground_albedo", albedo}};
 }
 
-// The tables of an atmosphere and of those with its sliders at their ends; what the page says of
-// them.
-class PageTables {
- public:
-  explicit PageTables(const SkyPageRequest& request)
-      : request_(request), color_(color_rule(request.spectra)) {
-    const Atmosphere<double>& atmosphere = request.preset.atmosphere;
-    for (const PageSlider& slider : request.sliders) {
-      for (const double value : slider.tabulated()) check(slider, value);
-    }
-    tables_ = compute_tables(atmosphere, color_, kPageSizes, request.threads, {});
-    tables_.rayleigh_like = as_decoded(tables_.rayleigh_like, kScatteringPacking);
-    tables_.single = as_decoded(tables_.single, kScatteringPacking);
-    coarse_ = compute_tables(atmosphere, color_, kComparedSizes, request.threads, {});
-    errors_.preset = preset_errors();
-    report();
-    for (const PageSlider& slider : request.sliders) add(slider);
+json slider_json(const SliderTables& tables) {
+  const PageSlider& slider = tables.slider;
+  const ParameterInfo info = parameter_info(slider.parameter);
+  json changes = json::array();
+  for (std::size_t i = 0; i < tables.changes.size(); ++i) {
+    changes.push_back({{"value", slider.tabulated()[i]},
+                       {"tables", packed_change(tables.changes[i])},
+                       {"uniforms", uniforms_of(tables.changes[i])}});
   }
-
-  const AtmosphereTables& tables() const { return tables_; }
-  const json& sliders() const { return sliders_; }
-  const SkyPageErrors& errors() const { return errors_; }
-
- private:
-  // By altitude.
-  std::array<double, kComparedAltitudes_m.size()> preset_errors() const {
-    const Atmosphere<double>& atmosphere = request_.preset.atmosphere;
-    std::array<double, kComparedAltitudes_m.size()> errors{};
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      const std::vector<SkyPoint> points = compared_points(std::min(
-          kComparedAltitudes_m[i], 0.9 * (atmosphere.top_radius_m - atmosphere.bottom_radius_m)));
-      errors[i] = largest_error(
-          table_luminances(tables_, {}, tables_.phases, points),
-          reference_luminances(atmosphere, request_.spectra, points, request_.threads));
-    }
-    return errors;
-  }
-
-  void report() {
-    request_.progress(static_cast<double>(++done_) /
-                      static_cast<double>(1 + request_.sliders.size()));
-  }
-
-  void check(const PageSlider& slider, double value) const {
-    try {
-      const auto atmosphere = changed(request_.preset.atmosphere, slider.parameter, value);
-      validate(atmosphere);
-      require_same_classes(request_.preset.atmosphere, atmosphere);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(
-          fmt::format("the slider {} = {:.6g}: {}", slider.parameter.name(), value, error.what()));
-    }
-  }
-
-  AtmosphereTables change_at(const PageSlider& slider, double value) const {
-    const auto atmosphere = changed(request_.preset.atmosphere, slider.parameter, value);
-    return table_change(coarse_,
-                        compute_tables(atmosphere, color_, kComparedSizes, request_.threads, {}));
-  }
-
-  // Of the page with a slider at a value, from the ground.
-  double error_at(const PageSlider& slider, const std::vector<AtmosphereTables>& changes,
-                  double value) const {
-    static const std::vector<SkyPoint> points = compared_points(0);
-    const Atmosphere<double> atmosphere =
-        changed(request_.preset.atmosphere, slider.parameter, value);
-    const auto shares = change_shares(slider, value);
-    const std::array<WeightedTables, 2> weighted = {
-        {{changes[0], shares[0]}, {changes[1], shares[1]}}};
-    return largest_error(
-        table_luminances(tables_, weighted, phase_classes(atmosphere), points),
-        reference_luminances(atmosphere, request_.spectra, points, request_.threads));
-  }
-
-  // At the tabulated values, and half-way between neighbours of these and the preset's.
-  void measure(const PageSlider& slider, const std::vector<AtmosphereTables>& changes) {
-    const auto [first, second] = slider.tabulated();
-    std::array values = {first, slider.value, second};
-    std::ranges::sort(values);
-    errors_.tabulated.push_back(
-        std::max(error_at(slider, changes, first), error_at(slider, changes, second)));
-    errors_.half_way.push_back(
-        std::max(error_at(slider, changes, slider.half_way(values[0], values[1])),
-                 error_at(slider, changes, slider.half_way(values[1], values[2]))));
-  }
-
-  void add(const PageSlider& slider) {
-    std::vector<AtmosphereTables> changes;
-    json changes_json = json::array();
-    for (const double value : slider.tabulated()) {
-      changes.push_back(change_at(slider, value));
-      changes_json.push_back({{"value", value},
-                              {"tables", packed_change(changes.back())},
-                              {"uniforms", uniforms_of(changes.back())}});
-    }
-    measure(slider, changes);
-    const ParameterInfo info = parameter_info(slider.parameter);
-    sliders_.push_back({{"name", info.name},
-                        {"meaning", info.meaning},
-                        {"unit", info.unit},
-                        {"low", slider.low},
-                        {"value", slider.value},
-                        {"high", slider.high},
-                        {"logarithmic", slider.logarithmic},
-                        {"sigma", slider.sigma ? json(*slider.sigma) : json()},
-                        {"error", std::max(errors_.tabulated.back(), errors_.half_way.back())},
-                        {"changes", changes_json}});
-    report();
-  }
-
-  const SkyPageRequest& request_;
-  ColorRule color_;
-  AtmosphereTables tables_, coarse_;
-  SkyPageErrors errors_;
-  json sliders_ = json::array();
-  int done_ = 0;
-};
+  return {{"name", info.name},
+          {"meaning", info.meaning},
+          {"unit", info.unit},
+          {"low", slider.low},
+          {"value", slider.value},
+          {"high", slider.high},
+          {"logarithmic", slider.logarithmic},
+          {"sigma", slider.sigma ? json(*slider.sigma) : json()},
+          {"error", std::max(tables.tabulated_error, tables.half_way_error)},
+          {"changes", changes}};
+}
 
 std::string mat3_define(std::string_view name, const std::array<std::array<double, 3>, 3>& rows) {
   std::string text(name);
@@ -201,7 +103,7 @@ json shaders(const AtmosphereTables& tables) {
 }
 
 json page_data(const SkyPageRequest& request, const PageTables& page) {
-  const AtmosphereTables& tables = page.tables();
+  const AtmosphereTables& tables = page.tables;
   const Atmosphere<double>& atmosphere = request.preset.atmosphere;
   json nodes = json::array();
   for (const WavelengthNode& node : tables.color.nodes) {
@@ -210,7 +112,9 @@ json page_data(const SkyPageRequest& request, const PageTables& page) {
   }
   json errors = json::array();
   for (std::size_t i = 0; i < kComparedAltitudes_m.size(); ++i)
-    errors.push_back({{"altitude_m", kComparedAltitudes_m[i]}, {"error", page.errors().preset[i]}});
+    errors.push_back({{"altitude_m", kComparedAltitudes_m[i]}, {"error", page.errors[i]}});
+  json sliders = json::array();
+  for (const SliderTables& slider : page.sliders) sliders.push_back(slider_json(slider));
   json uniforms = uniforms_of(tables);
   uniforms["depolarisation"] = tables.phases.depolarisation;
   return {{"preset", {{"name", request.preset.name}, {"note", request.preset.note}}},
@@ -224,7 +128,7 @@ json page_data(const SkyPageRequest& request, const PageTables& page) {
           {"errors", errors},
           {"uniforms", uniforms},
           {"tables", packed_tables(tables)},
-          {"sliders", page.sliders()},
+          {"sliders", sliders},
           {"shaders", shaders(tables)}};
 }
 
@@ -281,7 +185,7 @@ std::string filled(std::string_view page,
 }  // namespace
 
 SkyPage sky_page(const SkyPageRequest& request) {
-  const PageTables tables(request);
+  const PageTables tables = page_tables(request);
   std::string script;
   for (const char* file : {"tables.js", "sky.js", "controls.js"})
     script += embedded_shader(std::string("render/page/") + file);
@@ -300,7 +204,12 @@ SkyPage sky_page(const SkyPageRequest& request) {
                     request.preset.name, request.sliders.size(),
                     1e-6 * static_cast<double>(html.size()), 1e-6 * kMostPageBytes));
   }
-  return {std::move(html), tables.errors()};
+  SkyPageErrors errors{tables.errors, {}, {}};
+  for (const SliderTables& slider : tables.sliders) {
+    errors.tabulated.push_back(slider.tabulated_error);
+    errors.half_way.push_back(slider.half_way_error);
+  }
+  return {std::move(html), errors};
 }
 
 }  // namespace skyfit

@@ -37,7 +37,7 @@ struct SkyPageRequest {
   const SpectralData& spectra;  // under the preset's star
   std::vector<PageSlider> sliders;
   int threads = 1;
-  std::function<void(double)> progress = [](double) {};  // 0..1
+  std::function<void(double)> progress = [](double) {};  // 0..1, from several threads
 };
 
 inline constexpr std::size_t kMostPageBytes = 8'000'000;
