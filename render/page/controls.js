@@ -315,7 +315,7 @@ const percent = (share) => (share < 1 ? `${(100 * share).toPrecision(2)} %` : `a
 
 function describe() {
   element('note').textContent = data.preset.note;
-  const skies = data.errors.map(({ altitude_m: m, error }) => `${percent(error)} ${m === 0 ? 'at the ground' : `from ${length(m)}`}`);
+  const skies = data.errors.map(({ altitude_m: m, error }) => `${percent(error)} ${m === 0 ? 'at the ground' : `from ${m / 1000} km`}`);
   const sliders = data.sliders.map((slider) => slider.error);
   element('accuracy').textContent =
       `Luminances are those of the model reference within ${skies.join(', ')} (sun from 2° and views from 1° above the horizontal on).` +

@@ -35,12 +35,15 @@ std::optional<std::filesystem::path> browser() {
 class ViewInBrowser : public ProgramTest {
  protected:
   // What a script, the body of an asynchronous function, returns in the page.
-  json evaluated(const std::string& page, const std::string& script) const {
+  json evaluated(const std::string& page, const std::string& script,
+                 const std::string& ready = "skyfit.ready") const {
     std::string html = read(page);
     html.insert(html.rfind("</body>"),
                 "<script type=\"module\">\nconst result = document.createElement('pre');\n"
-                "try {\n  await skyfit.ready;\n  result.textContent = 'RESULT' + JSON.stringify("
-                "await (async () => {" +
+                "try {\n  await " +
+                    ready +
+                    ";\n  result.textContent = 'RESULT' + JSON.stringify("
+                    "await (async () => {" +
                     script +
                     "})()) + 'END';\n"
                     "} catch (error) { result.textContent = String(error); }\n"
@@ -171,6 +174,22 @@ TEST_F(ViewInBrowser, SlidersGiveTheSkyOfAChangedPreset) {
     std::printf("[ slider ] %s\n", parameter.name().c_str());
     expect_luminances(rows, result["luminances"], kSliderEnd);
   }
+}
+
+TEST_F(ViewInBrowser, AReportHasItsSkyBesideIt) {
+  if (!browser()) GTEST_SKIP() << "needs chromium in PATH";
+  ASSERT_EQ(run({"fit", "--reference", "cie:12", "--sun-zenith-deg", "40", "--lobes", "1",
+                 "--starts", "1", "--out", "fitted"})
+                .status,
+            0);
+  ASSERT_EQ(run({"report", "fitted", "--out", "report.html"}).status, 0);
+  const json linked = evaluated(
+      "report.html", "return {urls: [...document.links].map((link) => link.getAttribute('href'))};",
+      "Promise.resolve()");
+  EXPECT_EQ(linked["urls"], json({"./report-sky.html"}));
+  const json sky =
+      evaluated("report-sky.html", "return skyfit.light({sunZenithDeg: 40, viewZenithDeg: 20});");
+  EXPECT_GT(sky["luminance_cd_m2"].get<double>(), 0);
 }
 
 TEST_F(ViewInBrowser, AFittedPresetHasItsParametersAsSliders) {
