@@ -10,7 +10,7 @@ const state = {
   sunElevation: 25 * kDegree, sunAzimuth: 180 * kDegree, look: 13 * kDegree, azimuth: 180 * kDegree,
   altitude_m: 2, field: 75 * kDegree, stops: 0,
 };
-const kLowestSun = -12 * kDegree;
+const kLowestSun = -30 * kDegree;
 let renderer, exposure, pointer = null, moving = false;
 let resolution = 0.5;  // share of the sides' pixels that is drawn while something moves; the first picture is such
 
@@ -64,7 +64,7 @@ function digits(value, count = 3) {
   return size >= 1000 ? Math.round(value).toLocaleString('en').replace(/,/g, ' ') : value.toPrecision(count);
 }
 
-const degrees = (angle, places = 1) => `${(angle / kDegree).toFixed(places)}°`;
+const degrees = (angle, places = 1) => `${(angle / kDegree).toFixed(places).replace('-', '−')}°`;
 const length = (m) => (m < 1000 ? `${digits(m, m < 10 ? 2 : 3)} m` : `${digits(m / 1000)} km`);
 const quantity = (value, unitName) => (unitName === '1' ? digits(value) : `${digits(value)} ${unitName.replace('1/m', 'm⁻¹').replace('um', 'µm')}`);
 const compass = (azimuth) => ['N', 'NE', 'E', 'SE', 'S', 'SW', 'W', 'NW'][Math.round(azimuth / (45 * kDegree)) % 8];
@@ -319,7 +319,7 @@ function describe() {
   const sliders = data.sliders.map((slider) => slider.error);
   element('accuracy').textContent =
       `Luminances are those of the model reference within ${skies.join(', ')} (sun from 2° and views from 1° above the horizontal on).` +
-      (sliders.length ? ` Sliders are approximate: each by itself within ${percent(Math.max(...sliders))} at the ground.` : '');
+      (sliders.length ? ` Sliders are approximate: each by itself within ${percent(Math.max(...sliders))} at the ground, several at once less so.` : '');
 }
 
 async function start() {

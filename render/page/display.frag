@@ -35,11 +35,16 @@ float noise(uint index) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 light = texelFetch(light_picture, pixel, 0);
-  vec3 shown = linear_display(light);
   vec3 direction = normalize(ray_through(screen));
   float away = 2.0 * asin(clamp(0.5 * length(direction - suns[0].xyz), 0.0, 1.0));
   float cover = clamp((kSunRadius - away) / length(dFdx(direction)) + 0.5, 0.0, 1.0);
-  if (cover > 0.0) shown = mix(shown, linear_display(light + texelFetch(disc_picture, pixel, 0)), cover);
+  vec4 with_disc = light + texelFetch(disc_picture, pixel, 0);
+  vec3 shown = vec3(0.0);
+  // A loop, so that compilers do not make the long function twice.
+  for (int part = 0; part < 2; ++part) {
+    float share = part == 0 ? 1.0 - cover : cover;
+    if (share > 0.0) shown += share * linear_display(part == 0 ? light : with_disc);
+  }
   vec3 encoded = vec3(srgb_transfer(shown.r), srgb_transfer(shown.g), srgb_transfer(shown.b));
   uint index = uint(pixel.y) * 65536u + uint(pixel.x);
   color = vec4(encoded + (noise(2u * index) - noise(2u * index + 1u)) / 255.0, 1.0);

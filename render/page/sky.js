@@ -34,7 +34,7 @@ class SkyRenderer {
     this.parameters = data.sliders.map((slider) => slider.value);
   }
 
-  // Both programs are compiled at once before the first is asked for its state.
+  // Is not asked for its state before it is used, so that programs are compiled while tables are decoded.
   program(vertex, fragment) {
     const gl = this.gl, program = gl.createProgram();
     for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
@@ -90,11 +90,12 @@ class SkyRenderer {
   // 16 bit floats, which every device can interpolate.
   texture({ width, height, depth, values }, is3d) {
     const gl = this.gl, kind = is3d ? gl.TEXTURE_3D : gl.TEXTURE_2D, texture = gl.createTexture();
+    const type = values instanceof Uint16Array ? gl.HALF_FLOAT : gl.FLOAT;
     gl.bindTexture(kind, texture);
     if (is3d) {
-      gl.texImage3D(kind, 0, gl.RGBA16F, width, height, depth, 0, gl.RGBA, gl.FLOAT, values);
+      gl.texImage3D(kind, 0, gl.RGBA16F, width, height, depth, 0, gl.RGBA, type, values);
     } else {
-      gl.texImage2D(kind, 0, gl.RGBA16F, width, height, 0, gl.RGBA, gl.FLOAT, values);
+      gl.texImage2D(kind, 0, gl.RGBA16F, width, height, 0, gl.RGBA, type, values);
     }
     gl.texParameteri(kind, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.texParameteri(kind, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
@@ -106,7 +107,7 @@ class SkyRenderer {
   static is3d(name) { return name === 'rayleigh_like' || name === 'single'; }
 
   async load() {
-    const tables = await decodedTables(this.data.tables);
+    const tables = await decodedTables(this.data.tables, true);
     this.textures = Object.fromEntries(
         Object.entries(tables).map(([name, table]) => [name, this.texture(table, SkyRenderer.is3d(name))]));
     this.changes = {};
@@ -120,7 +121,7 @@ class SkyRenderer {
   // The changes by the sliders, which the first picture does not need.
   async loadSliders() {
     for (const slider of this.data.sliders) {
-      for (const change of slider.changes) change.decoded = await decodedTables(change.tables);
+      for (const change of slider.changes) change.decoded = await decodedTables(change.tables, false);
     }
     this.setParameters(this.parameters);
   }
