@@ -9,6 +9,7 @@
 #include "model/numerics/angles.h"
 #include "model/numerics/gauss.h"
 #include "model/numerics/lagrange.h"
+#include "model/numerics/wigner.h"
 
 namespace skyfit {
 namespace {
@@ -37,7 +38,8 @@ AnglePanels::AnglePanels() {
       angles_.push_back(middle - half * std::cos(kPi * k / kPieces));
   }
   for (const double angle : angles_) cosines_.push_back(std::cos(angle));
-  moments_.assign(kMostMoments * size(), 0.0);
+  for (auto* moments : {&moments_, &spin_moments_[0], &spin_moments_[1], &spin_moments_[2]})
+    moments->assign(kMostMoments * size(), 0.0);
   // Exact for the polynomial times the fastest Legendre polynomial on the longest panel, 23 rad.
   const GaussRule rule = gauss_legendre(32);
   for (std::size_t p = 0; p + 1 < edges_.size(); ++p) {
@@ -46,12 +48,25 @@ AnglePanels::AnglePanels() {
       const double angle = edges_[p] + rule.node[q] * length, nu = std::cos(angle);
       const double area = 2 * kPi * rule.weight[q] * length * std::sin(angle);
       const Weights interpolation = at(angle);
+      const auto add = [&](const std::array<double, kMostMoments>& function,
+                           std::vector<double>& moments) {
+        for (std::size_t l = 0; l < kMostMoments; ++l) {
+          for (std::size_t k = 0; k < kNodes; ++k)
+            moments[l * size() + interpolation.first + k] +=
+                area * function[l] * interpolation.weight[k];
+        }
+      };
+      std::array<double, kMostMoments> function;
       double before = 0, legendre = 1;  // P_{l-1}, P_l by Bonnet's recursion
       for (int l = 0; l < kMostMoments; ++l) {
-        double* const row = moments_.data() + static_cast<std::size_t>(l) * size();
-        for (std::size_t k = 0; k < kNodes; ++k)
-          row[interpolation.first + k] += area * legendre * interpolation.weight[k];
+        function[static_cast<std::size_t>(l)] = legendre;
         before = std::exchange(legendre, ((2 * l + 1) * nu * legendre - l * before) / (l + 1));
+      }
+      add(function, moments_);
+      for (std::size_t spin = 0; spin < spin_moments_.size(); ++spin) {
+        constexpr int kIndex[] = {0, 2, -2};
+        wigner_d2(kIndex[spin], kMostMoments, nu, function.data());
+        add(function, spin_moments_[spin]);
       }
     }
   }

@@ -33,12 +33,20 @@ class AnglePanels {
   // 2 pi integral P_l(cos angle) f sin(angle) d angle is sum_i moment(l)[i] value[i], l <
   // kMostMoments.
   static constexpr int kMostMoments = 129;
-  const double* moment(int l) const {
-    return moments_.data() + static_cast<std::size_t>(l) * size();
+  const double* moment(int l) const { return row(moments_, l); }
+  // The same with Wigner's functions d^l_{2n} in the place of Legendre's.
+  enum class Spin { kNone, kKept, kReversed };  // n = 0, 2, -2
+  const double* moment(Spin spin, int l) const {
+    return row(spin_moments_[static_cast<std::size_t>(spin)], l);
   }
 
  private:
+  const double* row(const std::vector<double>& moments, int l) const {
+    return moments.data() + static_cast<std::size_t>(l) * size();
+  }
+
   std::vector<double> edges_, angles_, cosines_, moments_;
+  std::array<std::vector<double>, 3> spin_moments_;
 };
 
 }  // namespace skyfit

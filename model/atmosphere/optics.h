@@ -27,10 +27,15 @@ struct Scatterer {
   Dual<N> scaled_scattering;     // delta-M-scaled
   PhaseFunction<Dual<N>> phase;  // true, at the wavelength
   std::vector<Dual<N>> moments;  // of the delta-M-scaled phase function; further ones are 0
+  // Those of the delta-M-scaled scattering matrix of particles, docs/theory (13.18), where it is
+  // taken; empty otherwise.
+  struct {
+    std::vector<Dual<N>> alpha, zeta, gamma;
+  } matrix;
 };
 
-// Whether it has Rayleigh's phase matrix; polarised light that the others scatter stays as it is in
-// part, docs/theory (13.8), and becomes unpolarised otherwise.
+// Whether it has Rayleigh's phase matrix. Of the others, where no matrix of theirs is taken,
+// polarised light stays as it is in part, docs/theory (13.8), and becomes unpolarised otherwise.
 template <int N>
 bool polarises(const Scatterer<N>& s) {
   return s.phase.type == PhaseType::kRayleigh;
@@ -46,7 +51,8 @@ struct Optics {
   std::vector<std::array<Dual<N>, kMostShapes>> shape;  // of each profile: its parameters, m
   // Where the density of a profile is 1, 1/m, of all its constituents; the second delta-M-scaled.
   std::vector<Dual<N>> extinction, scaled_extinction;
-  // What Q and U lose along a ray, without what aerosol scatters forward, docs/theory (13.8).
+  // What Q and U lose along a ray: scatterers without a matrix do not take what they scatter
+  // forward, docs/theory (13.8).
   std::vector<Dual<N>> polarised_extinction;
   std::vector<Scatterer<N>> scatterers;
   Dual<N> ground_albedo;
@@ -191,7 +197,7 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
     o.extinction[at] += k.extinction;
     if (!scatters(c)) continue;
     o.scatterers.push_back(
-        {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}});
+        {i, at, k.scattering, k.scattering, phase_at(c.phase, node.wavelength_nm), {}, {}});
     if (c.amount_type == AmountType::kAirPressure)
       o.scatterers.back().phase.depolarisation = king_depolarisation(node.wavelength_nm, c.co2_ppm);
   }
@@ -205,26 +211,46 @@ Optics<N> true_optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a,
 // scattering matrix, of others from the moments chi_1 and chi_2, the mean of (1 + nu)^2 / 4.
 template <int N>
 Dual<N> kept_polarisation(const PhaseFunction<Dual<N>>& phase, const std::vector<Dual<N>>& chi) {
-  if (phase.type == PhaseType::kSizeDistribution)
-    return with_slopes(phase.optics->kept_polarisation, phase.particles);
+  if (phase.type == PhaseType::kSizeDistribution) {
+    const ParticleOptics::MatrixMoments m = phase.optics->matrix_moments(2);
+    return 0.5 * (with_slopes(m.alpha, phase.particles) + with_slopes(m.zeta, phase.particles));
+  }
   return Dual<N>(1.0 / 3) + chi[1] * 0.5 + chi[2] * (1.0 / 6);
 }
+
+// Which light is asked for: that of Q and U needs the scattering matrices of particles, radiance
+// goes without.
+enum class Wanted { kRadiance, kStokes };
 
 // docs/theory (2.14).
 template <int N>
 Optics<N> optics_at(const Shells& shells, const Atmosphere<Dual<N>>& a, const WavelengthNode& node,
-                    int moment_count) {
+                    int moment_count, Wanted wanted = Wanted::kRadiance) {
   Optics<N> o = true_optics_at(shells, a, node);
   for (Scatterer<N>& s : o.scatterers) {
     s.moments = phase_moments(s.phase, moment_count + 1);
-    if (!polarises(s))
+    const bool has_matrix =
+        wanted == Wanted::kStokes && s.phase.type == PhaseType::kSizeDistribution;
+    if (!polarises(s) && !has_matrix)
       o.polarised_extinction[s.profile] -= s.scattering * kept_polarisation(s.phase, s.moments);
     if (static_cast<int>(s.moments.size()) <= moment_count) continue;  // the rest is 0
-    const Dual<N> cut = s.moments.back();
+    const Dual<N> cut = s.moments.back(), rest = Dual<N>(1.0) - cut;
     s.moments.pop_back();
-    for (Dual<N>& chi : s.moments) chi = (chi - cut) / (Dual<N>(1.0) - cut);
-    s.scaled_scattering = s.scattering * (Dual<N>(1.0) - cut);
+    for (Dual<N>& chi : s.moments) chi = (chi - cut) / rest;
+    s.scaled_scattering = s.scattering * rest;
     o.scaled_extinction[s.profile] -= s.scattering * cut;
+    if (!has_matrix) continue;
+    o.polarised_extinction[s.profile] -= s.scattering * cut;
+    for (int l = 0; l < moment_count; ++l) {
+      const ParticleOptics::MatrixMoments m = s.phase.optics->matrix_moments(l);
+      const auto part = [&](const ParticleValue& value) {
+        return with_slopes(value, s.phase.particles);
+      };
+      const Dual<N> peak = l < 2 ? Dual<N>() : cut;
+      s.matrix.alpha.push_back((part(m.alpha) - peak) / rest);
+      s.matrix.zeta.push_back((part(m.zeta) - peak) / rest);
+      s.matrix.gamma.push_back(part(m.gamma) / rest);
+    }
   }
   return o;
 }

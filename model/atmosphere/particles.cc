@@ -64,23 +64,12 @@ ParticleValue weight_of(const ParticleMode& mode, double radius_um, double x) {
 
 // What one sphere scatters, at the angles of the panels.
 struct SphereMatrix {
-  std::vector<float> phase, polarising;  // m11 and m12 of mie_matrix()
-  double kept_polarisation = 0;          // as ParticleOptics has it, times the efficiency
+  std::vector<float> phase, polarising, turning;  // m11, m12 and m33 of mie_matrix()
 };
 struct Sphere {
   MieEfficiencies efficiencies;
   std::vector<SphereMatrix> matrix;  // [0]; [1] and [2] where it has derivatives by the index
 };
-
-// docs/theory (13.8).
-double kept_polarisation(const AnglePanels& panels, const MieMatrix& matrix) {
-  double sum = 0;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const double half = 0.5 * (1 + panels.cosines()[i]);
-    sum += panels.moment(0)[i] * half * half * 0.5 * (matrix.m11[i] + matrix.m33[i]);
-  }
-  return sum;
-}
 
 // From mie_matrix()'s order to ascending angles, with 90 deg once.
 void in_order(std::vector<double>& values) {
@@ -96,7 +85,7 @@ Sphere sphere(double x, std::complex<double> index, bool by_index, const AnglePa
     for (auto* values : {&matrix.m11, &matrix.m12, &matrix.m33}) in_order(*values);
     result.matrix.push_back({{matrix.m11.begin(), matrix.m11.end()},
                              {matrix.m12.begin(), matrix.m12.end()},
-                             kept_polarisation(panels, matrix)});
+                             {matrix.m33.begin(), matrix.m33.end()}});
   }
   return result;
 }
@@ -126,8 +115,7 @@ class ParticleSums {
  public:
   explicit ParticleSums(std::shared_ptr<const AnglePanels> panels)
       : optics_(std::make_shared<ParticleOptics>()) {
-    for (auto* values : {&optics_->phase_, &optics_->polarising_})
-      values->fill(std::vector<double>(panels->size()));
+    for (auto* values : elements()) values->fill(std::vector<double>(panels->size()));
     optics_->panels_ = std::move(panels);
   }
 
@@ -138,12 +126,9 @@ class ParticleSums {
         optics_->extinction);
     add(weight, {q.scattering, q.scattering_by_index[0], q.scattering_by_index[1]},
         optics_->scattering);
-    std::array<double, 3> kept{};
-    for (std::size_t part = 0; part < sphere.matrix.size(); ++part)
-      kept[part] = sphere.matrix[part].kept_polarisation;
-    add(weight, kept, optics_->kept_polarisation);
     add(weight, sphere, &SphereMatrix::phase, optics_->phase_);
     add(weight, sphere, &SphereMatrix::polarising, optics_->polarising_);
+    add(weight, sphere, &SphereMatrix::turning, optics_->turning_);
   }
 
   // The spheres' efficiencies are exact; what the panels make of forward peaks is normalised.
@@ -153,8 +138,7 @@ class ParticleSums {
       const std::vector<double>& values = optics_->phase_[slope];
       integral[slope] = dot(values.size(), optics_->panels_->moment(0), values.data());
     }
-    divide(optics_->kept_polarisation, integral);
-    for (auto* values : {&optics_->phase_, &optics_->polarising_}) {
+    for (auto* values : elements()) {
       for (std::size_t i = 0; i < (*values)[kValue].size(); ++i) {
         ParticleValue at;
         for (std::size_t slope = 0; slope < kParticleSlopes; ++slope)
@@ -168,6 +152,9 @@ class ParticleSums {
   }
 
  private:
+  std::array<ParticleOptics::OfAngles*, 3> elements() const {
+    return {&optics_->phase_, &optics_->polarising_, &optics_->turning_};
+  }
   static void add(const ParticleValue& weight, const std::array<double, 3>& value,
                   ParticleValue& sum) {
     for (const Slope slope : {kValue, kByRadius, kByWidth}) sum[slope] += weight[slope] * value[0];
@@ -234,15 +221,46 @@ ParticleValue ParticleOptics::at(const OfAngles& values, double angle) const {
   return result;
 }
 
-ParticleValue ParticleOptics::moment(int l) const {
+ParticleValue ParticleOptics::integral(const double* weights, const OfAngles& values) const {
+  ParticleValue result;
+  for (std::size_t slope = 0; slope < kParticleSlopes; ++slope)
+    result[slope] = dot(panels_->size(), weights, values[slope].data());
+  return result;
+}
+
+namespace {
+
+void check_moment(int l) {
   if (l >= AnglePanels::kMostMoments) {
     throw std::invalid_argument(fmt::format("{} moments of particles: expected at most {}", l + 1,
                                             AnglePanels::kMostMoments));
   }
-  ParticleValue result;
-  for (std::size_t slope = 0; slope < kParticleSlopes; ++slope)
-    result[slope] = dot(panels_->size(), panels_->moment(l), phase_[slope].data());
-  return result;
+}
+
+}  // namespace
+
+ParticleValue ParticleOptics::moment(int l) const {
+  check_moment(l);
+  return integral(panels_->moment(l), phase_);
+}
+
+// docs/theory (13.18).
+ParticleOptics::MatrixMoments ParticleOptics::matrix_moments(int l) const {
+  check_moment(l);
+  using Spin = AnglePanels::Spin;
+  const double *const kept = panels_->moment(Spin::kKept, l), *const reversed = panels_->moment(
+                                                                  Spin::kReversed, l);
+  const ParticleValue kept_phase = integral(kept, phase_), kept_turning = integral(kept, turning_),
+                      reversed_phase = integral(reversed, phase_),
+                      reversed_turning = integral(reversed, turning_);
+  MatrixMoments m{{}, {}, integral(panels_->moment(Spin::kNone, l), polarising_)};
+  for (std::size_t slope = 0; slope < kParticleSlopes; ++slope) {
+    const double sum = kept_phase[slope] + kept_turning[slope],
+                 difference = reversed_phase[slope] - reversed_turning[slope];
+    m.alpha[slope] = 0.5 * (sum + difference);
+    m.zeta[slope] = 0.5 * (sum - difference);
+  }
+  return m;
 }
 
 ParticleTables::ParticleTables() : panels_(std::make_shared<const AnglePanels>()) {}

@@ -32,10 +32,6 @@ using ParticleValue = std::array<double, kParticleSlopes>;
 class ParticleOptics {
  public:
   ParticleValue extinction{}, scattering{};  // per volume
-  // The share of the scattering that keeps the polarisation as it is, docs/theory (13.8) with the
-  // elements P11 and P33 of the scattering matrix.
-  ParticleValue kept_polarisation{};
-
   // P11 and P12 of the scattering matrix, 1/sr, at an angle in radians: the phase function, and
   // what it makes of unpolarised light (positive in the scattering plane). P11 integrates to 1.
   ParticleValue phase(double angle) const { return at(phase_, angle); }
@@ -43,15 +39,21 @@ class ParticleOptics {
 
   // Legendre moment chi_l of the phase function, l < AnglePanels::kMostMoments.
   ParticleValue moment(int l) const;
+  // Those of the scattering matrix of spheres, with its elements P12 and P33, docs/theory (13.18).
+  struct MatrixMoments {
+    ParticleValue alpha, zeta, gamma;
+  };
+  MatrixMoments matrix_moments(int l) const;
 
  private:
   friend class ParticleSums;
   using OfAngles = std::array<std::vector<double>, kParticleSlopes>;
 
   ParticleValue at(const OfAngles& values, double angle) const;
+  ParticleValue integral(const double* weights, const OfAngles& values) const;
 
   std::shared_ptr<const AnglePanels> panels_;
-  OfAngles phase_, polarising_;
+  OfAngles phase_, polarising_, turning_;  // P11, P12 and P33
 };
 
 // Keeps what was computed: the spheres of an index over a fixed grid of the logarithm of the size

@@ -79,6 +79,12 @@ bool any_polarises(std::span<const Optics<N>> optics) {
   return std::ranges::any_of(optics.front().scatterers, polarises<N>);
 }
 
+template <int N>
+bool any_matrix(std::span<const Optics<N>> optics) {
+  return std::ranges::any_of(optics.front().scatterers,
+                             [](const Scatterer<N>& s) { return !s.matrix.alpha.empty(); });
+}
+
 void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
   LargeArray& out = field.moments[m];
   out.reserve(field.shape.levels * field.shape.level(m));
@@ -166,9 +172,14 @@ std::vector<DiffuseField> solve_diffuse_fields(
     const std::vector<double>& heights, const std::vector<double>& sun_mu, const Streams& streams,
     const HorizontalCoupling& coupling, const DiffuseOptions& options) {
   const int waves = static_cast<int>(optics.size()), moments = options.moments;
-  const bool polarised = options.polarised && any_polarises(optics);
-  const FieldShape shape{static_cast<int>(heights.size()), moments, static_cast<int>(sun_mu.size()),
-                         slices, polarised};
+  const bool matrices = options.polarised && any_matrix(optics),
+             polarised = options.polarised && (matrices || any_polarises(optics));
+  const FieldShape shape{static_cast<int>(heights.size()),
+                         moments,
+                         static_cast<int>(sun_mu.size()),
+                         slices,
+                         polarised,
+                         matrices};
   std::vector<DiffuseField> fields(waves);
   int modes = 0;
   for (const Optics<N>& o : optics)

@@ -9,6 +9,7 @@
 // of multiple scattering; the caller integrates it along view rays at the local sun.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -20,13 +21,16 @@ namespace skyfit {
 
 // Layout of a field: for each mode m, [level][l - m][sun][slice], slice fastest; slice 0 is the
 // value, slice 1 + p the derivative by parameter p. The modes 0 to 2 of a polarised field have one
-// more row after the moments of I: the second moment P of Q and U, docs/theory (13.6).
+// more row after the moments of I: the second moment P of Q and U, docs/theory (13.6). Last, where
+// the particles' matrices are taken, come the rows b_l and then c_l, l >= 2 (model/solver/
+// spin_basis.h).
 struct FieldShape {
   int levels = 0, moments = 0, suns = 0, slices = 0;
-  bool polarised = false;
+  bool polarised = false, matrices = false;
   bool polarised_mode(int m) const { return polarised && m < kPolarisedModes; }
+  int spin_rows(int m) const { return matrices ? moments - std::max(m, 2) : 0; }  // of b and of c
   std::size_t rows(int m) const {
-    return static_cast<std::size_t>(moments - m + (polarised_mode(m) ? 1 : 0));
+    return static_cast<std::size_t>(moments - m + (polarised_mode(m) ? 1 : 0) + 2 * spin_rows(m));
   }
   std::size_t row() const { return static_cast<std::size_t>(slices) * suns; }
   std::size_t level(int m) const { return row() * rows(m); }

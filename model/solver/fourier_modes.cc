@@ -25,7 +25,7 @@ FourierModes::FourierModes(const Streams& streams, const LayerMedium& medium,
       medium_(&medium),
       modes_(modes),
       light_(streams, medium, all_scatterers(medium), modes) {
-  if (polarised && PolarisedModes::any(modes))
+  if (polarised && PolarisedModes::any(modes, *polarised))
     polarised_.emplace(streams, medium, *polarised, modes);
   const int most = medium.moments - *std::min_element(modes.begin(), modes.end());
   rows_ = {static_cast<std::size_t>((most + 1) / 2), static_cast<std::size_t>(most / 2)};
@@ -86,8 +86,7 @@ void FourierModes::set_basis(const std::vector<ModeBasis>& bases) {
 
 // docs/theory (4.9).
 // Values at the rays from moments: first those of the rays that look up.
-StreamColumns FourierModes::at_rays(const std::vector<Parities>& moments,
-                                    std::size_t columns) const {
+StreamColumns FourierModes::at_rays(const LevelMoments& moments, std::size_t columns) const {
   StreamColumns r{columns, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
   for (int i = 0; i < levels(); ++i) {
     const std::size_t n = rays(i);
@@ -103,9 +102,8 @@ StreamColumns FourierModes::at_rays(const std::vector<Parities>& moments,
 }
 
 // Source moments of light's moments.
-std::vector<FourierModes::Parities> FourierModes::scattered(const std::vector<Parities>& moments,
-                                                            std::size_t columns) const {
-  std::vector<Parities> r(moments.size());
+LevelMoments FourierModes::scattered(const LevelMoments& moments, std::size_t columns) const {
+  LevelMoments r(moments.size());
   for (std::size_t i = 0; i < r.size(); ++i) {
     for (std::size_t parity = 0; parity < 2; ++parity) {
       r[i][parity].resize(moments[i][parity].size());
@@ -117,9 +115,8 @@ std::vector<FourierModes::Parities> FourierModes::scattered(const std::vector<Pa
 }
 
 // Values at the rays of moments times chi.
-StreamColumns FourierModes::sources_by(const Parities& chi,
-                                       const std::vector<Parities>& moments) const {
-  std::vector<Parities> q(levels());
+StreamColumns FourierModes::sources_by(const Parities& chi, const LevelMoments& moments) const {
+  LevelMoments q(levels());
   for (int i = 0; i < levels(); ++i) {
     for (std::size_t parity = 0; parity < 2; ++parity) {
       q[i][parity].resize(moments[i][parity].size());
@@ -130,7 +127,7 @@ StreamColumns FourierModes::sources_by(const Parities& chi,
   return at_rays(q, suns());
 }
 
-StreamSources FourierModes::sources_of(const std::vector<Parities>& moments) const {
+StreamSources FourierModes::sources_of(const LevelMoments& moments) const {
   StreamSources sources;
   for (const Parities& chi : chi_) sources.scatterer.push_back(sources_by(chi, moments));
   for (const Parities& chi : chi_tangent_) sources.phase.push_back(sources_by(chi, moments));
@@ -140,12 +137,26 @@ StreamSources FourierModes::sources_of(const std::vector<Parities>& moments) con
 // Those of the field, with what polarisation makes of it.
 StreamSources FourierModes::diffuse_sources() const {
   StreamSources sources = sources_of(moments_);
-  if (polarised_) polarised_->add_sources(sources);
+  if (!polarised_) return sources;
+  polarised_->add_sources(sources);
+  if (!polarised_->has_matrices()) return sources;
+  const LevelMoments& spin = polarised_->spin_moments(StreamLight::kValues).b;
+  const auto add_of = [&](const std::vector<PolarisedModes::MatrixMoments>& matrices,
+                          std::vector<StreamColumns>& to) {
+    for (std::size_t s = 0; s < matrices.size(); ++s) {
+      if (!matrices[s].gamma[0].empty()) add(sources_by(matrices[s].gamma, spin), to[s]);
+    }
+  };
+  add_of(polarised_->matrices(), sources.scatterer);
+  add_of(polarised_->matrix_tangents(), sources.phase);
   return sources;
 }
 
 void FourierModes::set_beam() {
-  if (!light_.has_beam()) light_.set_beam(sources_of(std::vector<Parities>(levels(), sun_basis_)));
+  if (light_.has_beam()) return;
+  const LevelMoments beam(levels(), sun_basis_);
+  light_.set_beam(sources_of(beam));
+  if (polarised_) polarised_->set_beam(beam);
 }
 
 // docs/theory (5.8) and (5.9).
@@ -187,8 +198,8 @@ StreamColumns FourierModes::substitute(const Batch& ground, std::size_t columns)
 }
 
 // docs/theory (4.8).
-std::vector<FourierModes::Parities> FourierModes::analyse(const StreamColumns& columns) const {
-  std::vector<Parities> moments(levels());
+LevelMoments FourierModes::analyse(const StreamColumns& columns) const {
+  LevelMoments moments(levels());
   for (int i = 0; i < levels(); ++i) {
     const std::size_t n = rays(i);
     std::array<Batch, 2> light = {columns.down[i], columns.up[i]};  // then sum and difference
@@ -244,15 +255,50 @@ void FourierModes::set_polarised_response() {
   polarised_->set_response(polarised_->second_moments(substitute(dark, n)));
 }
 
-void FourierModes::solve_values() {
-  const Batch ground = reflected(beam_on_ground());
-  light_.values = substitute(ground, suns());
+// The source function of I that Q and U make.
+StreamColumns FourierModes::source_of_polarised(StreamLight::Kind kind, std::size_t columns) const {
+  StreamColumns source;
+  if (polarised_->has_air())
+    source = polarised_->intensity_source(polarised_->moments(kind), columns);
+  if (!polarised_->has_matrices()) return source;
+  StreamColumns of_particles = at_rays(polarised_->intensity_moments(kind), columns);
+  if (!polarised_->has_air()) return of_particles;
+  add(of_particles, source);
+  return source;
+}
+
+// From the sources that the layers have now and the light that the ground sends up.
+void FourierModes::solve_light(StreamLight::Kind kind, const Batch& ground, std::size_t columns) {
+  // Of the moments of Q and U from step to step, as a share of the largest of I.
+  constexpr double kChange = 1e-5;
+  constexpr int kMostSteps = 50;
+  StreamColumns& light = light_.light(kind);
+  light = substitute(ground, columns);
+  LevelMoments& moments = kind == StreamLight::kValues ? moments_ : moment_tangents_;
   if (polarised_) {
-    polarised_->solve_values(polarised_->second_moments(light_.values));
-    light_.add_diffuse_sources(polarised_->intensity_source(polarised_->moments(), suns()));
-    light_.values = substitute(ground, suns());
+    const bool in_steps = polarised_->has_matrices();
+    std::array<std::vector<Batch>, 2> own;
+    if (in_steps) {
+      own = {light_.down_source, light_.up_source};
+      polarised_->begin_steps(kind);
+    }
+    for (int step = 0; step < (in_steps ? kMostSteps : 1); ++step) {
+      if (in_steps) moments = analyse(light);
+      const double change = polarised_->solve(kind, light, moments, step > 0);
+      if (step > 0) {
+        light_.down_source = own[0];
+        light_.up_source = own[1];
+      }
+      light_.add_diffuse_sources(source_of_polarised(kind, columns));
+      light = substitute(ground, columns);
+      if (change < kChange) break;
+    }
   }
-  moments_ = analyse(light_.values);
+  moments = analyse(light);
+}
+
+void FourierModes::solve_values() {
+  solve_light(StreamLight::kValues, reflected(beam_on_ground()), suns());
   ground_ = irradiance(light_.values.down[0], suns());
 }
 
@@ -271,15 +317,7 @@ void FourierModes::solve_tangents() {
       }
     }
   }
-  const Batch ground = at_every_ground_ray(on_ground);
-  light_.tangents = substitute(ground, columns);
-  if (polarised_) {
-    polarised_->solve_tangents(polarised_->second_moments(light_.tangents));
-    light_.add_diffuse_sources(
-        polarised_->intensity_source(polarised_->moment_tangents(), columns));
-    light_.tangents = substitute(ground, columns);
-  }
-  moment_tangents_ = analyse(light_.tangents);
+  solve_light(StreamLight::kTangents, at_every_ground_ray(on_ground), columns);
   ground_tangent_ = irradiance(light_.tangents.down[0], columns);
 }
 
@@ -293,12 +331,10 @@ void FourierModes::advance() {
   } else {
     light_.clear_sources(width);
     light_.add_diffuse_sources(at_rays(scattered(moments_, width), width));
-    if (polarised_)
-      light_.add_diffuse_sources(polarised_->intensity_source(polarised_->moments(), width));
+    if (polarised_) light_.add_diffuse_sources(source_of_polarised(StreamLight::kValues, width));
     ground = reflected(ground_);
   }
-  if (polarised_)
-    polarised_->advance(moments_.empty() ? Batch() : polarised_->second_moments(light_.values));
+  if (polarised_) polarised_->advance(light_.values, moments_);
   StreamColumns& values = light_.values;
   values = {width, std::vector<Batch>(levels()), std::vector<Batch>(levels())};
   values.down.back().assign(rays(levels() - 1) * width * kBatchWidth, 0.0);
@@ -321,7 +357,7 @@ void FourierModes::advance() {
 void FourierModes::solve() {
   eliminate();
   set_beam();
-  if (polarised_) set_polarised_response();
+  if (polarised_ && polarised_->has_air()) set_polarised_response();
   set_beam_sources();
   solve_values();
   if (medium_->parameters == 0) return;
@@ -336,29 +372,38 @@ void FourierModes::set_beam_sources() {
 
 void FourierModes::set_tangent_sources() {
   light_.set_tangent_sources(diffuse_sources());
-  if (polarised_) polarised_->set_tangent_sources();
+  if (polarised_) polarised_->set_tangent_sources(moments_);
 }
 
 void FourierModes::append_moments(int lane, int level, LargeArray& out) const {
   const std::size_t p_count = medium_->parameters;
-  for (int offset = 0; offset < medium_->moments - modes_[lane]; ++offset) {  // l - m
-    const std::size_t parity = offset % 2, row = offset / 2;
-    const double* value = at(moments_[level][parity], suns(), row, 0) + lane;
-    const double* tangent =
-        p_count > 0 ? at(moment_tangents_[level][parity], suns() * p_count, row, 0) + lane
-                    : nullptr;
+  const auto append_row = [&](const Batch& values, const Batch* tangents, std::size_t row) {
+    const double* value = at(values, suns(), row, 0) + lane;
+    const double* tangent = p_count > 0 ? at(*tangents, suns() * p_count, row, 0) + lane : nullptr;
     for (std::size_t j = 0; j < suns(); ++j, value += kBatchWidth) {
       out.push_back(*value);
       for (std::size_t p = 0; p < p_count; ++p, tangent += kBatchWidth) out.push_back(*tangent);
     }
+  };
+  const auto append_all = [&](const LevelMoments& values, const LevelMoments& tangents, int first) {
+    for (int offset = first; offset < medium_->moments - modes_[lane]; ++offset) {  // l - m
+      const std::size_t parity = offset % 2;
+      append_row(values[level][parity], p_count > 0 ? &tangents[level][parity] : nullptr,
+                 offset / 2);
+    }
+  };
+  append_all(moments_, moment_tangents_, 0);
+  if (!polarised_) return;
+  if (modes_[lane] < kPolarisedModes) {
+    append_row(polarised_->moments(StreamLight::kValues),
+               &polarised_->moments(StreamLight::kTangents), static_cast<std::size_t>(level));
   }
-  if (!polarised_ || modes_[lane] >= kPolarisedModes) return;
-  const auto row = static_cast<std::size_t>(level) * suns();
-  for (std::size_t j = 0; j < suns(); ++j) {
-    out.push_back(at(polarised_->moments(), 1, row + j, 0)[lane]);
-    for (std::size_t p = 0; p < p_count; ++p)
-      out.push_back(at(polarised_->moment_tangents(), p_count, row + j, p)[lane]);
-  }
+  if (!polarised_->has_matrices()) return;
+  const SpinMoments &values = polarised_->spin_moments(StreamLight::kValues),
+                    &tangents = polarised_->spin_moments(StreamLight::kTangents);
+  const int first = std::max(2 - modes_[lane], 0);
+  append_all(values.b, tangents.b, first);
+  append_all(values.c, tangents.c, first);
 }
 
 void FourierModes::append_ground_irradiance(int lane, LargeArray& out) const {

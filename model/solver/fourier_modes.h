@@ -46,14 +46,12 @@ class FourierModes {
 
   // Of the diffuse field: appends the moments of a lane's mode at a level, [l - m][sun][slice],
   // slice 0 the value, 1 + p derivatives; after them, of a polarised field in the modes 0 to 2, the
-  // second moment of Q and U.
+  // second moment of Q and U, and with matrices b_l and c_l, see FieldShape.
   void append_moments(int lane, int level, LargeArray& out) const;
   void append_ground_irradiance(int lane, LargeArray& out) const;  // [sun][slice], mode 0
 
  private:
   static constexpr std::size_t kBatchWidth = batch::kBatchWidth;
-
-  using Parities = std::array<Batch, 2>;  // by parity of l - m
 
   std::size_t rays(int level) const { return static_cast<std::size_t>(streams_->count(level)); }
   int levels() const { return streams_->levels(); }
@@ -64,14 +62,14 @@ class FourierModes {
   void eliminate();
   void eliminate_layer(int layer, const Batch& same, const Batch& other, const Batch& same_above,
                        const Batch& other_above);
-  StreamColumns at_rays(const std::vector<Parities>& moments, std::size_t columns) const;
-  std::vector<Parities> scattered(const std::vector<Parities>& moments, std::size_t columns) const;
-  StreamColumns sources_by(const Parities& chi, const std::vector<Parities>& moments) const;
-  StreamSources sources_of(const std::vector<Parities>& moments) const;
+  StreamColumns at_rays(const LevelMoments& moments, std::size_t columns) const;
+  LevelMoments scattered(const LevelMoments& moments, std::size_t columns) const;
+  StreamColumns sources_by(const Parities& chi, const LevelMoments& moments) const;
+  StreamSources sources_of(const LevelMoments& moments) const;
   StreamSources diffuse_sources() const;
   void set_beam();
   StreamColumns substitute(const Batch& ground, std::size_t columns) const;
-  std::vector<Parities> analyse(const StreamColumns& columns) const;
+  LevelMoments analyse(const StreamColumns& columns) const;
   Batch irradiance(const Batch& down, std::size_t columns) const;
   Batch at_every_ground_ray(const Batch& radiance) const;
   Batch reflected(Batch irradiance) const;
@@ -81,21 +79,23 @@ class FourierModes {
   void set_polarised_response();
   void solve_values();
   void solve_tangents();
+  StreamColumns source_of_polarised(StreamLight::Kind kind, std::size_t columns) const;
+  void solve_light(StreamLight::Kind kind, const Batch& ground, std::size_t columns);
 
   const Streams* streams_;
   const LayerMedium* medium_;
   LaneModes modes_;
   std::array<std::size_t, 2> rows_{};
-  std::vector<Parities> synthesis_, analysis_, omega_;  // per level
-  std::vector<Parities> chi_;                           // per scatterer: [l]
-  std::vector<Parities> chi_tangent_;                   // per phase tangent
-  Parities sun_basis_;                                  // [l][sun]
-  Batch albedo_, albedo_tangent_;                       // over pi; 0 in modes above 0
+  LevelMoments synthesis_, analysis_, omega_;
+  std::vector<Parities> chi_;          // per scatterer: [l]
+  std::vector<Parities> chi_tangent_;  // per phase tangent
+  Parities sun_basis_;                 // [l][sun]
+  Batch albedo_, albedo_tangent_;      // over pi; 0 in modes above 0
   std::vector<Batch> reflection_, forward_, backward_;
   StreamLight light_;
   std::optional<PolarisedModes> polarised_;
-  std::vector<Parities> moments_, moment_tangents_;  // diffuse, per level
-  Batch ground_, ground_tangent_;                    // diffuse irradiance
+  LevelMoments moments_, moment_tangents_;  // diffuse
+  Batch ground_, ground_tangent_;           // diffuse irradiance
 };
 
 }  // namespace skyfit

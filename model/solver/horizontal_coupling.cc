@@ -110,11 +110,10 @@ void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
   StreamColumns tangent;
   if (columns > 0) {
     tangent = at_rays(scattered(moment_tangents_, columns), columns);
-    if (polarised_)
-      add(polarised_->intensity_source(polarised_->moment_tangents(), columns), tangent);
+    if (polarised_) add(source_of_polarised(StreamLight::kTangents, columns), tangent);
   }
   light_.prepare_coupling(coupling, diffuse_sources(), tangent);
-  if (polarised_) polarised_->prepare_coupling(coupling);
+  if (polarised_) polarised_->prepare_coupling(coupling, moments_, moment_tangents_);
 }
 
 void FourierModes::couple(const HorizontalCoupling& coupling,

@@ -87,12 +87,19 @@ BeamWeight beam_weight(double x, const DiffuseWeights& diffuse, bool lit_near, b
 // Calls f for every array of lanes.
 template <class F>
 void for_each_array(LayerMedium& m, const F& f) {
+  const auto of_matrix = [&](LayerMedium::Matrix& matrix) {
+    for (Batch* array : {&matrix.alpha, &matrix.zeta, &matrix.gamma}) f(*array);
+  };
   for (LayerMedium::Scatterer& s : m.scatterers) {
     f(s.chi);
+    of_matrix(s.matrix);
     std::ranges::for_each(s.share, f);
     std::ranges::for_each(s.share_tangent, f);
   }
-  for (LayerMedium::PhaseTangent& t : m.phase_tangents) f(t.chi);
+  for (LayerMedium::PhaseTangent& t : m.phase_tangents) {
+    f(t.chi);
+    of_matrix(t.matrix);
+  }
   std::ranges::for_each(m.sun_depth_tangent, f);
   for (Batch* array : {&m.ground_beam, &m.ground_albedo, &m.ground_albedo_tangent}) f(*array);
   for (LayerMedium::Layer& layer : m.layers) {
@@ -147,16 +154,21 @@ class LaneFiller {
         medium_(medium) {}
 
   void fill_levels(const std::vector<double>& heights) {
-    for (std::size_t k = 0; k < optics_.scatterers.size(); ++k) {
-      const std::vector<Dual<N>>& chi = optics_.scatterers[k].moments;
-      for (std::size_t l = 0; l < chi.size(); ++l)
-        medium_.scatterers[k].chi[l * kBatchWidth + lane_] = chi[l].v;
-    }
-    for (LayerMedium::PhaseTangent& tangent : medium_.phase_tangents) {
-      const std::vector<Dual<N>>& chi = optics_.scatterers[tangent.scatterer].moments;
-      for (std::size_t l = 0; l < chi.size(); ++l)
-        tangent.chi[l * kBatchWidth + lane_] = derivative(chi[l], tangent.parameter);
-    }
+    const auto set_phase = [&](auto& to, const Scatterer<N>& from, const auto& part) {
+      for (const auto& [out, in] : {std::pair{&to.chi, &from.moments},
+                                    {&to.matrix.alpha, &from.matrix.alpha},
+                                    {&to.matrix.zeta, &from.matrix.zeta},
+                                    {&to.matrix.gamma, &from.matrix.gamma}}) {
+        for (std::size_t l = 0; l < in->size(); ++l)
+          (*out)[l * kBatchWidth + lane_] = part((*in)[l]);
+      }
+    };
+    for (std::size_t k = 0; k < optics_.scatterers.size(); ++k)
+      set_phase(medium_.scatterers[k], optics_.scatterers[k],
+                [](const Dual<N>& chi) { return chi.v; });
+    for (LayerMedium::PhaseTangent& tangent : medium_.phase_tangents)
+      set_phase(tangent, optics_.scatterers[tangent.scatterer],
+                [&](const Dual<N>& chi) { return derivative(chi, tangent.parameter); });
     for (std::size_t i = 0; i < heights.size(); ++i)
       set_level(i, optics_.densities_at_level(heights[i > 0 ? i - 1 : 0], heights[i],
                                               heights[std::min(i + 1, heights.size() - 1)]));
@@ -249,6 +261,11 @@ FieldColumns field_columns(const Shells& shells, const std::vector<double>& heig
   return c;
 }
 
+bool LayerMedium::has_matrices() const {
+  return std::ranges::any_of(scatterers,
+                             [](const Scatterer& s) { return !s.matrix.alpha.empty(); });
+}
+
 template <int N>
 LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>& optics,
                          std::size_t parameters, const std::vector<double>& heights,
@@ -263,16 +280,25 @@ LayerMedium layer_medium(const std::array<const Optics<N>*, batch::kBatchWidth>&
   const std::size_t l_count = static_cast<std::size_t>(moments);
   m.sun_depth_tangent.assign(heights.size(), sized(m.suns * parameters));
   m.scatterers.assign(optics[0]->scatterers.size(),
-                      {false, sized(l_count), std::vector<Batch>(heights.size(), sized(1)),
+                      {false,
+                       sized(l_count),
+                       {},
+                       std::vector<Batch>(heights.size(), sized(1)),
                        std::vector<Batch>(heights.size(), sized(parameters))});
   for (std::size_t k = 0; k < m.scatterers.size(); ++k) {
     m.scatterers[k].polarises = polarises(optics[0]->scatterers[k]);
+    const bool has_matrix = !optics[0]->scatterers[k].matrix.alpha.empty();
+    const auto matrix = [&] {
+      const Batch array = has_matrix ? sized(l_count) : Batch();
+      return LayerMedium::Matrix{array, array, array};
+    };
+    m.scatterers[k].matrix = matrix();
     for (std::size_t p = 0; p < parameters; ++p) {
       const bool changes = std::ranges::any_of(optics, [&](const Optics<N>* o) {
         return std::ranges::any_of(o->scatterers[k].moments,
                                    [&](const Dual<N>& chi) { return derivative(chi, p) != 0; });
       });
-      if (changes) m.phase_tangents.push_back({k, p, sized(l_count)});
+      if (changes) m.phase_tangents.push_back({k, p, sized(l_count), matrix()});
     }
   }
   m.ground_beam = sized(m.suns);

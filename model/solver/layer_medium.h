@@ -34,9 +34,14 @@ struct LayerMedium {
   std::size_t suns = 0, parameters = 0;
   std::vector<double> sun_mu;
   // Source per extinction of the moment l at a level: sum over scatterers of share chi_l.
+  // Of a scattering matrix, docs/theory (13.18), [l]; empty without one.
+  struct Matrix {
+    Batch alpha, zeta, gamma;
+  };
   struct Scatterer {
-    bool polarises = false;            // as Rayleigh scattering does
-    Batch chi;                         // [l]
+    bool polarises = false;  // as Rayleigh scattering does
+    Batch chi;               // [l]
+    Matrix matrix;
     std::vector<Batch> share;          // per level, one element: of the extinction
     std::vector<Batch> share_tangent;  // per level: [parameter]
   };
@@ -45,8 +50,10 @@ struct LayerMedium {
   struct PhaseTangent {
     std::size_t scatterer, parameter;
     Batch chi;
+    Matrix matrix;
   };
   std::vector<PhaseTangent> phase_tangents;
+  bool has_matrices() const;  // beside Rayleigh's
   // Per level.
   std::vector<Batch> sun_depth_tangent;  // [sun][parameter]
   Batch ground_beam;                     // [sun], transmittance

@@ -7,6 +7,7 @@
 
 #include "model/atmosphere/parameter_field.h"
 #include "model/numerics/kernels.h"
+#include "model/solver/spin_basis.h"
 
 namespace skyfit {
 
@@ -15,6 +16,7 @@ template <int N>
 struct MultipleScattering<N>::Node {
   int path, node;
   std::vector<double> lambda;     // [mode][l], from l = m on
+  std::vector<double> r, t;       // [mode][l], of spin_functions(); of fields with matrices
   std::vector<int> index;         // [point][4]
   std::vector<double> even, odd;  // [point][4]
   double mu = 0;
@@ -68,7 +70,7 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
   int modes = 0;
   for (const DiffuseField& field : fields_)
     modes = std::max(modes, static_cast<int>(field.moments.size()));
-  if (which != Stokes::kI) modes = std::min(modes, kPolarisedModes);
+  if (which != Stokes::kI) modes = std::min(modes, stokes_modes());
   const int moments = fields_.front().shape.moments;
   Bundle bundle{paths, which, {}, {}};
   std::map<double, std::size_t> groups;
@@ -79,10 +81,16 @@ typename MultipleScattering<N>::Bundle MultipleScattering<N>::bundle_of(
       const double x = levels_.coordinate(point.height);
       const auto [at, added] = groups.try_emplace(x, bundle.groups.size());
       if (added) bundle.groups.push_back({levels_.stencil(x), {}});
-      Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, point.mu, {}};
+      Node node{static_cast<int>(path), static_cast<int>(i), {}, {}, {}, {}, {}, {}, point.mu, {}};
       node.lambda.resize(static_cast<std::size_t>(modes) * moments);
       for (int m = 0; m < modes; ++m)
         normalised_legendre(m, moments, point.mu, &node.lambda[m * moments + m]);
+      if (which != Stokes::kI && fields_.front().shape.matrices) {
+        node.r.resize(node.lambda.size());
+        node.t.resize(node.lambda.size());
+        for (int m = 0; m < modes; ++m)
+          spin_functions(m, moments, point.mu, &node.r[m * moments], &node.t[m * moments]);
+      }
       const std::size_t points = paths[path].suns.size();
       node.index.reserve(4 * points);
       node.even.reserve(4 * points);
@@ -119,14 +127,55 @@ const double* MultipleScattering<N>::block_at(const Group& group, const DiffuseF
   return scratch.data();
 }
 
-// docs/theory (8.5).
+// docs/theory (8.5), (13.14) and (13.19).
+// What a unit of a row of the field's block gives to the light at a node.
+template <int N>
+Dual<N> MultipleScattering<N>::row_coefficient(const Node& node, const NodeWeights<N>& weights,
+                                               const Optics<N>& optics, const FieldShape& shape,
+                                               Stokes which, int m, int row) const {
+  const int intensity = shape.moments - m, air = intensity + (shape.polarised_mode(m) ? 1 : 0),
+            spin = shape.spin_rows(m);
+  enum class Of { kIntensity, kAir, kB, kC };
+  const Of of = row < intensity    ? Of::kIntensity
+                : row < air        ? Of::kAir
+                : row < air + spin ? Of::kB
+                                   : Of::kC;
+  const int l = of == Of::kIntensity ? row + m
+                : of == Of::kAir     ? 2
+                                     : (row - air) % std::max(spin, 1) + std::max(m, 2);
+  const std::size_t at_l = static_cast<std::size_t>(l),
+                    entry = static_cast<std::size_t>(m * shape.moments + l);
+  Dual<N> sum;
+  const auto add = [&](std::size_t s, const std::vector<Dual<N>>& factor, double function) {
+    if (at_l < factor.size()) sum += weights[s][node.node] * factor[at_l] * function;
+  };
+  for (std::size_t s = 0; s < optics.scatterers.size(); ++s) {
+    const Scatterer<N>& scatterer = optics.scatterers[s];
+    if (which == Stokes::kI && (of == Of::kIntensity || (of == Of::kAir && polarises(scatterer))))
+      add(s, scatterer.moments, node.lambda[entry]);
+    if (which != Stokes::kI && polarises(scatterer) && l == 2 &&
+        (of == Of::kIntensity || of == Of::kAir))
+      add(s, scatterer.moments, component(rayleigh_stokes(m, node.mu), which));
+    if (scatterer.matrix.alpha.empty()) continue;
+    if (which == Stokes::kI) {
+      if (of == Of::kB) add(s, scatterer.matrix.gamma, node.lambda[entry]);
+      continue;
+    }
+    const double kept = which == Stokes::kQ ? node.r[entry] : -node.t[entry],
+                 turned = which == Stokes::kQ ? -node.t[entry] : node.r[entry];
+    if (of == Of::kIntensity) add(s, scatterer.matrix.gamma, kept);
+    if (of == Of::kB) add(s, scatterer.matrix.alpha, kept);
+    if (of == Of::kC) add(s, scatterer.matrix.zeta, turned);
+  }
+  return sum;
+}
+
 template <int N>
 void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights<N>> weights,
                                      int wave, int m) const {
   const DiffuseField& field = fields_[wave];
   const Optics<N>& optics = optics_[wave];
-  const auto own = field.shape.rows(m), moments = static_cast<std::size_t>(field.shape.moments - m),
-             suns = static_cast<std::size_t>(field.shape.suns),
+  const auto own = field.shape.rows(m), suns = static_cast<std::size_t>(field.shape.suns),
              slices = static_cast<std::size_t>(field.shape.slices), parameters = slices - 1;
   LargeArray scratch, coefficient, tangent, series, by_sun, change;
   for (const Group& group : bundle.groups) {
@@ -136,24 +185,12 @@ void MultipleScattering<N>::add_mode(Bundle& bundle, std::span<const NodeWeights
     tangent.resize(own * rows * parameters);
     for (std::size_t r = 0; r < rows; ++r) {
       const Node& node = group.nodes[r];
-      const double* const lambda = &node.lambda[m * field.shape.moments + m];
       for (std::size_t k = 0; k < own; ++k) {
-        // After the moments, what air makes of the second moment of Q and U.
-        const bool polarised = k == moments;
-        const std::size_t l = polarised ? 2 : k + static_cast<std::size_t>(m);
-        const bool of_air = polarised || bundle.which != Stokes::kI;
-        double function = lambda[l - static_cast<std::size_t>(m)];
-        if (bundle.which != Stokes::kI)
-          function = l == 2 ? component(rayleigh_stokes(m, node.mu), bundle.which) : 0;
-        Dual<N> c;
-        for (std::size_t s = 0; s < optics.scatterers.size(); ++s) {
-          const std::vector<Dual<N>>& chi = optics.scatterers[s].moments;
-          if (l < chi.size() && (!of_air || polarises(optics.scatterers[s])))
-            c += weights[node.path][s][node.node] * chi[l];
-        }
-        coefficient[r * own + k] = c.v * function;
+        const Dual<N> c = row_coefficient(node, weights[node.path], optics, field.shape,
+                                          bundle.which, m, static_cast<int>(k));
+        coefficient[r * own + k] = c.v;
         for (std::size_t p = 0; p < parameters; ++p)
-          tangent[(k * rows + r) * parameters + p] = derivative_of(c, p) * function;
+          tangent[(k * rows + r) * parameters + p] = derivative_of(c, p);
       }
     }
     series.resize(rows * field.shape.row());
@@ -191,11 +228,11 @@ void MultipleScattering<N>::add(std::span<const PathWithSuns> paths, Stokes whic
     const auto slices = static_cast<std::size_t>(fields_[wave].shape.slices);
     bundle.sums.clear();
     for (std::size_t i = 0; i < paths.size(); ++i) {
-      weights[i] = node_weights(optics_[wave], *paths[i].path, bundle.which != Stokes::kI);
+      weights[i] = node_weights(optics_[wave], *paths[i].path);
       bundle.sums.emplace_back(paths[i].suns.size() * slices, 0.0);
     }
     const auto modes = static_cast<int>(fields_[wave].moments.size());
-    for (int m = 0; m < (which == Stokes::kI ? modes : std::min(modes, kPolarisedModes)); ++m)
+    for (int m = 0; m < (which == Stokes::kI ? modes : std::min(modes, stokes_modes())); ++m)
       add_mode(bundle, weights, static_cast<int>(wave), m);
     for (std::size_t i = 0; i < paths.size(); ++i) {
       for (std::size_t k = 0; k < paths[i].suns.size(); ++k) {

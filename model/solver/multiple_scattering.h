@@ -42,8 +42,14 @@ class MultipleScattering {
   struct Node;
   struct Group;
   struct Bundle;
+  int stokes_modes() const {  // that Q and U have at most
+    const FieldShape& shape = fields_.front().shape;
+    return shape.matrices ? shape.moments : kPolarisedModes;
+  }
   Bundle bundle_of(std::span<const PathWithSuns> paths, Stokes which) const;
   void add_mode(Bundle& bundle, std::span<const NodeWeights<N>> weights, int wave, int m) const;
+  Dual<N> row_coefficient(const Node& node, const NodeWeights<N>& weights, const Optics<N>& optics,
+                          const FieldShape& shape, Stokes which, int m, int row) const;
   const double* block_at(const Group& group, const DiffuseField& field, int m,
                          LargeArray& scratch) const;
 

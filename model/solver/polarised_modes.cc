@@ -2,25 +2,89 @@
 #include "model/solver/polarised_modes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace skyfit {
 namespace {
 
-std::vector<std::size_t> polarising_scatterers(const LayerMedium& medium) {
+bool polarised_by_air(const LaneModes& modes) {
+  return std::ranges::any_of(modes, [](int m) { return m < kPolarisedModes; });
+}
+
+bool has_matrix(const LayerMedium::Scatterer& s) { return !s.matrix.alpha.empty(); }
+
+// The scatterers that give light of these modes polarisation.
+std::vector<std::size_t> polarising_scatterers(const LayerMedium& medium, const LaneModes& modes) {
   std::vector<std::size_t> list;
   for (std::size_t s = 0; s < medium.scatterers.size(); ++s) {
-    if (medium.scatterers[s].polarises) list.push_back(s);
+    const LayerMedium::Scatterer& scatterer = medium.scatterers[s];
+    if ((scatterer.polarises && polarised_by_air(modes)) || has_matrix(scatterer))
+      list.push_back(s);
   }
   return list;
 }
 
 const double* second_moment_of(const LayerMedium::Scatterer& s) { return at(s.chi, 1, 2, 0); }
 
+// sum += factor x, the factor by lane.
+void add_scaled(const double* factor, const Parities& x, Parities& sum) {
+  for (std::size_t parity = 0; parity < 2; ++parity) {
+    sum[parity].resize(x[parity].size(), 0.0);
+    batch::add_scaled(factor, x[parity].data(), sum[parity].data(),
+                      x[parity].size() / batch::kBatchWidth);
+  }
+}
+
+// sum += by_l x, a number per row of x.
+void add_rows(const Parities& by_l, const Parities& x, std::size_t columns, Parities& sum) {
+  Batch product;
+  for (std::size_t parity = 0; parity < 2; ++parity) {
+    sum[parity].resize(x[parity].size(), 0.0);
+    if (by_l[parity].empty()) continue;
+    product.resize(x[parity].size());
+    batch::scale_rows(by_l[parity].data(), x[parity].data(), product.data(),
+                      by_l[parity].size() / batch::kBatchWidth, columns);
+    for (std::size_t k = 0; k < product.size(); ++k) sum[parity][k] += product[k];
+  }
+}
+
+// By column and lane: the largest number, or difference from `before` where there is one.
+std::vector<double> largest(const LevelMoments& moments, std::size_t columns,
+                            const LevelMoments& before = {}) {
+  const std::size_t width = columns * batch::kBatchWidth;
+  std::vector<double> result(width, 0.0);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+      const Batch& x = moments[i][parity];
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        const double from = before.empty() ? 0 : before[i][parity][k];
+        result[k % width] = std::max(result[k % width], std::abs(x[k] - from));
+      }
+    }
+  }
+  return result;
+}
+
+// The change from `before`, as a share of I in each column.
+double change(const SpinMoments& now, const SpinMoments& before, const LevelMoments& intensity,
+              std::size_t columns) {
+  const std::vector<double> all = largest(intensity, columns);
+  double result = 0;
+  for (auto moments : {&SpinMoments::b, &SpinMoments::c}) {
+    const std::vector<double> difference = largest(now.*moments, columns, before.*moments);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (difference[k] > result * all[k]) result = all[k] > 0 ? difference[k] / all[k] : 1;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-bool PolarisedModes::any(const LaneModes& modes) {
-  return std::ranges::any_of(modes, [](int m) { return m < kPolarisedModes; });
+bool PolarisedModes::any(const LaneModes& modes, const LayerMedium& medium) {
+  return medium.has_matrices() || polarised_by_air(modes);
 }
 
 PolarisedModes::PolarisedModes(const Streams& streams, const LayerMedium& intensity,
@@ -29,12 +93,42 @@ PolarisedModes::PolarisedModes(const Streams& streams, const LayerMedium& intens
       intensity_(&intensity),
       polarised_(&polarised),
       modes_(modes),
-      air_(polarising_scatterers(polarised)),
+      polarising_(polarising_scatterers(polarised, modes)),
       intensity_pattern_(pattern_of(Stokes::kI)) {
-  for (const Stokes which : {Stokes::kQ, Stokes::kU})
-    components_.push_back({pattern_of(which), {streams, polarised, air_, modes}});
-  set_beam();
-  set_transport();
+  std::ranges::copy_if(polarising_, std::back_inserter(air_),
+                       [&](std::size_t s) { return polarised.scatterers[s].polarises; });
+  if (polarised.has_matrices()) set_matrices();
+  for (const Stokes which : {Stokes::kQ, Stokes::kU}) {
+    components_.push_back({pattern_of(which), {streams, polarised, polarising_, modes}});
+  }
+  if (has_air()) set_transport();
+}
+
+// docs/theory (13.18).
+void PolarisedModes::set_matrices() {
+  basis_.emplace(*streams_, modes_, polarised_->moments);
+  const auto by_mode = [&](const LayerMedium::Matrix& matrix) {
+    if (matrix.alpha.empty()) return MatrixMoments{};
+    return MatrixMoments{basis_->by_mode(matrix.alpha), basis_->by_mode(matrix.zeta),
+                         basis_->by_mode(matrix.gamma)};
+  };
+  for (const LayerMedium::Scatterer& s : polarised_->scatterers)
+    matrices_.push_back(by_mode(s.matrix));
+  for (const LayerMedium::PhaseTangent& t : polarised_->phase_tangents)
+    matrix_tangents_.push_back(by_mode(t.matrix));
+  of_level_.resize(level_count());
+  intensity_gamma_.resize(level_count());
+  for (std::size_t i = 0; i < level_count(); ++i) {
+    for (std::size_t s = 0; s < matrices_.size(); ++s) {
+      if (!has_matrix(polarised_->scatterers[s])) continue;
+      const double* const share = polarised_->scatterers[s].share[i].data();
+      add_scaled(share, matrices_[s].alpha, of_level_[i].alpha);
+      add_scaled(share, matrices_[s].zeta, of_level_[i].zeta);
+      add_scaled(share, matrices_[s].gamma, of_level_[i].gamma);
+      add_scaled(intensity_->scatterers[s].share[i].data(), matrices_[s].gamma,
+                 intensity_gamma_[i]);
+    }
+  }
 }
 
 // docs/theory (13.5) and (13.7).
@@ -124,32 +218,75 @@ Batch PolarisedModes::by_second_moment(std::size_t scatterer, const Batch& momen
   return r;
 }
 
-// docs/theory (13.6): the sun's beam has the moment Lambda_2m(mu_s).
-void PolarisedModes::set_beam() {
+// docs/theory (13.6): the sun's beam has the moment Lambda_2m(mu_s), and no polarisation.
+void PolarisedModes::set_beam(const LevelMoments& beam) {
   const std::size_t suns = polarised_->suns;
-  Batch beam(level_count() * suns * kBatchWidth);
+  Batch second(level_count() * suns * kBatchWidth);
   for (std::size_t i = 0; i < level_count(); ++i) {
     for (std::size_t j = 0; j < suns; ++j) {
       for (std::size_t k = 0; k < kBatchWidth; ++k)
-        at(beam, suns, i, j)[k] = rayleigh_stokes(modes_[k], polarised_->sun_mu[j]).i;
+        at(second, suns, i, j)[k] = rayleigh_stokes(modes_[k], polarised_->sun_mu[j]).i;
     }
   }
-  for (Component& c : components_) c.light.set_beam(sources(c.pattern, beam));
+  std::array<StreamSources, 2> of_beam = sources(second, beam, {});
+  for (std::size_t c = 0; c < components_.size(); ++c)
+    components_[c].light.set_beam(std::move(of_beam[c]));
 }
 
-StreamSources PolarisedModes::sources(const Pattern& pattern, const Batch& moments) const {
+// docs/theory (13.19).
+template <class MatrixOf>
+std::array<StreamColumns, 2> PolarisedModes::scattered(const MatrixOf& matrix_of,
+                                                       const LevelMoments& intensity,
+                                                       const SpinMoments& spin,
+                                                       std::size_t columns) const {
+  LevelMoments kept(level_count()), turned(level_count());
+  for (std::size_t i = 0; i < level_count(); ++i) {
+    const MatrixMoments& matrix = matrix_of(i);
+    for (std::size_t parity = 0; parity < 2; ++parity)
+      turned[i][parity].assign(intensity[i][parity].size(), 0.0);
+    add_rows(matrix.gamma, intensity[i], columns, kept[i]);
+    if (spin.b.empty()) continue;
+    add_rows(matrix.alpha, spin.b[i], columns, kept[i]);
+    add_rows(matrix.zeta, spin.c[i], columns, turned[i]);
+  }
+  return basis_->at_rays(kept, turned, columns);
+}
+
+std::array<StreamSources, 2> PolarisedModes::sources(const Batch& moments,
+                                                     const LevelMoments& intensity,
+                                                     const SpinMoments& spin) const {
   const std::size_t suns = polarised_->suns;
-  StreamSources r;
-  for (const std::size_t s : air_)
-    r.scatterer.push_back(source(pattern, by_second_moment(s, moments, suns), suns));
+  std::array<StreamSources, 2> r;
+  const auto add_of = [&](const MatrixMoments& matrix, auto list) {
+    std::array<StreamColumns, 2> light = scattered(
+        [&](std::size_t) -> const MatrixMoments& { return matrix; }, intensity, spin, suns);
+    for (std::size_t c = 0; c < 2; ++c) (r[c].*list).push_back(std::move(light[c]));
+  };
+  for (const std::size_t s : polarising_) {
+    if (polarised_->scatterers[s].polarises) {
+      for (std::size_t c = 0; c < 2; ++c)
+        r[c].scatterer.push_back(
+            source(components_[c].pattern, by_second_moment(s, moments, suns), suns));
+    } else {
+      add_of(matrices_[s], &StreamSources::scatterer);
+    }
+  }
+  for (const MatrixMoments& matrix : matrix_tangents_) add_of(matrix, &StreamSources::phase);
   return r;
 }
 
 void PolarisedModes::add_sources(StreamSources& sources) const {
   const std::size_t suns = polarised_->suns;
   for (const std::size_t s : air_)
-    add(source(intensity_pattern_, by_second_moment(s, moments_, suns), suns),
+    add(source(intensity_pattern_, by_second_moment(s, moments(Kind::kValues), suns), suns),
         sources.scatterer[s]);
+}
+
+LevelMoments PolarisedModes::intensity_moments(Kind kind) const {
+  LevelMoments r(level_count());
+  for (std::size_t i = 0; i < level_count(); ++i)
+    add_rows(intensity_gamma_[i], state_[kind].spin.b[i], columns(kind), r[i]);
+  return r;
 }
 
 // docs/theory (13.9).
@@ -188,7 +325,7 @@ void PolarisedModes::set_transport() {
   const Batch source_of_unit = scaled(*polarised_, unit, n);
   transport_.assign(n * n * kBatchWidth, 0.0);
   for (const Component& c : components_) {
-    StreamLight light(*streams_, *polarised_, air_, modes_);
+    StreamLight light(*streams_, *polarised_, polarising_, modes_);
     light.clear_sources(n);
     light.add_diffuse_sources(source(c.pattern, source_of_unit, n));
     add_moments(c.pattern, sweep(light, n), transport_);
@@ -233,64 +370,133 @@ void PolarisedModes::set_beam_sources() {
   for (Component& c : components_) c.light.set_beam_sources();
 }
 
-void PolarisedModes::solve_values(const Batch& unpolarised) {
-  const std::size_t suns = polarised_->suns;
-  moments_ = solve(unpolarised, suns);
-  all_ = total(unpolarised, moments_, suns);
+void PolarisedModes::begin_steps(Kind kind) {
+  State& state = state_[kind];
+  for (std::size_t c = 0; c < components_.size(); ++c) {
+    state.down_source[c] = components_[c].light.down_source;
+    state.up_source[c] = components_[c].light.up_source;
+  }
+}
+
+void PolarisedModes::add_particle_sources(const LevelMoments& intensity, const SpinMoments& spin,
+                                          std::size_t columns) {
+  const std::array<StreamColumns, 2> light =
+      scattered([&](std::size_t i) -> const MatrixMoments& { return of_level_[i]; }, intensity,
+                spin, columns);
+  for (std::size_t c = 0; c < components_.size(); ++c)
+    components_[c].light.add_diffuse_sources(light[c]);
+}
+
+// docs/theory (13.12), of M_2 = second moment of I - R P where I holds what P does to it.
+void PolarisedModes::solve_air(Kind kind, const StreamColumns& light, bool polarised) {
+  State& state = state_[kind];
+  const std::size_t n = level_count();
+  Batch unpolarised = second_moments(light);
+  if (polarised) {
+    Batch response(unpolarised.size());
+    batch::multiply(response_.data(), state.moments.data(), nullptr, response.data(), n, n,
+                    columns(kind));
+    for (std::size_t k = 0; k < response.size(); ++k) unpolarised[k] -= response[k];
+  }
+  state.moments = solve(unpolarised, columns(kind));
+  state.all = total(unpolarised, state.moments, columns(kind));
+}
+
+double PolarisedModes::solve(Kind kind, const StreamColumns& light, const LevelMoments& intensity,
+                             bool polarised) {
+  State& state = state_[kind];
+  if (has_matrices()) {
+    for (std::size_t c = 0; c < components_.size(); ++c) {
+      components_[c].light.down_source = state.down_source[c];
+      components_[c].light.up_source = state.up_source[c];
+    }
+    add_particle_sources(intensity, state.spin, columns(kind));
+  }
+  if (has_air()) solve_air(kind, light, polarised);
+  if (!has_matrices()) return 0;
+  complete(kind);
+  SpinMoments spin =
+      basis_->analyse(components_[0].light.light(kind), components_[1].light.light(kind));
+  const double changed = change(spin, state.spin, intensity, columns(kind));
+  state.spin = std::move(spin);
+  return changed;
 }
 
 // The light of Q and U itself, from K and the layers' other sources.
-StreamColumns PolarisedModes::completed(Component& component, const Batch& all,
-                                        std::size_t columns) const {
-  component.light.add_diffuse_sources(
-      source(component.pattern, scaled(*polarised_, all, columns), columns));
-  return sweep(component.light, columns);
+void PolarisedModes::complete(Kind kind) {
+  if (has_air()) add_air_sources(state_[kind].all, columns(kind));
+  for (Component& c : components_) c.light.light(kind) = sweep(c.light, columns(kind));
 }
 
-void PolarisedModes::set_tangent_sources() {
-  for (Component& c : components_) {
-    c.light.values = completed(c, all_, polarised_->suns);
-    c.light.set_tangent_sources(sources(c.pattern, all_));
-  }
+void PolarisedModes::add_air_sources(const Batch& moments, std::size_t columns) {
+  const Batch scattered_by_air = scaled(*polarised_, moments, columns);
+  for (Component& c : components_)
+    c.light.add_diffuse_sources(source(c.pattern, scattered_by_air, columns));
 }
 
-void PolarisedModes::solve_tangents(const Batch& unpolarised) {
-  const std::size_t columns = polarised_->suns * polarised_->parameters;
-  moment_tangents_ = solve(unpolarised, columns);
-  all_tangents_ = total(unpolarised, moment_tangents_, columns);
+void PolarisedModes::set_tangent_sources(const LevelMoments& intensity) {
+  const State& state = state_[Kind::kValues];
+  if (!has_matrices()) complete(Kind::kValues);
+  const std::array<StreamSources, 2> of = sources(state.all, intensity, state.spin);
+  for (std::size_t c = 0; c < components_.size(); ++c)
+    components_[c].light.set_tangent_sources(of[c]);
 }
 
-void PolarisedModes::advance(const Batch& second) {
+void PolarisedModes::advance(const StreamColumns& light, const LevelMoments& intensity) {
   const std::size_t suns = polarised_->suns;
-  if (moments_.empty()) {
+  State& state = state_[Kind::kValues];
+  if (intensity.empty()) {
     set_beam_sources();
   } else {
-    for (std::size_t k = 0; k < second.size(); ++k) moments_[k] += second[k];
-    const Batch scattered = scaled(*polarised_, moments_, suns);
-    for (Component& c : components_) {
-      c.light.clear_sources(suns);
-      c.light.add_diffuse_sources(source(c.pattern, scattered, suns));
+    for (Component& c : components_) c.light.clear_sources(suns);
+    if (has_air()) {
+      const Batch second = second_moments(light);
+      for (std::size_t k = 0; k < second.size(); ++k) state.moments[k] += second[k];
+      add_air_sources(state.moments, suns);
     }
+    if (has_matrices()) add_particle_sources(intensity, state.spin, suns);
   }
-  moments_ = polarised_moments(suns);
+  if (has_air()) state.moments = polarised_moments(suns);
+  if (has_matrices())
+    state.spin =
+        basis_->analyse(sweep(components_[0].light, suns), sweep(components_[1].light, suns));
 }
 
-void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling) {
-  const std::size_t columns = polarised_->suns * polarised_->parameters;
-  for (Component& c : components_) {
-    StreamColumns tangent;
-    if (columns > 0) {
-      tangent = source(c.pattern, scaled(*polarised_, all_tangents_, columns), columns);
-      c.light.tangents = completed(c, all_tangents_, columns);
-    } else {
-      c.light.values = completed(c, all_, polarised_->suns);
+void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling,
+                                      const LevelMoments& intensity,
+                                      const LevelMoments& intensity_tangents) {
+  const std::size_t tangents = columns(Kind::kTangents);
+  const Kind kind = tangents > 0 ? Kind::kTangents : Kind::kValues;
+  if (!has_matrices()) complete(kind);
+  std::array<StreamColumns, 2> tangent;
+  if (tangents > 0) {
+    const State& state = state_[Kind::kTangents];
+    if (has_air()) {
+      const Batch scattered_by_air = scaled(*polarised_, state.all, tangents);
+      for (std::size_t c = 0; c < components_.size(); ++c)
+        tangent[c] = source(components_[c].pattern, scattered_by_air, tangents);
     }
-    c.light.prepare_coupling(coupling, sources(c.pattern, all_), tangent);
+    if (has_matrices()) {
+      const std::array<StreamColumns, 2> of_particles =
+          scattered([&](std::size_t i) -> const MatrixMoments& { return of_level_[i]; },
+                    intensity_tangents, state.spin, tangents);
+      for (std::size_t c = 0; c < components_.size(); ++c) {
+        if (has_air()) {
+          add(of_particles[c], tangent[c]);
+        } else {
+          tangent[c] = of_particles[c];
+        }
+      }
+    }
   }
+  const State& state = state_[Kind::kValues];
+  const std::array<StreamSources, 2> of = sources(state.all, intensity, state.spin);
+  for (std::size_t c = 0; c < components_.size(); ++c)
+    components_[c].light.prepare_coupling(coupling, of[c], tangent[c]);
 }
 
 void PolarisedModes::add_coupling(const HorizontalCoupling& coupling, const ModesOf& modes_of,
-                                  int width, StreamLight::Kind kind) {
+                                  int width, Kind kind) {
   for (std::size_t c = 0; c < components_.size(); ++c) {
     const auto light_of = [&](int mode) -> StreamLight::OfMode {
       const OfMode of = modes_of(mode);

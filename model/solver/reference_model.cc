@@ -116,11 +116,6 @@ PhaseAtNodes<N> phases_at(const Optics<N>& optics, const SunAlongRay& sun,
   return phases;
 }
 
-template <int N>
-bool same_values(const std::vector<Dual<N>>& a, const std::vector<Dual<N>>& b) {
-  return std::ranges::equal(a, b, {}, &Dual<N>::v, &Dual<N>::v);
-}
-
 // Light scattered once, [point][wavelength].
 template <int N>
 ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<Optics<N>>& optics,
@@ -144,22 +139,17 @@ ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<O
     const RayNodes& along = edges.empty() ? nodes[rays.path_of_point[i]] : own;
     const SunlitNodes sunlit = sunlit_nodes(shells, along, suns[i]);
     for (std::size_t w = 0; w < optics.size(); ++w) {
-      std::vector<Dual<N>> to_eye, single;
+      std::vector<Dual<N>> single;
+      if (!suns[i].is_refracted()) single = single_scattering(optics[w], along, sunlit);
       for (auto& [which, values] : light) {
-        const std::vector<Dual<N>> extinction = extinction_to_eye(optics[w], which != Stokes::kI);
+        Dual<N>& sum = values[i * optics.size() + w];
         if (suns[i].is_refracted()) {
-          for (const Dual<N>& of_scatterer :
-               single_scattering(optics[w], along, sunlit, extinction,
-                                 phases_at(optics[w], suns[i], sunlit.nu, which)))
-            values[i * optics.size() + w] += of_scatterer;
-          continue;
+          for (const Dual<N>& of_scatterer : single_scattering(
+                   optics[w], along, sunlit, phases_at(optics[w], suns[i], sunlit.nu, which)))
+            sum += of_scatterer;
         }
-        if (single.empty() || !same_values(extinction, to_eye))
-          single = single_scattering(optics[w], along, sunlit, extinction);
-        to_eye = extinction;
         for (std::size_t s = 0; s < single.size(); ++s)
-          values[i * optics.size() + w] +=
-              single[s] * phase_of(optics[w].scatterers[s], suns[i], suns[i].nu(), which);
+          sum += single[s] * phase_of(optics[w].scatterers[s], suns[i], suns[i].nu(), which);
       }
     }
   });
@@ -273,7 +263,8 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
   std::vector<Optics<N>> optics;
   const auto seeded_atmosphere = seeded<N>(atmosphere, derivatives);
   for (const WavelengthNode& node : wavelengths)
-    optics.push_back(optics_at(shells, seeded_atmosphere, node, options.moments));
+    optics.push_back(optics_at(shells, seeded_atmosphere, node, options.moments,
+                               wanted.size() > 1 ? Wanted::kStokes : Wanted::kRadiance));
 
   const bool first = options.order <= 1, further = options.order != 1;
   ByStokes<Dual<N>> single;

@@ -176,32 +176,16 @@ SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunA
 
 template <int N>
 std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
-                                       const SunlitNodes& sunlit,
-                                       const std::vector<Dual<N>>& to_eye,
-                                       const PhaseAtNodes<N>& phase) {
+                                       const SunlitNodes& sunlit, const PhaseAtNodes<N>& phase) {
   const std::size_t count = nodes.points.size(), profiles = optics.profiles.size();
-  // By the whole way at the sun's extinction, then along the ray by how much that to the eye
-  // differs.
-  struct Term {
-    const std::vector<std::vector<double>>* columns;
-    Dual<N> extinction;
-    std::size_t profile;
-  };
-  std::vector<Term> terms;
-  for (std::size_t k = 0; k < profiles; ++k)
-    terms.push_back({&sunlit.columns[k], optics.scaled_extinction[k], k});
-  for (std::size_t k = 0; k < profiles; ++k) {
-    if (to_eye[k].v != optics.scaled_extinction[k].v)
-      terms.push_back({&nodes.columns[k], to_eye[k] - optics.scaled_extinction[k], k});
-  }
   std::vector<const double*> columns;
   std::vector<double> extinction;
-  for (const Term& term : terms) {
-    columns.push_back(term.columns->front().data());
-    extinction.push_back(term.extinction.v);
+  for (std::size_t k = 0; k < profiles; ++k) {
+    columns.push_back(sunlit.columns[k].front().data());
+    extinction.push_back(optics.scaled_extinction[k].v);
   }
   std::vector<double> through(count), scattered(count);
-  kernels::weighted_transmittances(count, sunlit.weight.data(), terms.size(), columns.data(),
+  kernels::weighted_transmittances(count, sunlit.weight.data(), profiles, columns.data(),
                                    extinction.data(), through.data());
   std::vector<Dual<N>> light;
   const std::vector<double> without_phase = through;
@@ -221,12 +205,12 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
       for (std::size_t s = 0; s < optics.profiles[scatterer.profile].shapes(); ++s)
         add(kernels::dot(count, through.data(), density[1 + s].data()),
             optics.shape[scatterer.profile][s]);
-      for (const Term& term : terms) {
-        add(-kernels::dot(count, scattered.data(), term.columns->front().data()), term.extinction);
-        for (std::size_t s = 0; s < optics.profiles[term.profile].shapes(); ++s)
-          add(-term.extinction.v *
-                  kernels::dot(count, scattered.data(), (*term.columns)[1 + s].data()),
-              optics.shape[term.profile][s]);
+      for (std::size_t q = 0; q < profiles; ++q) {
+        add(-kernels::dot(count, scattered.data(), columns[q]), optics.scaled_extinction[q]);
+        for (std::size_t s = 0; s < optics.profiles[q].shapes(); ++s)
+          add(-extinction[q] *
+                  kernels::dot(count, scattered.data(), sunlit.columns[q][1 + s].data()),
+              optics.shape[q][s]);
       }
       for (std::size_t i = 0; !phase.empty() && i < count; ++i)
         add(without_phase[i] * density[0][i], phase[k][i]);
@@ -237,10 +221,9 @@ std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& 
 }
 
 template std::vector<Dual<0>> single_scattering<0>(const Optics<0>&, const RayNodes&,
-                                                   const SunlitNodes&, const std::vector<Dual<0>>&,
-                                                   const PhaseAtNodes<0>&);
+                                                   const SunlitNodes&, const PhaseAtNodes<0>&);
 template std::vector<Dual<kDerivativesAtOnce>> single_scattering<kDerivativesAtOnce>(
     const Optics<kDerivativesAtOnce>&, const RayNodes&, const SunlitNodes&,
-    const std::vector<Dual<kDerivativesAtOnce>>&, const PhaseAtNodes<kDerivativesAtOnce>&);
+    const PhaseAtNodes<kDerivativesAtOnce>&);
 
 }  // namespace skyfit

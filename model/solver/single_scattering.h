@@ -38,15 +38,13 @@ struct SunlitNodes {
 SunlitNodes sunlit_nodes(const Shells& shells, const RayNodes& nodes, const SunAlongRay& sun);
 
 // Radiance per unit solar irradiance of every scatterer without its phase function (sr^0): multiply
-// by P_i(nu) and add. `to_eye`: the extinction along the ray, per profile; the sun's beam has the
-// delta-M-scaled one of the optics. With the values of the phase functions at the nodes, per
-// scatterer, the result holds them already: nu changes along a refracted ray.
+// by P_i(nu) and add. With the values of the phase functions at the nodes, per scatterer, the
+// result holds them already: nu changes along a refracted ray.
 template <int N>
 using PhaseAtNodes = std::vector<std::vector<Dual<N>>>;
 template <int N>
 std::vector<Dual<N>> single_scattering(const Optics<N>& optics, const RayNodes& nodes,
                                        const SunlitNodes& sunlit,
-                                       const std::vector<Dual<N>>& to_eye,
                                        const PhaseAtNodes<N>& phase = {});
 
 }  // namespace skyfit

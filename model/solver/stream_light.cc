@@ -117,8 +117,10 @@ Batch StreamLight::layer_tangent(int layer, bool looks_up, const StreamSources& 
   for (std::size_t q = 0; q < diffuse.phase.size(); ++q) {
     const LayerMedium::PhaseTangent& phase = medium_->phase_tangents[q];
     const auto phase_end = [&](int i) {
-      return batch::PhaseTangent{in.end[i].scatterer[phase.scatterer].share, in.end[i].weight,
-                                 of(diffuse.phase[q], i), in.end[i].beam, of(beam_.phase[q], i)};
+      const auto at_level = static_cast<std::size_t>(level[i]);
+      return batch::PhaseTangent{medium_->scatterers[phase.scatterer].share[at_level].data(),
+                                 in.end[i].weight, of(diffuse.phase[q], i), in.end[i].beam,
+                                 of(beam_.phase[q], i)};
     };
     const batch::PhaseTangent ends[2] = {phase_end(0), phase_end(1)};
     batch::add_phase_tangent(ends, out.data(), rays(layer), suns(), p_count, phase.parameter);

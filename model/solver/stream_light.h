@@ -62,9 +62,12 @@ class StreamLight {
               std::vector<std::size_t> scatterers, const LaneModes& modes)
       : streams_(&streams), medium_(&medium), scatterers_(std::move(scatterers)), modes_(modes) {}
 
+  enum Kind : std::size_t { kValues, kTangents };
+
   // The sources that the layers give to the rays that leave them.
   std::vector<Batch> down_source, up_source;  // per layer
   StreamColumns values, tangents;             // the light
+  StreamColumns& light(Kind kind) { return kind == kValues ? values : tangents; }
 
   bool has_beam() const { return beam_source_.count > 0; }
   void set_beam(StreamSources per_unit_beam);  // what the sun's beam makes, per unit of it
@@ -89,7 +92,6 @@ class StreamLight {
     int first_lane;
   };
   using LightOfMode = std::function<OfMode(int mode)>;
-  enum Kind : std::size_t { kValues, kTangents };
   void add_coupling(const HorizontalCoupling& coupling, const LightOfMode& light_of, int width,
                     Kind kind);
 

@@ -90,11 +90,10 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
 
 // docs/theory (8.5).
 template <int N>
-NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path, bool polarised) {
-  const std::vector<Dual<N>> extinction = extinction_to_eye(optics, polarised);
+NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path) {
   NodeWeights<N> weights(optics.scatterers.size(), std::vector<Dual<N>>(path.nodes.size()));
   for (const ViewPath::Sample& sample : path.samples) {
-    const Dual<N> tau = optics.optical_depth_by(extinction, sample.columns);
+    const Dual<N> tau = optics.scaled_optical_depth(sample.columns);
     const double t = std::exp(-tau.v);
     const Dual<N> transmitted = tau.chain(t * sample.weight, -t * sample.weight);
     const Densities<N> rho = optics.densities(sample.point.height);
@@ -108,8 +107,8 @@ NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path, bool 
   return weights;
 }
 
-template NodeWeights<0> node_weights<0>(const Optics<0>&, const ViewPath&, bool);
+template NodeWeights<0> node_weights<0>(const Optics<0>&, const ViewPath&);
 template NodeWeights<kDerivativesAtOnce> node_weights<kDerivativesAtOnce>(
-    const Optics<kDerivativesAtOnce>&, const ViewPath&, bool);
+    const Optics<kDerivativesAtOnce>&, const ViewPath&);
 
 }  // namespace skyfit

@@ -30,27 +30,10 @@ struct ViewPath {
 ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
                    double mu);
 
-// docs/theory (13.16).
-// What light loses between where it was scattered last and the eye, per profile: as it counts for
-// I, delta-M-scaled; for Q and U less what particles of a size distribution scatter forward with
-// its polarisation.
-template <int N>
-std::vector<Dual<N>> extinction_to_eye(const Optics<N>& optics, bool polarised) {
-  std::vector<Dual<N>> extinction = optics.scaled_extinction;
-  if (!polarised) return extinction;
-  for (const Scatterer<N>& s : optics.scatterers) {
-    if (s.phase.type != PhaseType::kSizeDistribution) continue;
-    const Dual<N> cut = s.scattering - s.scaled_scattering;
-    extinction[s.profile] -=
-        s.scattering * with_slopes(s.phase.optics->kept_polarisation, s.phase.particles) - cut;
-  }
-  return extinction;
-}
-
 // Per scatterer and node, sr^0: radiance = sum of weight times source per scattering coefficient.
 template <int N>
 using NodeWeights = std::vector<std::vector<Dual<N>>>;
 template <int N>
-NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path, bool polarised);
+NodeWeights<N> node_weights(const Optics<N>& optics, const ViewPath& path);
 
 }  // namespace skyfit

@@ -130,7 +130,9 @@ TEST(Particles, DerivativesAreExact) {
   using Quantity = std::function<ParticleValue(const ParticleOptics&)>;
   const Quantity kQuantities[] = {[](const ParticleOptics& o) { return o.extinction; },
                                   [](const ParticleOptics& o) { return o.scattering; },
-                                  [](const ParticleOptics& o) { return o.kept_polarisation; },
+                                  [](const ParticleOptics& o) { return o.matrix_moments(2).alpha; },
+                                  [](const ParticleOptics& o) { return o.matrix_moments(3).zeta; },
+                                  [](const ParticleOptics& o) { return o.matrix_moments(4).gamma; },
                                   [](const ParticleOptics& o) { return o.moment(5); },
                                   [](const ParticleOptics& o) { return o.phase(0.01); },
                                   [](const ParticleOptics& o) { return o.phase(1.5); },
