@@ -5,7 +5,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/fit_files.h"
@@ -18,11 +21,21 @@
 namespace skyfit::cli {
 namespace {
 
-std::filesystem::path sky_beside(const std::filesystem::path& report) {
+// The file of the fitted sky that belongs to a report; none to one that goes to the standard
+// output.
+std::optional<std::filesystem::path> sky_beside(const std::filesystem::path& report) {
+  if (is_stdout(report)) return {};
   return report.parent_path() / (report.stem().string() + "-sky.html");
 }
 
-// The fitted sky as a page beside the report, or nothing and a warning where there can be none.
+// Every file that the report consists of.
+std::vector<std::string> report_files(const std::string& report) {
+  std::vector<std::string> files = {report};
+  if (const auto sky = sky_beside(report)) files.push_back(sky->string());
+  return files;
+}
+
+// The page of the fitted sky; empty, with a warning, where there can be none.
 std::string live_sky(const Preset& preset, int threads, const std::string& report) {
   try {
     return make_sky_page(preset, usual_sliders(preset, preset.name), threads).html;
@@ -34,13 +47,15 @@ std::string live_sky(const Preset& preset, int threads, const std::string& repor
 
 void write_report_page(const std::filesystem::path& directory, const FinishedFit& finished,
                        const std::filesystem::path& report, int threads) {
-  const std::string sky = live_sky(fit::fitted_preset(finished.result), threads, report.string());
+  const auto beside = sky_beside(report);
+  const std::string sky =
+      beside ? live_sky(fit::fitted_preset(finished.result), threads, report.string()) : "";
   std::vector<std::filesystem::path> targets = {report};
-  if (!sky.empty()) targets.push_back(sky_beside(report));
+  if (!sky.empty()) targets.push_back(*beside);
   WholeFiles files(targets);
   files.write(0, fit::html_report(finished.result, finished.checks,
                                   report_figures(directory, finished.result, threads),
-                                  sky.empty() ? "" : sky_beside(report).filename().string()));
+                                  sky.empty() ? "" : beside->filename().string()));
   if (!sky.empty()) files.write(1, sky);
   files.publish();
 }
@@ -78,8 +93,7 @@ void add_report_command(CLI::App& app) {
       "  skyfit report fitted --out report.html");
   command->callback([arguments] {
     if (!arguments->out.empty())
-      require_output_files({arguments->out.front(), sky_beside(arguments->out.front()).string()},
-                           {".html"});
+      require_output_files(report_files(arguments->out.front()), {".html"});
     const FinishedFit finished = read_fit(arguments->directory);
     if (!arguments->out.empty()) {
       write_report_page(arguments->directory, finished, arguments->out.front(), arguments->threads);

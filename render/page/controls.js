@@ -339,11 +339,14 @@ async function start() {
   redraw();
 }
 
-const ready = start();
-ready.catch((error) => {
-  element('failure').textContent = `The sky cannot be shown: ${error.message}.`;
+function fail(reason) {
+  element('failure').textContent = `The sky cannot be shown: ${reason}.`;
   element('failure').hidden = false;
-});
+}
+
+const ready = start();
+ready.catch((error) => fail(error.message));
+element('sky').addEventListener('webglcontextlost', () => fail('the device took its graphics back; load the page again'));
 
 window.skyfit = {
   ready,

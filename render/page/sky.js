@@ -19,6 +19,7 @@ function cameraAxes(elevation, azimuth) {
 class SkyRenderer {
   // `data`: what render/page/sky_page.cc writes. Throws Error with one line where the browser cannot draw it.
   constructor(canvas, data) {
+    if (!('DecompressionStream' in window)) throw new Error('this browser is too old to decompress data (DecompressionStream)');
     this.canvas = canvas;
     this.data = data;
     const gl = canvas.getContext('webgl2', { antialias: false, alpha: false, powerPreference: 'high-performance' });
