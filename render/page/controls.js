@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's controls, and window.skyfit, which docs/view.md describes.
+// What is shown, how it is drawn, and the controls of the panel.
 
 const element = (id) => document.getElementById(id);
 const data = JSON.parse(element('data').textContent);
 element('data').remove();
 
-// What is shown. Heights in m, angles in radians; `look` is above the horizon that the observer sees.
+// What is shown. Heights in m, angles in radians; `look` is above the horizon that the observer
+// sees.
 const state = {
-  sunElevation: 25 * kDegree, sunAzimuth: 180 * kDegree, look: 13 * kDegree, azimuth: 180 * kDegree,
-  altitude_m: 2, field: 75 * kDegree, stops: 0,
+  sunElevation: 25 * kDegree,
+  sunAzimuth: 180 * kDegree,
+  look: 13 * kDegree,
+  azimuth: 180 * kDegree,
+  altitude_m: 2,
+  field: 75 * kDegree,
+  stops: 0,
 };
 const kLowestSun = -30 * kDegree;
 let renderer, exposure, pointer = null, moving = false;
-let resolution = 0.5;  // share of the sides' pixels that is drawn while something moves; the first picture is such
+let resolution = 0.5;  // share of the sides' pixels that is drawn while something moves; the first
+                       // picture is such
 
 // ---- places and angles
 
@@ -22,62 +29,67 @@ const elevation = () => state.look - dip();
 
 // Half the field of view along the picture's longer side.
 function tangent() {
-  const { clientWidth: width, clientHeight: height } = element('sky');
+  const {clientWidth: width, clientHeight: height} = element('sky');
   const longer = Math.tan(state.field / 2), side = Math.max(width, height);
   return [(longer * width) / side, (longer * height) / side];
 }
 
 const view = () => ({
-  elevation: elevation(), azimuth: state.azimuth, tangent: tangent(), altitude_m: state.altitude_m,
-  sunElevation: state.sunElevation, sunAzimuth: state.sunAzimuth,
+  elevation: elevation(),
+  azimuth: state.azimuth,
+  tangent: tangent(),
+  altitude_m: state.altitude_m,
+  sunElevation: state.sunElevation,
+  sunAzimuth: state.sunAzimuth,
 });
 
-const unit = (v) => { const length = Math.hypot(...v); return v.map((x) => x / length); };
+const unit = (v) => {
+  const length = Math.hypot(...v);
+  return v.map((x) => x / length);
+};
 
 function directionAt(x, y) {
-  const canvas = element('sky'), axes = cameraAxes(elevation(), state.azimuth), [tx, ty] = tangent();
-  const across = ((2 * x) / canvas.clientWidth - 1) * tx, along = (1 - (2 * y) / canvas.clientHeight) * ty;
+  const canvas = element('sky'), axes = cameraAxes(elevation(), state.azimuth),
+        [tx, ty] = tangent();
+  const across = ((2 * x) / canvas.clientWidth - 1) * tx,
+        along = (1 - (2 * y) / canvas.clientHeight) * ty;
   return unit([0, 1, 2].map((k) => axes[k] * across + axes[3 + k] * along - axes[6 + k]));
 }
 
 // Where a direction lies on the screen, or null behind the camera.
 function placeOf(d) {
-  const canvas = element('sky'), axes = cameraAxes(elevation(), state.azimuth), [tx, ty] = tangent();
-  const along = (column) => d.reduce((sum, x, k) => sum + x * axes[3 * column + k], 0), depth = -along(2);
+  const canvas = element('sky'), axes = cameraAxes(elevation(), state.azimuth),
+        [tx, ty] = tangent();
+  const along = (column) => d.reduce((sum, x, k) => sum + x * axes[3 * column + k], 0),
+        depth = -along(2);
   if (depth <= 0.01) return null;
-  return [0.5 * (along(0) / depth / tx + 1) * canvas.clientWidth, 0.5 * (1 - along(1) / depth / ty) * canvas.clientHeight];
+  return [
+    0.5 * (along(0) / depth / tx + 1) * canvas.clientWidth,
+    0.5 * (1 - along(1) / depth / ty) * canvas.clientHeight
+  ];
 }
 
-const anglesOf = (d) => ({ elevation: Math.asin(Math.min(1, Math.max(-1, d[2]))), azimuth: (Math.atan2(-d[1], d[0]) + 2 * Math.PI) % (2 * Math.PI) });
+const anglesOf = (d) => ({
+  elevation: Math.asin(Math.min(1, Math.max(-1, d[2]))),
+  azimuth: (Math.atan2(-d[1], d[0]) + 2 * Math.PI) % (2 * Math.PI)
+});
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
-
-// ---- text
-
-function digits(value, count = 3) {
-  if (value === 0) return '0';
-  const size = Math.abs(value);
-  if (size >= 1e5 || size < 1e-3) {
-    const power = Math.floor(Math.log10(size));
-    const superscript = String(power).replace(/./g, (c) => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]);
-    return `${(value / 10 ** power).toPrecision(count)}·10${superscript}`;
-  }
-  return size >= 1000 ? Math.round(value).toLocaleString('en').replace(/,/g, ' ') : value.toPrecision(count);
-}
-
-const degrees = (angle, places = 1) => `${(angle / kDegree).toFixed(places).replace('-', '−')}°`;
-const length = (m) => (m < 1000 ? `${digits(m, m < 10 ? 2 : 3)} m` : `${digits(m / 1000)} km`);
-const quantity = (value, unitName) => (unitName === '1' ? digits(value) : `${digits(value)} ${unitName.replace('1/m', 'm⁻¹').replace('um', 'µm')}`);
-const compass = (azimuth) => ['N', 'NE', 'E', 'SE', 'S', 'SW', 'W', 'NW'][Math.round(azimuth / (45 * kDegree)) % 8];
 
 // ---- drawing
 
-// The rule of metered_exposure() (render/sequence/exposure.cc) without its cases of discs and of space, which does not count
-// here: the mean logarithm becomes middle grey, a little more in bright views, and highlights stay below white. m^2/cd.
+// The rule of metered_exposure() (render/sequence/exposure.cc) without its cases of discs and of
+// space, which does not count here: the mean logarithm becomes middle grey, a little more in bright
+// views, and highlights stay below white. m^2/cd.
 function automaticExposure(luminances) {
-  const sorted = luminances.sort((a, b) => a - b), quantile = (share) => sorted[Math.floor(share * (sorted.length - 1))];
-  const highlight = quantile(0.99), seen = sorted.filter((luminance) => luminance > 1e-3 * highlight);
-  const mean = seen.length ? Math.exp(seen.reduce((sum, luminance) => sum + Math.log(luminance), 0) / seen.length) : 0;
-  const level = Math.max(mean / (0.18 * (Math.max(mean, 0.02) / 500) ** 0.15), highlight, quantile(0.86) / 0.5);
+  const sorted = luminances.sort((a, b) => a - b),
+        quantile = (share) => sorted[Math.floor(share * (sorted.length - 1))];
+  const highlight = quantile(0.99),
+        seen = sorted.filter((luminance) => luminance > 1e-3 * highlight);
+  const mean = seen.length ?
+      Math.exp(seen.reduce((sum, luminance) => sum + Math.log(luminance), 0) / seen.length) :
+      0;
+  const level = Math.max(
+      mean / (0.18 * (Math.max(mean, 0.02) / 500) ** 0.15), highlight, quantile(0.86) / 0.5);
   return 1 / Math.max(level, 0.02 / 0.18);
 }
 
@@ -85,24 +97,33 @@ let requested = false, settled = null;
 function redraw() {
   if (requested || !renderer?.textures) return;
   requested = true;
-  requestAnimationFrame(() => { requested = false; draw(); });
+  requestAnimationFrame(() => {
+    requested = false;
+    draw();
+  });
 }
 
 // A slow device draws fewer pixels while something moves.
 function drawMoving() {
   moving = true;
   clearTimeout(settled);
-  settled = setTimeout(() => { moving = false; redraw(); }, 200);
+  settled = setTimeout(() => {
+    moving = false;
+    redraw();
+  }, 200);
   redraw();
 }
 
 function draw() {
   const began = performance.now(), canvas = element('sky'), kMostPixels = 1.6e6;
-  const { clientWidth: width, clientHeight: height } = canvas;
-  const scale = Math.min(devicePixelRatio, Math.sqrt(kMostPixels / (width * height))) * (moving ? resolution : 1);
+  const {clientWidth: width, clientHeight: height} = canvas;
+  const scale = Math.min(devicePixelRatio, Math.sqrt(kMostPixels / (width * height))) *
+      (moving ? resolution : 1);
   renderer.resize(Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale)));
   const wanted = automaticExposure(renderer.luminances(view()));
-  exposure = exposure && Math.abs(Math.log(exposure / wanted)) > 0.02 ? exposure * (wanted / exposure) ** 0.35 : wanted;
+  exposure = exposure && Math.abs(Math.log(exposure / wanted)) > 0.02 ?
+      exposure * (wanted / exposure) ** 0.35 :
+      wanted;
   renderer.draw(view(), exposure * 2 ** state.stops);
   measure();
   placeSun();
@@ -126,22 +147,26 @@ const hueOf = (nm) => `hsl(${clamp(((690 - nm) / 240) * 250, 0, 265)} 75% 55%)`;
 
 function measure() {
   if (!pointer) return;
-  const canvas = element('sky'), { width, height } = renderer.picture;
+  const canvas = element('sky'), {width, height} = renderer.picture;
   const x = clamp(Math.floor((pointer[0] / canvas.clientWidth) * width), 0, width - 1);
   const y = clamp(Math.floor((1 - pointer[1] / canvas.clientHeight) * height), 0, height - 1);
   const light = renderer.lightAt(x, y), at = anglesOf(directionAt(...pointer));
   element('probe').classList.add('measured');
   element('luminance').textContent = digits(light.luminance_cd_m2);
-  element('aim').textContent = `${degrees(at.elevation)} above the horizontal, azimuth ${degrees(at.azimuth)} (${compass(at.azimuth)})`;
+  element('aim').textContent = `${degrees(at.elevation)} above the horizontal, azimuth ${
+      degrees(at.azimuth)} (${compass(at.azimuth)})`;
   const most = Math.max(...light.spectral_radiance.map((s) => s.value), 1e-30);
-  element('spectrum').replaceChildren(
-      textElement('span', 'W m⁻² sr⁻¹ nm⁻¹', 'head'),
-      ...light.spectral_radiance.flatMap(({ wavelength_nm: nm, value }) => {
-        const bar = document.createElement('i');
-        bar.style.width = `${(100 * value) / most}%`;
-        bar.style.background = hueOf(nm);
-        return [textElement('span', `${Math.round(nm)} nm`), bar, textElement('span', digits(value))];
-      }));
+  element('spectrum')
+      .replaceChildren(
+          textElement('span', 'W m⁻² sr⁻¹ nm⁻¹', 'head'),
+          ...light.spectral_radiance.flatMap(({wavelength_nm: nm, value}) => {
+            const bar = document.createElement('i');
+            bar.style.width = `${(100 * value) / most}%`;
+            bar.style.background = hueOf(nm);
+            return [
+              textElement('span', `${Math.round(nm)} nm`), bar, textElement('span', digits(value))
+            ];
+          }));
 }
 
 function textElement(kind, text, style = '') {
@@ -159,207 +184,84 @@ const altitudeFrom = (x) => kNearest_m * (Math.exp(x * kDecades) - 1);
 const altitudeTo = (m) => Math.log(1 + m / kNearest_m) / kDecades;
 
 const controls = [
-  { id: 'sun-height', get: () => state.sunElevation / kDegree, set: (x) => { state.sunElevation = x * kDegree; }, text: () => degrees(state.sunElevation) },
-  { id: 'sun-azimuth', get: () => state.sunAzimuth / kDegree, set: (x) => { state.sunAzimuth = x * kDegree; }, text: () => `${degrees(state.sunAzimuth)} ${compass(state.sunAzimuth)}` },
-  { id: 'altitude', get: () => altitudeTo(state.altitude_m), set: (x) => { state.altitude_m = altitudeFrom(x); }, text: () => length(state.altitude_m) },
-  { id: 'field', get: () => state.field / kDegree, set: (x) => { state.field = x * kDegree; }, text: () => degrees(state.field, 0) },
-  { id: 'exposure', get: () => state.stops, set: (x) => { state.stops = x; }, text: () => `${state.stops >= 0 ? '+' : '−'}${Math.abs(state.stops).toFixed(1)} EV` },
+  {
+    id: 'sun-height',
+    get: () => state.sunElevation / kDegree,
+    set: (x) => {
+      state.sunElevation = x * kDegree;
+    },
+    text: () => degrees(state.sunElevation)
+  },
+  {
+    id: 'sun-azimuth',
+    get: () => state.sunAzimuth / kDegree,
+    set: (x) => {
+      state.sunAzimuth = x * kDegree;
+    },
+    text: () => `${degrees(state.sunAzimuth)} ${compass(state.sunAzimuth)}`
+  },
+  {
+    id: 'altitude',
+    get: () => altitudeTo(state.altitude_m),
+    set: (x) => {
+      state.altitude_m = altitudeFrom(x);
+    },
+    text: () => length(state.altitude_m)
+  },
+  {
+    id: 'field',
+    get: () => state.field / kDegree,
+    set: (x) => {
+      state.field = x * kDegree;
+    },
+    text: () => degrees(state.field, 0)
+  },
+  {
+    id: 'exposure',
+    get: () => state.stops,
+    set: (x) => {
+      state.stops = x;
+    },
+    text: () => `${state.stops >= 0 ? '+' : '−'}${Math.abs(state.stops).toFixed(1)} EV`
+  },
 ];
 
 function show() {
-  for (const { id, get, text } of controls) {
+  for (const {id, get, text} of controls) {
     element(id).value = get();
     element(`${id}-value`).textContent = text();
   }
-  element('place').textContent = `sun ${degrees(state.sunElevation)} high, from ${length(state.altitude_m)}`;
+  element('place').textContent =
+      `sun ${degrees(state.sunElevation)} high, from ${length(state.altitude_m)}`;
   keepAddress();
   drawMoving();
 }
 
 // The state in the address, so that a link leads to what is seen.
-const kAddress = { sun: ['sunElevation', kDegree], sunaz: ['sunAzimuth', kDegree], look: ['look', kDegree], az: ['azimuth', kDegree],
-                   alt: ['altitude_m', 1], fov: ['field', kDegree], ev: ['stops', 1] };
+const kAddress = {
+  sun: ['sunElevation', kDegree],
+  sunaz: ['sunAzimuth', kDegree],
+  look: ['look', kDegree],
+  az: ['azimuth', kDegree],
+  alt: ['altitude_m', 1],
+  fov: ['field', kDegree],
+  ev: ['stops', 1]
+};
 let addressTimer = null;
 function keepAddress() {
   clearTimeout(addressTimer);
   addressTimer = setTimeout(() => {
-    const parts = Object.entries(kAddress).map(([key, [name, scale]]) => `${key}=${+(state[name] / scale).toPrecision(5)}`);
+    const parts = Object.entries(kAddress).map(
+        ([key, [name, scale]]) => `${key}=${+ (state[name] / scale).toPrecision(5)}`);
     history.replaceState(null, '', `#${parts.join('&')}`);
   }, 300);
 }
 function readAddress() {
   for (const [key, text] of new URLSearchParams(location.hash.slice(1))) {
     const value = Number(text);
-    if (key in kAddress && text !== '' && Number.isFinite(value)) state[kAddress[key][0]] = value * kAddress[key][1];
+    if (key in kAddress && text !== '' && Number.isFinite(value))
+      state[kAddress[key][0]] = value * kAddress[key][1];
   }
   state.altitude_m = clamp(state.altitude_m, 0, kFarthest_m);
   state.field = clamp(state.field, 5 * kDegree, 120 * kDegree);
 }
-
-// ---- sliders of parameters
-
-// Position -1 to 1 of a value, 0 at the preset's, and back; even in the value or its logarithm on either side.
-function sliderPosition(slider, value) {
-  const even = slider.logarithmic ? Math.log : (x) => x;
-  const end = value < slider.value ? slider.low : slider.high;
-  return end === slider.value ? 0 : Math.sign(value - slider.value) * (even(value) - even(slider.value)) / (even(end) - even(slider.value));
-}
-function sliderValue(slider, position) {
-  const end = position < 0 ? slider.low : slider.high, share = Math.abs(position);
-  return slider.logarithmic ? slider.value * (end / slider.value) ** share : slider.value + share * (end - slider.value);
-}
-
-function addSliders() {
-  const values = data.sliders.map((slider) => slider.value), shows = [];
-  const apply = () => { renderer.setParameters(values); drawMoving(); };
-  data.sliders.forEach((slider, i) => {
-    const id = `parameter-${i}`, label = document.createElement('label'), output = document.createElement('output');
-    label.className = 'row';
-    label.htmlFor = id;
-    const name = textElement('code', '');
-    name.append(...slider.name.split(/(?<=[._])/).flatMap((part) => [part, document.createElement('wbr')]));
-    label.append(name, output);
-    const input = document.createElement('input');
-    Object.assign(input, { id, type: 'range', min: slider.low < slider.value ? -1 : 0, max: slider.high > slider.value ? 1 : 0, step: 0.01 });
-    if (slider.sigma) {
-      const percent = (value) => (100 * (sliderPosition(slider, clamp(value, slider.low, slider.high)) - input.min)) / (input.max - input.min);
-      const [from, to] = [percent(slider.value - slider.sigma), percent(slider.value + slider.sigma)];
-      input.style.setProperty('--sigma', `linear-gradient(90deg, transparent ${from}%, var(--band) ${from}% ${to}%, transparent ${to}%)`);
-    }
-    const showValue = () => {
-      input.value = sliderPosition(slider, values[i]);
-      output.textContent = quantity(values[i], slider.unit);
-    };
-    input.addEventListener('input', () => {
-      values[i] = sliderValue(slider, Number(input.value));
-      showValue();
-      apply();
-    });
-    const sigma = slider.sigma ? `; one sigma of the fit, the band: ±${quantity(slider.sigma, slider.unit)}` : '';
-    element('sliders').append(label, textElement('p', slider.meaning + sigma, 'meaning'), input);
-    shows.push(showValue);
-    showValue();
-  });
-  element('reset').addEventListener('click', () => {
-    data.sliders.forEach((slider, i) => { values[i] = slider.value; });
-    shows.forEach((showValue) => showValue());
-    apply();
-  });
-  element('atmosphere').hidden = data.sliders.length === 0;
-}
-
-// ---- pointer and keys
-
-function listen() {
-  const canvas = element('sky'), handle = element('sun');
-  let held = null;  // the direction under the pointer when it went down
-  canvas.addEventListener('pointerdown', (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    held = [event.clientX, event.clientY];
-    pointer = [event.clientX, event.clientY];
-    redraw();
-  });
-  canvas.addEventListener('pointermove', (event) => {
-    pointer = [event.clientX, event.clientY];
-    if (!held) return redraw();
-    const [tx, ty] = tangent(), across = (2 * tx) / canvas.clientWidth, along = (2 * ty) / canvas.clientHeight;
-    state.azimuth = (state.azimuth - (event.clientX - held[0]) * across / Math.max(Math.cos(elevation()), 0.3) + 4 * Math.PI) % (2 * Math.PI);
-    state.look = clamp(state.look + (event.clientY - held[1]) * along, dip() - Math.PI / 2, dip() + Math.PI / 2);
-    held = [...pointer];
-    show();
-  });
-  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { held = null; });
-  canvas.addEventListener('wheel', (event) => {
-    event.preventDefault();
-    state.field = clamp(state.field * Math.exp(0.001 * event.deltaY), 5 * kDegree, 120 * kDegree);
-    show();
-  }, { passive: false });
-  canvas.addEventListener('keydown', (event) => {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    state.azimuth = (state.azimuth + 3 * kDegree * step[0] + 2 * Math.PI) % (2 * Math.PI);
-    state.look = clamp(state.look + 3 * kDegree * step[1], dip() - Math.PI / 2, dip() + Math.PI / 2);
-    show();
-  });
-  handle.addEventListener('pointerdown', (event) => {
-    handle.setPointerCapture(event.pointerId);
-    handle.classList.add('dragged');
-  });
-  handle.addEventListener('pointermove', (event) => {
-    pointer = [event.clientX, event.clientY];
-    if (!handle.classList.contains('dragged')) return redraw();
-    const at = anglesOf(directionAt(...pointer));
-    state.sunElevation = Math.max(at.elevation, kLowestSun);
-    state.sunAzimuth = at.azimuth;
-    show();
-  });
-  for (const end of ['pointerup', 'pointercancel']) handle.addEventListener(end, () => handle.classList.remove('dragged'));
-  for (const { id, set } of controls) element(id).addEventListener('input', (event) => { set(Number(event.target.value)); show(); });
-  element('look').addEventListener('click', () => {
-    state.azimuth = state.sunAzimuth;
-    state.look = Math.max(state.sunElevation + dip(), 0);
-    show();
-  });
-  element('toggle').addEventListener('click', () => {
-    const open = element('toggle').getAttribute('aria-expanded') === 'true';
-    element('toggle').setAttribute('aria-expanded', String(!open));
-  });
-  addEventListener('resize', redraw);
-  addEventListener('hashchange', () => { readAddress(); show(); });
-}
-
-// ---- start
-
-const percent = (share) => (share < 1 ? `${(100 * share).toPrecision(2)} %` : `a factor ${(1 + share).toPrecision(2)}`);
-
-function describe() {
-  element('note').textContent = data.preset.note;
-  const skies = data.errors.map(({ altitude_m: m, error }) => `${percent(error)} ${m === 0 ? 'at the ground' : `from ${m / 1000} km`}`);
-  const sliders = data.sliders.map((slider) => slider.error);
-  element('accuracy').textContent =
-      `Luminances are those of the model reference within ${skies.join(', ')} (sun from 2° and views from 1° above the horizontal on).` +
-      (sliders.length ? ` Sliders are approximate: each by itself within ${percent(Math.max(...sliders))} at the ground, several at once less so.` : '');
-}
-
-async function start() {
-  state.azimuth = state.sunAzimuth + 0.55 * Math.atan(tangent()[0]);  // the sun is in the left half
-  readAddress();
-  if (matchMedia('(max-width: 640px)').matches) element('toggle').setAttribute('aria-expanded', 'false');
-  describe();
-  listen();
-  renderer = new SkyRenderer(element('sky'), data);
-  await renderer.load();
-  moving = true;
-  draw();
-  performance.mark('first picture');
-  show();
-  await renderer.loadSliders();
-  addSliders();
-  redraw();
-}
-
-function fail(reason) {
-  element('failure').textContent = `The sky cannot be shown: ${reason}.`;
-  element('failure').hidden = false;
-}
-
-const ready = start();
-ready.catch((error) => fail(error.message));
-element('sky').addEventListener('webglcontextlost', () => fail('the device took its graphics back; load the page again'));
-
-window.skyfit = {
-  ready,
-  // Light from one direction, read from a pixel of 32 bit floats: {luminance_cd_m2, spectral_radiance: [{wavelength_nm, value}]}, the
-  // latter in W m^-2 sr^-1 nm^-1. Angles in degrees, zenith angles at the observer, azimuth from the sun's; parameters {name: value}.
-  light({ sunZenithDeg, viewZenithDeg, azimuthDeg = 0, altitudeM = 0, parameters = {} }) {
-    const kept = renderer.parameters;
-    renderer.setParameters(data.sliders.map((slider, i) => parameters[slider.name] ?? slider.value));
-    const light = renderer.lightToward({
-      elevation: (90 - viewZenithDeg) * kDegree, azimuth: azimuthDeg * kDegree, altitude_m: altitudeM,
-      sunElevation: (90 - sunZenithDeg) * kDegree, sunAzimuth: 0,
-    });
-    renderer.setParameters(kept);
-    return light;
-  },
-};

@@ -187,7 +187,9 @@ std::string filled(std::string_view page,
 SkyPage sky_page(const SkyPageRequest& request) {
   const PageTables tables = page_tables(request);
   std::string script;
-  for (const char* file : {"tables.js", "sky.js", "controls.js"})
+  // In the order of what they use: one module.
+  for (const char* file :
+       {"tables.js", "sky.js", "text.js", "controls.js", "sliders.js", "pointer.js", "start.js"})
     script += embedded_shader(std::string("render/page/") + file);
   std::string html =
       filled(embedded_shader("render/page/page.html"),

@@ -17,9 +17,10 @@ function half(value) {
   return sign | (((exponent << 10) | ((bits >>> 13) & 0x3ff)) + ((bits >>> 12) & 1));
 }
 
-// {width, height, depth, values}: four values to a texel, 16 bit floats as their bits or 32 bit floats.
+// {width, height, depth, values}: four values to a texel, 16 bit floats as their bits or 32 bit
+// floats.
 async function decodedTable(packed, asHalves) {
-  const { width, height, depth, row, step, offset, logarithm } = packed;
+  const {width, height, depth, row, step, offset, logarithm} = packed;
   const bytes = await inflated(packed.texels);
   const texels = width * height * depth, kSteps = 65536;
   const values = asHalves ? new Uint16Array(4 * texels) : new Float32Array(4 * texels);
@@ -45,7 +46,7 @@ async function decodedTable(packed, asHalves) {
       }
     }
   }
-  return { width, height, depth, values };
+  return {width, height, depth, values};
 }
 
 async function decodedTables(packed, asHalves) {
