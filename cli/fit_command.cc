@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `skyfit fit`: fits an atmosphere to a reference and leaves preset, reports, samples and figures
-// in a directory. `skyfit report`: prints the report of such a directory again.
+// in a directory.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -113,49 +113,6 @@ void add_fit_command(CLI::App& app) {
       "  skyfit fit --reference 0930.csv,1030.csv --exclude-sample 0 --per-scan mie.scattering "
       "--out day");
   command->callback([options, command] { run_fit(*options, *command); });
-}
-
-void add_report_command(CLI::App& app) {
-  struct Arguments {
-    std::string directory;
-    std::vector<std::string> out;
-    bool json = false;
-    int threads = default_threads();
-  };
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* const command = app.add_subcommand(
-      "report", "Prints the report of a finished fit again, or writes it as a page.");
-  command->add_option("directory", arguments->directory, "What skyfit fit left")
-      ->required()
-      ->type_name("DIR");
-  CLI::Option* const json = command->add_flag("--json", arguments->json, "Print report.json");
-  command
-      ->add_option("--out", arguments->out,
-                   "Write one page for a browser, with figures and the preset; needs no network")
-      ->type_name("FILE.html")
-      ->expected(1)
-      ->excludes(json);
-  add_threads_option(*command, arguments->threads);
-  command->footer(
-      "The report is made anew from preset.json, whose record holds the fit, and the checks in\n"
-      "report.json.\n"
-      "\n"
-      "Examples:\n"
-      "  skyfit report fitted\n"
-      "  skyfit report fitted --out report.html");
-  command->callback([arguments] {
-    if (!arguments->out.empty()) require_output_files(arguments->out, {".html"});
-    const FinishedFit finished = read_fit(arguments->directory);
-    if (!arguments->out.empty()) {
-      write_file(arguments->out.front(),
-                 fit::html_report(
-                     finished.result, finished.checks,
-                     report_figures(arguments->directory, finished.result, arguments->threads)));
-      return;
-    }
-    print(arguments->json ? json_text(fit::report_json(finished.result, finished.checks))
-                          : fit::full_report(finished.result, finished.checks));
-  });
 }
 
 }  // namespace skyfit::cli

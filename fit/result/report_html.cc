@@ -47,6 +47,8 @@ figure { margin: 1rem 0; }
 figure svg { width: 100%; height: auto; }
 pre { font-size: 0.8rem; overflow: auto; max-height: 30rem; border: 1px solid var(--line); padding: 0.7rem; }
 button { font: inherit; }
+a { color: var(--mark); }
+iframe { width: 100%; height: 34rem; border: 1px solid var(--line); margin-top: 0.6rem; }
 @media print { button, details { display: none; } body { max-width: none; } h2 { break-after: avoid; } tr, figure { break-inside: avoid; } }
 )css";
 
@@ -75,6 +77,17 @@ xml_node add_cell(xml_node row, const char* element, std::string_view text) {
   xml_node cell = row.append_child(element);
   cell.append_child(pugi::node_pcdata).set_value(std::string(text).c_str());
   return cell;
+}
+
+// A file's name as a relative URL: what is not unreserved (RFC 3986) is percent-encoded.
+std::string url_of(std::string_view file) {
+  std::string url;
+  for (const char c : file) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~").find(c) != std::string_view::npos;
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return "./" + url;
 }
 
 void add_section(xml_node body, std::string_view title) { add(body, "h2", title); }
@@ -130,6 +143,24 @@ void prefix_names(xml_node node, const std::string& prefix) {
     a = value.c_str();
   }
   for (xml_node child : node.children()) prefix_names(child, prefix);
+}
+
+// A page of its own, which the browser reads when it is asked for: the report stays small and
+// prints.
+void add_live_sky(xml_node body, const std::string& file) {
+  if (file.empty()) return;
+  add_section(body, "The sky, live");
+  xml_node text =
+      add(body, "p",
+          "The fitted atmosphere by the model reference: move the sun, the observer and "
+          "the fitted parameters, and measure the light. ");
+  add(text, "a", file).append_attribute("href") = url_of(file).c_str();
+  xml_node details = add(body, "details");
+  add(details, "summary", "Show it here");
+  xml_node frame = add_cell(details, "iframe", " ");  // not an empty element, which HTML closes not
+  frame.append_attribute("src") = url_of(file).c_str();
+  frame.append_attribute("title") = "The fitted sky";
+  frame.append_attribute("loading") = "lazy";
 }
 
 void add_figures(xml_node body, std::span<const ReportFigure> figures) {
@@ -340,7 +371,7 @@ void add_preset(xml_node body, const Result& result) {
 }  // namespace
 
 std::string html_report(const Result& result, const Checks& checks,
-                        std::span<const ReportFigure> figures) {
+                        std::span<const ReportFigure> figures, const std::string& live_sky) {
   pugi::xml_document document;
   xml_node html = document.append_child("html");
   html.append_attribute("lang") = "en";
@@ -353,6 +384,7 @@ std::string html_report(const Result& result, const Checks& checks,
   add(head, "style", kStyle);
   xml_node body = add(html, "body");
   add_summary(body, result);
+  add_live_sky(body, live_sky);
   add_figures(body, figures);
   add_errors(body, result);
   add_unknowns(body, result);

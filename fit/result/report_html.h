@@ -16,8 +16,9 @@ struct ReportFigure {
   std::string svg;  // a document
 };
 
-// UTF-8. Throws std::runtime_error with one line for a figure that is no SVG.
+// UTF-8. `live_sky`: the file beside the report that shows the fitted sky (render/page/), which the
+// report links; may be empty. Throws std::runtime_error with one line for a figure that is no SVG.
 std::string html_report(const Result& result, const Checks& checks,
-                        std::span<const ReportFigure> figures);
+                        std::span<const ReportFigure> figures, const std::string& live_sky = {});
 
 }  // namespace skyfit::fit

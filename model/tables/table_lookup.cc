@@ -86,8 +86,9 @@ struct TableRay {
 
   // docs/theory (9.9).
   // From the logarithms of the amplitudes.
-  NodeValues radiance(const NodeValues& rayleigh_like, std::span<const NodeValues> single) const {
-    const double rayleigh_phase = shared.rayleigh_phase(tables.phases.depolarisation, nu);
+  NodeValues radiance(const NodeValues& rayleigh_like, std::span<const NodeValues> single,
+                      const PhaseClasses& phases) const {
+    const double rayleigh_phase = shared.rayleigh_phase(phases.depolarisation, nu);
     const double length =
         hits_ground ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
                     : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
@@ -97,7 +98,7 @@ struct TableRay {
     for (std::size_t k = 0; k < 4; ++k)
       sum[k] = light * std::exp(rayleigh_like[k]) * rayleigh_phase;
     for (std::size_t c = 0; c < single.size(); ++c) {
-      const NodeValues phase = phase_values(tables.phases.others[c]);
+      const NodeValues phase = phase_values(phases.others[c]);
       for (std::size_t k = 0; k < 4; ++k) sum[k] += light * std::exp(single[c][k]) * phase[k];
     }
     return sum;
@@ -121,6 +122,27 @@ struct TableRay {
   bool hits_ground;
   double azimuth, sun;  // 0..1; by sun_height() of model/shared/mapping.glsl
 };
+
+// What the scattering tables hold of a ray, with a weight.
+void accumulate_ray(const AtmosphereTables& tables, const TableRay& ray, double share,
+                    NodeValues& rayleigh_like, std::span<NodeValues> single) {
+  const TableSizes& s = tables.sizes;
+  const double turn = ray.azimuth * (s.scattering_azimuth - 1);
+  const int first = std::min(static_cast<int>(turn), s.scattering_azimuth - 2);
+  const Between v = ray.view(s.scattering());
+  const Between w(height_coordinate(tables, ray.from.height, s.scattering_r), s.scattering_r);
+  Between u(sun_coordinate(ray.sun, s.scattering_mu_s), s.scattering_mu_s);
+  u.low += first * s.scattering_mu_s;
+  u.high += first * s.scattering_mu_s;
+  for (const double weight : {1 - turn + first, turn - first}) {
+    accumulate(tables.rayleigh_like, u, v, w, share * weight, rayleigh_like);
+    for (std::size_t c = 0; c < single.size(); ++c)
+      accumulate(tables.single, u, v, w.later(static_cast<int>(c) * s.scattering_r), share * weight,
+                 single[c]);
+    u.low += s.scattering_mu_s;
+    u.high += s.scattering_mu_s;
+  }
+}
 
 }  // namespace
 
@@ -180,27 +202,21 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
 
 NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
                            double nu, bool hits_ground) {
-  const TableRay ray(tables, {height, mu, mu_s}, nu, hits_ground);
-  const TableSizes& s = tables.sizes;
-  const double turn = ray.azimuth * (s.scattering_azimuth - 1);
-  const int first = std::min(static_cast<int>(turn), s.scattering_azimuth - 2);
-  const Between v = ray.view(s.scattering());
-  const Between w(height_coordinate(tables, height, s.scattering_r), s.scattering_r);
-  Between u(sun_coordinate(ray.sun, s.scattering_mu_s), s.scattering_mu_s);
-  u.low += first * s.scattering_mu_s;
-  u.high += first * s.scattering_mu_s;
+  return lookup_changed_radiance(tables, {}, tables.phases, {height, mu, mu_s}, nu, hits_ground);
+}
+
+NodeValues lookup_changed_radiance(const AtmosphereTables& tables,
+                                   std::span<const WeightedTables> changes,
+                                   const PhaseClasses& phases, const TablePlace& from, double nu,
+                                   bool hits_ground) {
+  const TableRay ray(tables, from, nu, hits_ground);
   NodeValues rayleigh_like{};
   std::array<NodeValues, kMostConstituents> values{};
-  const std::span single(values.data(), tables.phases.others.size());
-  for (const double weight : {1 - turn + first, turn - first}) {
-    accumulate(tables.rayleigh_like, u, v, w, weight, rayleigh_like);
-    for (std::size_t c = 0; c < single.size(); ++c)
-      accumulate(tables.single, u, v, w.later(static_cast<int>(c) * s.scattering_r), weight,
-                 single[c]);
-    u.low += s.scattering_mu_s;
-    u.high += s.scattering_mu_s;
-  }
-  return ray.radiance(rayleigh_like, single);
+  const std::span single(values.data(), phases.others.size());
+  accumulate_ray(tables, ray, 1, rayleigh_like, single);
+  for (const WeightedTables& change : changes)
+    accumulate_ray(change.tables, ray, change.weight, rayleigh_like, single);
+  return ray.radiance(rayleigh_like, single, phases);
 }
 
 NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double mu, double mu_s,
@@ -217,7 +233,7 @@ NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double m
   for (std::size_t c = 0; c < single.size(); ++c)
     accumulate(tables.sky_rays.aerosol, u, v, w.later(static_cast<int>(c) * texels.rows()), 1,
                single[c]);
-  return ray.radiance(rayleigh_like, single);
+  return ray.radiance(rayleigh_like, single, tables.phases);
 }
 
 }  // namespace skyfit

@@ -4,6 +4,8 @@
 // lie inside the atmosphere.
 #pragma once
 
+#include <span>
+
 #include "model/geometry/sun_disc.h"
 #include "model/tables/tables.h"
 
@@ -34,6 +36,17 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
 // ground is not in it.
 NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
                            double nu, bool hits_ground);
+
+// The same where tables of other sizes, by the same mappings, add their logarithms to those of
+// `tables`, each with its weight. `phases` are those of the atmosphere that results.
+struct WeightedTables {
+  const AtmosphereTables& tables;
+  double weight;
+};
+NodeValues lookup_changed_radiance(const AtmosphereTables& tables,
+                                   std::span<const WeightedTables> changes,
+                                   const PhaseClasses& phases, const TablePlace& from, double nu,
+                                   bool hits_ground);
 
 // The same of a ray that enters at the top and misses the ground, from the tables of
 // SkyRayMapping::kFromOutside; cosines where it enters.

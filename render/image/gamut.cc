@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image/gamut.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/glm.hpp>
 
 #include "render/image/color_matrices.h"
 #include "render/image/oklab.h"
+#include "render/image/view_transform.h"
 
 namespace skyfit {
 namespace {
-
-constexpr int kHalvings = 24;
 
 struct Matrices {
   glm::dmat3 from_xyz, xyz_from;
@@ -35,30 +32,17 @@ const Matrices& matrices_of(const ColorSpace& space) {
   return all[static_cast<std::size_t>(&space - kColorSpaces.data())];
 }
 
-// The largest t in 0..1 for which `color_at(t)` is `good`; at 0 it is.
-template <class ColorAt, class Good>
-ColorChannels last_good(ColorAt&& color_at, Good&& good) {
-  double low = 0, high = 1;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (good(color_at(middle)) ? low : high) = middle;
-  }
-  return color_at(low);
-}
-
-bool in_display(const ColorChannels& color) {
-  return std::ranges::min(color) >= 0 && std::ranges::max(color) <= 1;
-}
+glm::dvec3 vector(const ColorChannels& color) { return {color[0], color[1], color[2]}; }
+ColorChannels channels(const glm::dvec3& color) { return {color.x, color.y, color.z}; }
 
 }  // namespace
 
 glm::dvec3 xyz_of(const ColorChannels& color, const ColorSpace& space) {
-  return matrices_of(space).xyz_from * glm::dvec3(color[0], color[1], color[2]);
+  return matrices_of(space).xyz_from * vector(color);
 }
 
 ColorChannels from_xyz(const glm::dvec3& xyz, const ColorSpace& space) {
-  const glm::dvec3 made = matrices_of(space).from_xyz * xyz;
-  return {made.x, made.y, made.z};
+  return channels(matrices_of(space).from_xyz * xyz);
 }
 
 double luminance_of(const ColorChannels& color, const ColorSpace& space) {
@@ -69,38 +53,30 @@ ColorChannels converted(const ColorChannels& color, const ColorSpace& from, cons
   return &from == &to ? color : from_xyz(xyz_of(color, from), to);
 }
 
+Oklab oklab_of(const ColorChannels& color, const ColorSpace& space) {
+  const glm::dvec3 lab = view_transform::oklab_from(vector(color), matrices_of(space).xyz_from);
+  return {lab.x, lab.y, lab.z};
+}
+
+ColorChannels from_oklab(const Oklab& lab, const ColorSpace& space) {
+  return channels(
+      view_transform::color_from_oklab({lab.l, lab.a, lab.b}, matrices_of(space).from_xyz));
+}
+
 ColorChannels into_gamut(const ColorChannels& color, double luminance, const ColorSpace& space) {
-  if (std::ranges::min(color) >= 0) return color;
-  if (!(luminance > 0)) return {};
-  const Oklab lab = oklab_of(color, space);
-  ColorChannels mapped = last_good(
-      [&](double t) {
-        return from_oklab({1, t * lab.a / lab.l, t * lab.b / lab.l}, space);
-      },
-      [](const ColorChannels& c) { return std::ranges::min(c) >= 0; });
-  *std::ranges::min_element(mapped) = 0;  // but for rounding
-  const double factor = luminance / luminance_of(mapped, space);
-  for (double& channel : mapped) channel *= factor;
-  return mapped;
+  const Matrices& m = matrices_of(space);
+  return channels(view_transform::gamut_mapped(vector(color), luminance, m.from_xyz, m.xyz_from));
 }
 
 ColorChannels into_display(const ColorChannels& color) {
-  // Between the chroma, which 0 would keep, and the lightness.
-  constexpr double kKeepChroma = 0.05;
-  if (in_display(color)) return color;
-  const ColorSpace& display = color_space(Primaries::kRec709);
-  const Oklab lab = oklab_of(color, display);
-  const double off = lab.l - 0.5;
-  const double e = 0.5 + std::abs(off) + kKeepChroma * std::hypot(lab.a, lab.b);
-  const double step = 0.5 * (e - std::sqrt(std::max(e * e - 2 * std::abs(off), 0.0)));
-  const double grey = std::clamp(0.5 + std::copysign(step, off), 0.0, 1.0);
-  ColorChannels mapped = last_good(
-      [&](double t) {
-        return from_oklab({grey + t * (lab.l - grey), t * lab.a, t * lab.b}, display);
-      },
-      in_display);
-  for (double& channel : mapped) channel = std::clamp(channel, 0.0, 1.0);  // but for rounding
-  return mapped;
+  const Matrices& m = matrices_of(color_space(Primaries::kRec709));
+  return channels(view_transform::display_mapped(vector(color), m.from_xyz, m.xyz_from));
+}
+
+ColorChannels displayed(const ColorChannels& color, double luminance, double curved_luminance) {
+  const Matrices& m = matrices_of(color_space(Primaries::kRec709));
+  return channels(view_transform::displayed(vector(color), luminance, curved_luminance, m.from_xyz,
+                                            m.xyz_from));
 }
 
 }  // namespace skyfit

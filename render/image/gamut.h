@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that a colour space or a display cannot hold. What is changed keeps its hue, the angle in
 // the plane a, b of Oklab (render/image/oklab.h): along a straight line to white in linear light,
-// blue becomes purple and orange becomes yellow.
+// blue becomes purple and orange becomes yellow. render/shaders/view_transform.glsl has the
+// formulas.
 #pragma once
 
 #include <array>
@@ -25,5 +26,8 @@ ColorChannels into_gamut(const ColorChannels& color, double luminance, const Col
 // negative. What is brighter loses chroma, and little lightness: Ottosson 2021, "sRGB gamut
 // clipping", towards a grey that depends on lightness and chroma.
 ColorChannels into_display(const ColorChannels& color);
+
+// The same of light whose luminance a tone curve has changed.
+ColorChannels displayed(const ColorChannels& color, double luminance, double curved_luminance);
 
 }  // namespace skyfit

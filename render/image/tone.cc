@@ -8,23 +8,15 @@
 
 #include "render/image/gamut.h"
 #include "render/image/silhouette.h"
+#include "render/image/view_transform.h"
 
 namespace skyfit {
 namespace {
 
-// Narkowicz 2015, a fit of the ACES film curve; 0 to 0, about 0.8 at 1.
-double film(double x) {
-  x *= 0.8;
-  return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-}
-
 double curved(double x, ToneCurve curve) {
   if (curve == ToneCurve::kClip) return std::clamp(x, 0.0, 1.0);
-  return curve == ToneCurve::kFilmic ? film(x) : 1 - std::exp(-std::max(x, 0.0));
-}
-
-double srgb_transfer(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return curve == ToneCurve::kFilmic ? view_transform::film_curve(x)
+                                     : 1 - std::exp(-std::max(x, 0.0));
 }
 
 // Uniform in 0..1 from a pixel and channel, without a visible pattern.
@@ -101,16 +93,13 @@ void smooth_silhouette(const Frame& frame, std::vector<ColorChannels>& light) {
 }  // namespace
 
 ColorChannels display_light(const ColorChannels& scene, const ToneOptions& tone) {
-  ColorChannels light = scene;
   if (tone.transform == ViewTransform::kChannels) {
+    ColorChannels light = scene;
     for (double& channel : light) channel = std::min(curved(channel, tone.curve), 1.0);
     return light;
   }
   const double luminance = luminance_of(scene, color_space(Primaries::kRec709));
-  if (!(luminance > 0)) return {};
-  const double factor = curved(luminance, tone.curve) / luminance;
-  for (double& channel : light) channel *= factor;
-  return into_display(light);
+  return displayed(scene, luminance, curved(luminance, tone.curve));
 }
 
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone) {
@@ -124,7 +113,7 @@ std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& ton
   tbb::parallel_for(std::size_t{0}, bytes.size(), [&](std::size_t i) {
     const auto index = static_cast<std::uint32_t>(i);
     const double noise = white_noise(2 * index) - white_noise(2 * index + 1);
-    const double level = 255 * srgb_transfer(light[i / 3][i % 3]) + 0.5 + noise;
+    const double level = 255 * view_transform::srgb_transfer(light[i / 3][i % 3]) + 0.5 + noise;
     bytes[i] = static_cast<std::uint8_t>(std::clamp(std::floor(level), 0.0, 255.0));
   });
   return bytes;

@@ -9,11 +9,23 @@
 #include "model/shared/phase.glsl"
 #include "model/shared/mapping.glsl"
 
-layout(binding = 0) uniform sampler2D optical_depth_table;
-layout(binding = 1) uniform sampler2D irradiance_table;
-layout(binding = 2) uniform sampler3D rayleigh_like_table;
-layout(binding = 3) uniform sampler3D single_table;  // the classes of phase functions one after the other along z
-layout(binding = 4) uniform sampler2D phase_table;   // logarithm of tabulated phase functions, a class in a row
+BINDING(0) uniform sampler2D optical_depth_table;
+BINDING(1) uniform sampler2D irradiance_table;
+BINDING(2) uniform sampler3D rayleigh_like_table;
+BINDING(3) uniform sampler3D single_table;  // the classes of phase functions one after the other along z
+BINDING(4) uniform sampler2D phase_table;   // logarithm of tabulated phase functions, a class in a row
+
+#ifdef CHANGES
+// What other values of parameters add to the logarithms of all these, by the same mappings in fewer texels: see
+// render/page/changes.h. CHANGE_SIZE and CHANGE_HEIGHTS are as SCATTERING_SIZE and SCATTERING_HEIGHTS.
+uniform sampler2D optical_depth_change;
+uniform sampler2D irradiance_change;
+uniform sampler3D rayleigh_like_change;
+uniform sampler3D single_change;
+uniform sampler2D phase_change;
+const vec4 change_size = vec4(CHANGE_SIZE);
+const float change_heights = float(CHANGE_HEIGHTS);
+#endif
 
 const int kClasses = CLASSES;  // of phase functions but the Rayleigh-like one, model/tables/phase_classes.h
 
@@ -39,8 +51,8 @@ CONSTANTS(0, Atmosphere, ATMOSPHERE_CONSTANTS)
 const int kPhaseTypes[CLASSES] = int[CLASSES](PHASE_TYPES);  // PhaseType of model/atmosphere/constituent.h
 const int kLobeTypes[CLASSES] = int[CLASSES](LOBE_TYPES);
 
-const float bottom_km = BOTTOM_KM;
-const float thickness_km = THICKNESS_KM;
+const float bottom_km = float(BOTTOM_KM);
+const float thickness_km = float(THICKNESS_KM);
 const vec2 optical_depth_size = vec2(OPTICAL_DEPTH_SIZE);
 const vec2 irradiance_size = vec2(IRRADIANCE_SIZE);
 const vec4 scattering_size = vec4(SCATTERING_SIZE);  // mu_s, azimuth, rays to the ground, rays to the sky
@@ -50,6 +62,12 @@ const float scattering_heights = float(SCATTERING_HEIGHTS);
 const float kSunRadius = SUN_RADIUS;
 const float kSunSolidAngle = SUN_SOLID_ANGLE;
 const vec2 kLimbDarkening = vec2(LIMB_DARKENING);
+
+// Of the disc at a distance from its centre in its radii, over its mean.
+float disc_brightness(float distance) {
+  float fall = 1.0 - sqrt(1.0 - distance * distance);  // 1 - mu
+  return (1.0 - dot(kLimbDarkening, vec2(fall, fall * fall))) / (1.0 - dot(kLimbDarkening, vec2(1.0 / 3.0, 1.0 / 6.0)));
+}
 
 #ifdef EXACT_FILTER
 // GPUs interpolate in steps of 1/256 of a texel, too coarse where neighbouring points are subtracted.
@@ -82,8 +100,13 @@ vec4 class_phase(int c, float nu) {
   vec4 p = phase_parameters[c];
   if (kPhaseTypes[c] == 2) return vec4(two_lobe_phase(kLobeTypes[c], p.y, p.z, p.w, nu));
   if (kPhaseTypes[c] == 3 || kPhaseTypes[c] == 5 || kPhaseTypes[c] == 6) {
-    float u = texture_from_unit(acos(clamp(nu, -1.0, 1.0)) * kInversePi, float(textureSize(phase_table, 0).x));
-    return exp(texture(phase_table, vec2(u, (float(c) + 0.5) / float(kClasses))));
+    float angle = acos(clamp(nu, -1.0, 1.0)) * kInversePi, v = (float(c) + 0.5) / float(kClasses);
+    float u = texture_from_unit(angle, float(textureSize(phase_table, 0).x));
+    vec4 logarithm = texture(phase_table, vec2(u, v));
+#ifdef CHANGES
+    logarithm += texture(phase_change, vec2(texture_from_unit(angle, float(textureSize(phase_change, 0).x)), v));
+#endif
+    return exp(logarithm);
   }
   if (kPhaseTypes[c] == 4) return vec4(rayleigh_phase(p.x, nu));
   return vec4(lobe_phase(kPhaseTypes[c], p.x, nu));
@@ -102,10 +125,19 @@ float height_coordinate(float h, float size) {
   return texture_from_unit(unit_from_height(h, thickness_km), size);
 }
 
+// Of two coordinates 0..1, where the second is that of a height.
+vec2 place_in_table(float unit, float h, vec2 size) {
+  return vec2(texture_from_unit(unit, size.x), height_coordinate(h, size.y));
+}
+
 // From the point to the top, for rays that miss the ground.
 vec4 optical_depth_to_top(float h, float mu) {
-  float x = texture_from_unit(unit_from_upward_ray(h, mu, bottom_km, thickness_km), optical_depth_size.x);
-  return look_up(optical_depth_table, vec2(x, height_coordinate(h, optical_depth_size.y)));
+  float unit = unit_from_upward_ray(h, mu, bottom_km, thickness_km);
+  vec4 depth = look_up(optical_depth_table, place_in_table(unit, h, optical_depth_size));
+#ifdef CHANGES
+  depth *= exp(look_up(optical_depth_change, place_in_table(unit, h, vec2(textureSize(optical_depth_change, 0)))));
+#endif
+  return depth;
 }
 
 // The same by the ray's lowest point: of rays that pass near the ground from high above, the table has few.
@@ -135,8 +167,12 @@ float deep_twilight(float sun) { return exp(min((sun - LOWEST_SUN) * 57.3, 0.0))
 // Diffuse, on a horizontal surface that faces up.
 vec4 sky_irradiance(float h, float mu_s) {
   float sun = sun_height(h, mu_s, bottom_km);
-  float x = texture_from_unit(unit_from_sun(sun, LOWEST_SUN), irradiance_size.x);
-  return deep_twilight(sun) * look_up(irradiance_table, vec2(x, height_coordinate(h, irradiance_size.y)));
+  float unit = unit_from_sun(sun, LOWEST_SUN);
+  vec4 irradiance = look_up(irradiance_table, place_in_table(unit, h, irradiance_size));
+#ifdef CHANGES
+  irradiance *= exp(look_up(irradiance_change, place_in_table(unit, h, vec2(textureSize(irradiance_change, 0)))));
+#endif
+  return deep_twilight(sun) * irradiance;
 }
 
 Place place_along(Place from, float nu, float d) {
@@ -197,19 +233,30 @@ TableRay table_ray(Place from, float nu, bool hits_ground) {
                   length_km * deep_twilight(sun));
 }
 
+// What two tables of such texels, as scattering_size and scattering_heights are, hold of a whole ray.
+Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, float heights, Place from, bool hits_ground,
+                      TableRay ray) {
+  float turn = ray.azimuth * (size.y - 1.0);
+  float first = min(floor(turn), size.y - 2.0);
+  float u_sun = texture_from_unit(ray.sun, size.x);
+  vec3 near = vec3((first + u_sun) / size.y,
+                   texture_from_view(from.h, from.mu, hits_ground, size.z, size.w, bottom_km, thickness_km),
+                   height_coordinate(from.h, heights));
+  vec3 far = near + vec3(1.0 / size.y, 0.0, 0.0);
+  return between(look_up_classes(rayleigh_like, single, near), look_up_classes(rayleigh_like, single, far),
+                 turn - first);
+}
+
 // Along the whole ray from a place, to the top or to the ground.
 Scattering scattering(Place from, float nu, bool hits_ground) {
   TableRay ray = table_ray(from, nu, hits_ground);
-  float turn = ray.azimuth * (scattering_size.y - 1.0);
-  float first = min(floor(turn), scattering_size.y - 2.0);
-  float u_sun = texture_from_unit(ray.sun, scattering_size.x);
-  vec3 near = vec3((first + u_sun) / scattering_size.y,
-                   texture_from_view(from.h, from.mu, hits_ground, scattering_size.z, scattering_size.w, bottom_km,
-                                     thickness_km),
-                   height_coordinate(from.h, scattering_heights));
-  vec3 far = near + vec3(1.0 / scattering_size.y, 0.0, 0.0);
-  Scattering means = between(look_up_classes(rayleigh_like_table, single_table, near),
-                             look_up_classes(rayleigh_like_table, single_table, far), turn - first);
+  Scattering means = ray_texels(rayleigh_like_table, single_table, scattering_size, scattering_heights, from,
+                                hits_ground, ray);
+#ifdef CHANGES
+  Scattering change = ray_texels(rayleigh_like_change, single_change, change_size, change_heights, from, hits_ground, ray);
+  means.rayleigh_like += change.rayleigh_like;
+  for (int c = 0; c < kClasses; ++c) means.single[c] += change.single[c];
+#endif
   // The tables hold logarithms of the mean over the ray.
   return scaled(exponential(means), ray.light);
 }

@@ -3,8 +3,15 @@
 // qualifier (`highp` stands for none). A renderer in software looks up a uniform for each pixel anew, ten components in the
 // time of a 2D fetch; an input that is the same at a triangle's three corners is free. With FLAT_CONSTANTS a fragment
 // shader's constants come that way, see pixel_ray.glsl.
-#ifdef FLAT_CONSTANTS
-#define CONSTANTS(BINDING, NAME, MEMBERS) in NAME { MEMBERS(flat) };
+// GLSL ES 3.00 has neither bindings nor such blocks of its programs: there constants are uniforms by their names.
+#ifdef GL_ES
+#define BINDING(UNIT)
+#define CONSTANTS(UNIT, NAME, MEMBERS) MEMBERS(uniform)
 #else
-#define CONSTANTS(BINDING, NAME, MEMBERS) layout(std140, binding = BINDING) uniform NAME { MEMBERS(highp) };
+#define BINDING(UNIT) layout(binding = UNIT)
+#ifdef FLAT_CONSTANTS
+#define CONSTANTS(UNIT, NAME, MEMBERS) in NAME { MEMBERS(flat) };
+#else
+#define CONSTANTS(UNIT, NAME, MEMBERS) layout(std140, binding = UNIT) uniform NAME { MEMBERS(highp) };
+#endif
 #endif

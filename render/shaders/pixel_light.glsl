@@ -47,12 +47,11 @@ vec2 disc(vec3 site_ray, vec3 across, vec3 along, vec3 sun) {
     float cover = clamp((kSunRadius - away) / softness + 0.5, 0.0, 1.0);
     // Where the covered part has its mean; near the limb, which is steep.
     float inside = clamp((away - 0.3 * (1.0 - cover) * softness) / kSunRadius, 0.0, 1.0);
-    float fall = 1.0 - sqrt(1.0 - inside * inside);  // 1 - mu
-    sum += cover * vec2(1.0 - dot(kLimbDarkening, vec2(fall, fall * fall)), 1.0);
+    sum += cover * vec2(disc_brightness(inside), 1.0);
   }
   // An edge that rises evenly over the width w makes a disc larger by w^2 / (12 r^2).
   sum /= 1.0 + softness * softness / (12.0 * kSunRadius * kSunRadius);
-  return sum / float(kSide * kSide) * vec2(1.0 / (1.0 - dot(kLimbDarkening, vec2(1.0 / 3.0, 1.0 / 6.0))), 1.0);
+  return sum / float(kSide * kSide);
 }
 #endif
 

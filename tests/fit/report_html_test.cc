@@ -83,6 +83,19 @@ TEST(ReportPage, NamesOfFiguresDoNotMeet) {
   EXPECT_THAT(html_report(result(), {}, figures), HasSubstr("url(#figure2-b)"));
 }
 
+TEST(ReportPage, LinksTheLiveSkyBesideIt) {
+  const auto document = parsed(html_report(result(), {}, {}, "a \"sky\"#1.html"));
+  const auto find = [&](const char* element) {
+    return document.find_node(
+        [&](pugi::xml_node node) { return node.name() == std::string(element); });
+  };
+  constexpr const char* kUrl = "./a%20%22sky%22%231.html";
+  EXPECT_STREQ(find("a").attribute("href").value(), kUrl);
+  EXPECT_STREQ(find("iframe").attribute("src").value(), kUrl);
+  EXPECT_STREQ(find("iframe").attribute("loading").value(), "lazy");
+  EXPECT_THAT(html_report(result(), {}, {}), Not(HasSubstr("iframe title")));
+}
+
 TEST(ReportPage, TakesNoMarkupFromNames) {
   Result hostile = result();
   hostile.preset.name = "<script>alert(1)</script>";

@@ -2,10 +2,6 @@
 #include "render/gl/atmosphere/atmosphere_tables.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <cmath>
-#include <numbers>
 
 #include "model/atmosphere/optics.h"
 #include "model/atmosphere/parameter_field.h"
@@ -15,6 +11,7 @@
 #include "model/literature/nielsen.h"
 #include "model/literature/oneil.h"
 #include "model/shared/shared.h"
+#include "render/glsl/table_defines.h"
 
 namespace skyfit {
 namespace {
@@ -123,10 +120,8 @@ void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
 
 void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
   std::vector<glm::vec4> parameters;
-  for (const PhaseFunction<double>& phase : tables.phases.others) {
-    parameters.emplace_back(phase.type == PhaseType::kRayleigh ? phase.depolarisation : phase.g,
-                            phase.g1, phase.g2, phase.weight);
-  }
+  for (const auto& p : phase_parameters(tables.phases))
+    parameters.emplace_back(p[0], p[1], p[2], p[3]);
   UniformBlock block(program, "Atmosphere");
   block.set("depolarisation", tables.phases.depolarisation);
   block.set("phase_parameters", std::span<const glm::vec4>(parameters));
@@ -136,38 +131,15 @@ void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuff
 }
 
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
-  const Atmosphere<double>& a = tables.atmosphere;
-  const TableSizes& s = tables.sizes;
-  std::vector<int> phase_types, lobe_types;
-  for (const PhaseFunction<double>& phase : tables.phases.others) {
-    phase_types.push_back(static_cast<int>(phase.type));
-    lobe_types.push_back(static_cast<int>(phase.lobe));
-  }
   const glm::ivec3 sky_view = sky_view_size(tables);
   const Table& sky_rays = tables.sky_rays.air;
-  const int classes = static_cast<int>(tables.phases.others.size());
-  const double sun_radius = a.star.angular_radius_rad();
-  std::vector<std::string> defined = {
-      fmt::format("CLASSES {}", classes),
-      fmt::format("PHASE_TYPES {}", fmt::join(phase_types, ", ")),
-      fmt::format("LOBE_TYPES {}", fmt::join(lobe_types, ", ")),
-      fmt::format("BOTTOM_KM {:.9g}", 1e-3 * a.bottom_radius_m),
-      fmt::format("THICKNESS_KM {:.9g}", 1e-3 * (a.top_radius_m - a.bottom_radius_m)),
-      fmt::format("LOWEST_SUN {:.9g}", kTableLowestSun),
-      fmt::format("SUN_RADIUS {:.9g}", sun_radius),
-      fmt::format("SUN_SOLID_ANGLE {:.9g}",
-                  4 * std::numbers::pi * std::pow(std::sin(0.5 * sun_radius), 2)),
-      fmt::format("LIMB_DARKENING {:.9g}, {:.9g}", a.star.limb_darkening[0],
-                  a.star.limb_darkening[1]),
-      fmt::format("OPTICAL_DEPTH_SIZE {}, {}", s.optical_depth_mu, s.optical_depth_r),
-      fmt::format("IRRADIANCE_SIZE {}, {}", s.irradiance_mu_s, s.irradiance_r),
-      fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
-                  s.scattering_ground, s.scattering_sky),
-      fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r),
-      fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
-      fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
-      fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
-      fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)};
+  std::vector<std::string> defined = table_defines(tables);
+  defined.insert(
+      defined.end(),
+      {fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
+       fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
+       fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
+       fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)});
   if (tables.sky_rays.mapping == SkyRayMapping::kHillaire) {
     using Hillaire = literature::HillaireSizes;
     defined.insert(defined.end(),

@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shader programs from sources that are part of the library. A source may `#include "path"` another
-// one by its path in the repository; each file is read once per program. `model/shared/` formulas
-// find Number and OUT defined.
+// Shader programs from sources that are part of the library, see render/glsl/shader_text.h.
 #pragma once
 
 #include <glad/gl.h>
 
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "render/gl/context/objects.h"
+#include "render/glsl/shader_text.h"
 
 namespace skyfit {
-
-struct ShaderSource {
-  std::string_view path;  // as in #include: "model/shared/phase.glsl"
-  std::string_view text;
-};
-
-// Every .glsl, .vert, .frag and .comp file of render/shaders/ and model/shared/.
-std::span<const ShaderSource> embedded_shaders();
 
 struct ShaderStage {
   GLenum type;  // GL_VERTEX_SHADER ...

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the luminances of a page's tables are from those of the model `reference`.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/geometry/sky_point.h"
+#include "model/photometry/photometry.h"
+#include "model/tables/table_lookup.h"
+
+namespace skyfit {
+
+// Suns 0 to 88 deg and views 5 to 89 deg from the zenith, from one height.
+std::vector<SkyPoint> compared_points(double altitude_m);
+
+// [point], cd/m^2, by luminance_rule().
+std::vector<double> reference_luminances(const Atmosphere<double>& atmosphere,
+                                         const SpectralData& spectra,
+                                         std::span<const SkyPoint> points, int threads);
+
+// [point], cd/m^2, as lookup_changed_radiance() has them.
+std::vector<double> table_luminances(const AtmosphereTables& tables,
+                                     std::span<const WeightedTables> changes,
+                                     const PhaseClasses& phases, std::span<const SkyPoint> points);
+
+// The largest |a / b - 1|.
+double largest_error(std::span<const double> a, std::span<const double> b);
+
+}  // namespace skyfit
