@@ -239,7 +239,7 @@ TEST_F(BadInputTest, ADirectoryWithOtherFilesIsNotTouched) {
 
 TEST_F(BadInputTest, OutputsOfAnotherKind) {
   expect_refusal({"render", "--preset", "earth-clear", "--out", "frame.jpg"},
-                 {"--out", "frame.jpg", ".png or .exr"});
+                 {"--out", "frame.jpg", ".png, .exr or .npy"});
   expect_refusal({"plot", "x", "--out", "figure.gif"},
                  {"--out", "figure.gif", ".svg, .png or .pdf"});
 }
