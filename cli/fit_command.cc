@@ -31,14 +31,21 @@ FinishedFit fit_with_progress(FitRequest& request) {
   return finished_fit(request, *request.model);
 }
 
+refs::Reference reference_of(const FitArguments& arguments, const CLI::App& command) {
+  if (arguments.irradiance.empty()) {
+    return load_references(arguments.reference, arguments.sun_zenith, arguments.sampling,
+                           arguments.import, command);
+  }
+  return load_irradiances(arguments.irradiance, arguments.sun_zenith, arguments.import, command);
+}
+
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
+  if (arguments.reference.empty() == arguments.irradiance.empty())
+    throw UsageError("--reference", arguments.reference, "expected a reference, or --irradiance");
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
   require_netcdf(arguments.netcdf);
-  FitRequest request = fit_request(arguments,
-                                   load_references(arguments.reference, arguments.sun_zenith,
-                                                   arguments.sampling, arguments.import, command),
-                                   command);
+  FitRequest request = fit_request(arguments, reference_of(arguments, command), command);
   const FinishedFit finished = fit_with_progress(request);
   Figures figures;
   out.publish([&](const std::filesystem::path& staging) {
@@ -79,13 +86,21 @@ std::string parameter_list() {
 void add_fit_command(CLI::App& app) {
   const auto options = std::make_shared<FitArguments>();
   CLI::App* const command = app.add_subcommand("fit", "Fits an atmosphere to a reference.");
+  CLI::Option* const reference =
+      command
+          ->add_option(
+              "--reference", options->reference,
+              "Shipped reference (skyfit references) or measured skies, fitted jointly; cie:all\n"
+              "fits each of the standard skies and leaves one table and one figure of all")
+          ->type_name("NAME|FILE,FILE");
   command
       ->add_option(
-          "--reference", options->reference,
-          "Shipped reference (skyfit references) or measured skies, fitted jointly; cie:all\n"
-          "fits each of the standard skies and leaves one table and one figure of all")
-      ->required()
-      ->type_name("NAME|FILE,FILE");
+          "--irradiance", options->irradiance,
+          "Irradiances in the place of a sky: direct_normal, direct_horizontal,\n"
+          "diffuse_horizontal, global_horizontal in lx, or in W/m2 of all wavelengths with\n"
+          "precipitable_water=NUMBERmm; a CSV of them; or FILE@TIME of a weather file")
+      ->type_name("NAME=VALUE[:SIGMA]UNIT,..|FILE.csv|FILE@TIME")
+      ->excludes(reference);
   add_fit_options(*command, *options);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");

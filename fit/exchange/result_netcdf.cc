@@ -20,6 +20,10 @@ std::string unit_of(refs::Quantity quantity) {
       return "cd m-2";
     case refs::Quantity::kSpectralRadiance:
       return "W m-2 sr-1 nm-1";
+    case refs::Quantity::kIlluminance:
+      return "lx";
+    case refs::Quantity::kIrradiance:
+      return "W m-2";
     case refs::Quantity::kRelativeLuminance:
       break;
   }

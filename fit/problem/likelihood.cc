@@ -119,7 +119,9 @@ std::string_view scale_name(Scale scale) {
 }
 
 Link default_link(refs::Quantity quantity) {
-  return quantity == refs::Quantity::kRelativeLuminance ? Link::kLog : Link::kLinear;
+  return quantity == refs::Quantity::kRelativeLuminance || refs::is_irradiance(quantity)
+             ? Link::kLog
+             : Link::kLinear;
 }
 
 Scale default_scale(refs::Quantity quantity) {
