@@ -104,9 +104,8 @@ class Irradiances {
         reference_.scans.size(), reference_.scans.size() == 1 ? "" : "s");
     if (unit_.quantity == Quantity::kIrradiance) {
       note(
-          "the model has no water vapour, carbon dioxide and oxygen: their absorption is the "
-          "broadband one of Bird & Hulstrom 1981, taken from the light beyond 690 nm; illuminances "
-          "need none of it");
+          "the model has no water vapour, carbon dioxide and oxygen: their absorption is that of "
+          "SPECTRL2 (Bird & Riordan 1984), good to 2 % of the beam; illuminances need none of it");
     }
     return std::move(reference_);
   }

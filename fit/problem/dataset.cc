@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "data_refs/gas_absorption.h"
 #include "model/photometry/broadband.h"
 
 namespace skyfit::fit {
@@ -81,7 +82,8 @@ void add_broadband_channels(Dataset& data, const refs::Reference& reference,
           reference.name, info.name));
     }
     const BroadbandRule rule =
-        broadband_rule(spectra, info.sun_zenith, *reference.scans[number].precipitable_water_mm);
+        broadband_rule(spectra, refs::standard_gas_absorption(), info.sun_zenith,
+                       *reference.scans[number].precipitable_water_mm);
     data.nodes = rule.nodes;
     Channel channel{0, {}, rule.weight};
     for (std::size_t k = 0; k < rule.nodes.size(); ++k) channel.node.push_back(static_cast<int>(k));

@@ -295,7 +295,8 @@ std::string scan_name(const Result& result, std::size_t scan) {
 
 std::string samples_text(const Result& result) {
   if (refs::is_irradiance(result.reference.quantity))
-    return fmt::format("{} under {} suns", result.samples, result.scans.size());
+    return fmt::format("{} under {} sun{}", result.samples, result.scans.size(),
+                       result.scans.size() == 1 ? "" : "s");
   return fmt::format("{} in {} directions of {} scans, {:.4g} deg around the sun left out",
                      result.samples, result.directions, result.scans.size(),
                      result.exclude_sun * kDegreesPerRadian);
@@ -352,9 +353,14 @@ std::string sigma_text(const Result& result) {
   for (const PolarisationErrors& errors : result.polarisation) readings += errors.readings;
   if (result.likelihood.noise_is_known) {
     text = fmt::format(
-        "One sigma is from the known noise ({:.3g} % root mean square) and the priors; chi^2 per "
-        "degree of\nfreedom = {:.4g} (well above 1: the misfit is larger than the noise).\n",
-        result.sigma_percent, result.chi_square_per_dof);
+        "One sigma is from the known noise ({:.3g} % root mean square) and the priors; {}.\n",
+        result.sigma_percent,
+        std::isfinite(result.chi_square_per_dof)
+            ? fmt::format(
+                  "chi^2 per degree of\nfreedom = {:.4g} (well above 1: the misfit is larger "
+                  "than the noise)",
+                  result.chi_square_per_dof)
+            : "there are no more\nsamples than unknowns, so that chi^2 says nothing");
   } else {
     text = fmt::format(
         "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "

@@ -13,7 +13,7 @@ namespace skyfit::plot {
 namespace {
 
 constexpr double kHeader = 92, kFooter = 62, kColumn = 330, kValues = 260, kRatios = 170,
-                 kLeft = 74, kGap = 50;
+                 kLeft = 92, kGap = 62;
 
 // "direct normal"
 std::string words_of(std::string_view name) {
@@ -82,9 +82,9 @@ Figure irradiances_figure(const MeasuredOutcome& outcome) {
   script.begin_axes({0, 0, width, height});
   script.text_label(16, height - 24, "Irradiances, " + short_name(outcome.title),
                     "left font ',18'");
-  script.text_label(20, kFooter + kRatios + kValues / 2, outcome.irradiance_unit,
+  script.text_label(16, kFooter + kRatios + kValues / 2, outcome.irradiance_unit,
                     "center rotate by 90 font ',13'");
-  script.text_label(20, kFooter + kRatios / 2 - kGap / 4, "model / measured − 1, %",
+  script.text_label(16, kFooter + kRatios / 2 - kGap / 4, "model / measured − 1, %",
                     "center rotate by 90 font ',13'");
   script.text_label(width / 2, 18, "sun zenith, °", "center font ',13'");
   draw_legend(script,

@@ -5,11 +5,13 @@
 
 #include <cmath>
 
+#include "data_refs/gas_absorption.h"
 #include "data_refs/irradiance.h"
 #include "fit/fit.h"
 #include "fit/problem/free_parameters.h"
 #include "fit/problem/problem.h"
 #include "model/photometry/broadband.h"
+#include "model/registry.h"
 #include "tests/fit/synthetic.h"
 
 namespace skyfit::fit {
@@ -31,6 +33,12 @@ Eigen::VectorXd values_of(const refs::Reference& reference, const Atmosphere<dou
   return sky_values(ToySky(), data, start_state(atmosphere, 1), {}).value;
 }
 
+const Parameter kOpticalDepth("mie", Quantity::kOpticalDepth);
+
+std::unique_ptr<SkyModel> scalar_reference() {
+  return make_sky_model("reference", refs::standard_spectral_data(), 2, Transfer::kScalar);
+}
+
 const char* const kLux = "direct=80000lx,direct_horizontal=60000lx,diffuse=15000lx,global=75000lx";
 const char* const kWatts =
     "direct=800W/m2,direct_horizontal=600W/m2,diffuse=100W/m2,global=700W/m2,"
@@ -42,7 +50,8 @@ TEST(IrradianceFit, ValuesAreTheWeightedSumsOfTheModelsIrradiances) {
   for (const char* const text : {kLux, kWatts}) {
     const bool lux = text == kLux;
     const LuminanceRule luminance = luminance_rule(spectra);
-    const BroadbandRule broadband = broadband_rule(spectra, 40 * kDegree, 14);
+    const BroadbandRule broadband =
+        broadband_rule(spectra, refs::standard_gas_absorption(), 40 * kDegree, 14);
     const auto& nodes = lux ? luminance.nodes : broadband.nodes;
     const auto& weight = lux ? luminance.weight : broadband.weight;
     const SkyValues light = ToySky().irradiance(atmosphere, nodes, 0, 40 * kDegree, {});
@@ -85,32 +94,52 @@ TEST(IrradianceFit, DerivativesEqualCentralDifferences) {
 
 // The defaults: the logarithm, a known noise of 5 %, optical depth and single scattering albedo.
 TEST(IrradianceFit, BeamAndSkyGiveBackOpticalDepthAndSingleScatteringAlbedo) {
-  const ToySky model;
+  const auto model = scalar_reference();
   FitOptions options;
   options.use_priors = false;
   refs::Reference reference = reference_of("direct=80000lx,diffuse=15000lx");
   const Problem problem =
-      make_problem(reference, refs::standard_spectral_data(), model, as_pointed(options));
+      make_problem(reference, refs::standard_spectral_data(), *model, as_pointed(options));
   ASSERT_EQ(problem.unknowns.size(), 2u);
   EXPECT_EQ(problem.unknowns[0].name(), "mie.optical_depth");
   EXPECT_EQ(problem.unknowns[1].name(), "mie.single_scattering_albedo");
   EXPECT_EQ(problem.likelihood.link, Link::kLog);
   EXPECT_EQ(problem.likelihood.scale, Scale::kFixed);
   EXPECT_TRUE(problem.likelihood.noise_is_known);
-  Atmosphere<double> truth = problem.start.atmosphere.front();
-  const Parameter depth("mie", Quantity::kOpticalDepth);
-  set_parameter(truth, depth, 0.31);
-  set_parameter(truth, Parameter::kMieSingleScatteringAlbedo, 0.88);
-  const Eigen::VectorXd values = values_of(reference, truth);
-  for (std::size_t i = 0; i < 2; ++i) reference.samples[i].value = values(i);
-  const Result result = fit_atmosphere(reference, refs::standard_spectral_data(), model, options);
+  SkyState truth = problem.start;
+  set_parameter(truth.atmosphere[0], kOpticalDepth, 0.31);
+  set_parameter(truth.atmosphere[0], Parameter::kMieSingleScatteringAlbedo, 0.88);
+  const Eigen::VectorXd values = sky_values(*model, problem.fitted, truth, {}).value;
+  for (std::size_t i = 0; i < 2; ++i)
+    reference.samples[i].value = values(static_cast<Eigen::Index>(i));
+  const Result result = fit_atmosphere(reference, refs::standard_spectral_data(), *model, options);
   constexpr double kSolver = 1e-4;  // of a fit without noise
   EXPECT_NEAR(result.unknown("mie.optical_depth").fitted, 0.31, kSolver);
   EXPECT_NEAR(result.unknown("mie.single_scattering_albedo").fitted, 0.88, kSolver);
+  EXPECT_TRUE(result.unknown("mie.optical_depth").identifiable);
   EXPECT_LT(result.errors.luminance, 0.01);
-  // One beam with 5 % of noise: sigma of tau is 5 % over the air mass, 1 / cos 40 deg.
-  const double air_mass = 1 / std::cos(40 * kDegree);
-  EXPECT_NEAR(result.unknown("mie.optical_depth").sigma * air_mass / 0.05, 1, 0.05);
+  // A beam with 5 % of noise: one sigma of the optical depth is 5 % over the air mass; that of the
+  // light's mean wavelength is within a tenth of that at 550 nm.
+  const double sigma = 0.05 * std::cos(40 * kDegree);
+  EXPECT_NEAR(result.unknown("mie.optical_depth").sigma / sigma, 1, 0.1);
+}
+
+// ASTM G173-03: direct and circumsolar light of air mass 1.5, optical depth 0.084 at 500 nm (rural
+// aerosol), ozone 343.8 DU, precipitable water 14.16 mm: 900.1 W/m^2.
+TEST(IrradianceFit, TheBeamOfTheStandardSpectrumComesOutWithinTwoPercent) {
+  constexpr double kTable = 900.1, kRuralExponent = 1.14;
+  const auto model = scalar_reference();
+  FitOptions options;
+  options.fix = {{Parameter::kOzoneColumn, 343.8},
+                 {Parameter::kMieAngstromExponent, kRuralExponent}};
+  const refs::Reference reference = refs::irradiance_reference(
+      "direct=900.1W/m2,precipitable_water=14.16mm", std::acos(1 / 1.5), {});
+  const Problem problem =
+      make_problem(reference, refs::standard_spectral_data(), *model, as_pointed(options));
+  SkyState state = problem.start;
+  set_parameter(state.atmosphere[0], kOpticalDepth, 0.084 * std::pow(550.0 / 500, -kRuralExponent));
+  const double beam = sky_values(*model, problem.fitted, state, {}).value(0);
+  EXPECT_NEAR(beam / kTable, 1, 0.02);
 }
 
 TEST(IrradianceFit, TheBeamAloneTellsTheOpticalDepthAlone) {
