@@ -116,14 +116,16 @@ void add_fit_command(CLI::App& app) {
       "\n"
       "What is fitted by default depends on the quantity of the reference alone: a relative\n"
       "luminance with --link log --scale profiled --pointing stated, an absolute luminance or a\n"
-      "spectral radiance with --link linear --scale fixed --pointing azimuth. Columns q_over_i "
-      "and\n"
+      "spectral radiance with --link linear --scale fixed --pointing azimuth, irradiances with\n"
+      "--link log --scale fixed and a known noise of 5 % or as stated, only the aerosol's optical\n"
+      "depth and, of two kinds or more, its single scattering albedo free. Columns q_over_i and\n"
       "u_over_i, or dolp, of a CSV of samples are fitted beside them, linear and without a scale.\n"
       "\n" +
       standard_sky_list() + "\n" + parameter_list() +
       "\nExamples:\n"
       "  skyfit fit --reference cie:12 --out fitted\n"
       "  skyfit fit --reference cie:all --out skies\n"
+      "  skyfit fit --irradiance direct=96000lx,diffuse=13500lx --sun-zenith-deg 32 --out fitted\n"
       "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted\n"
       "  skyfit fit --reference 0930.csv,1030.csv --exclude-sample 0 --per-scan mie.scattering "
       "--out day");

@@ -240,7 +240,12 @@ Reference of_values(std::string_view text, std::optional<double> sun_zenith,
     fail(text, fmt::format("no irradiance, expected one of {}", fmt::join(kIrradianceNames, ", ")));
   ImportOptions facts = options;
   const bool has_site = options.local_time && options.latitude_deg && options.longitude_deg;
-  if (sun_zenith && !has_site) facts.sun_zenith_deg = *sun_zenith * kDegreesPerRadian;
+  if (!sun_zenith && !has_site) {
+    fail("irradiances",
+         "the sun is not known: expected sun_zenith_deg, or local_time, latitude_deg and "
+         "longitude_deg");
+  }
+  if (!has_site) facts.sun_zenith_deg = *sun_zenith * kDegreesPerRadian;
   Irradiances irradiances("irradiances", *unit);
   irradiances.add(row, sun_of_scan(facts, "irradiances", false), "irradiances");
   return irradiances.finish();

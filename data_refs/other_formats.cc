@@ -44,7 +44,7 @@ constexpr std::array<OtherFormat, 11> kFormats = {{
      "is XML or HTML; skyfit reads skies as text tables and images"},
     {R"(^\s*[{\[])",
      "is JSON; skyfit reads presets as --preset and skies as text tables and images"},
-    {R"(^\s*(#[^\n]*\n)*[^#\n]*irradiance)",
+    {R"(^\s*(#[^\n]*\n)*[^#\n]*(irradiance|(direct|diffuse|global)_(normal|horizontal)_(lx|w_m2)))",
      "is a table of irradiances, which have no directions; skyfit reads radiances and luminances "
      "of directions, and irradiances by fit --irradiance"},
     {R"(^netcdf\s|^CDF)", "is netCDF; skyfit reads skies as text tables and images, not yet these"},

@@ -161,7 +161,7 @@ void add_errors(xml_node body, const Result& result) {
   row("all scans, fitted", result.errors);
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     row(scan_name(result, s), result.scans[s].errors);
-  add(body, "p", errors_meaning(), "small");
+  add(body, "p", errors_meaning(result), "small");
   if (result.polarisation.empty()) return;
   xml_node readings = add_table(
       body, {"Polarisation, RMS in percentage points", "readings", "start", "fitted", "one sigma"});

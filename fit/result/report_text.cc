@@ -76,7 +76,7 @@ std::string errors_text(const Result& result) {
   text += row("all scans, fitted", result.errors);
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     text += row(scan_name(result, s), result.scans[s].errors);
-  return text + errors_meaning() + "\n";
+  return text + errors_meaning(result) + "\n";
 }
 
 std::string polarisation_text(const Result& result) {
@@ -308,11 +308,13 @@ std::string value_name(const Result& result) {
                          : "luminance");
 }
 
-std::string errors_meaning() {
-  return "RMS of log: root mean square of ln(model / value) with a free scale per scan; luminance: "
-         "of\nmodel / value - 1 over the directions; spectral: |model - value| over |value|, "
-         "2-norms "
-         "over all\nsamples of 400 to 700 nm.\n";
+std::string errors_meaning(const Result& result) {
+  return fmt::format(
+      "RMS of log: root mean square of ln(model / value) with a free scale per scan; {}: of\n"
+      "model / value - 1 over the {}; spectral: |model - value| over |value|, 2-norms over all\n"
+      "samples of 400 to 700 nm.\n",
+      value_name(result),
+      refs::is_irradiance(result.reference.quantity) ? "samples" : "directions");
 }
 
 std::string hold_outs_meaning() {

@@ -28,7 +28,7 @@ std::string_view polarisation_name(refs::Polarisation what);
 // What one sigma is made of; lines of at most 100 columns.
 std::string sigma_text(const Result& result);
 // What "RMS of log", "luminance", "spectral" and "own" errors are.
-std::string errors_meaning();
+std::string errors_meaning(const Result& result);
 std::string hold_outs_meaning();
 // A sentence for each prior that the misfit overrides; the same lines.
 std::vector<std::string> pulled_priors(const Result& result);

@@ -59,6 +59,11 @@ Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits,
   if (fits.size() != 1 && !figure.takes_several)
     throw std::invalid_argument(
         fmt::format("figure: {} fits of measured skies: expected 1 for this figure", fits.size()));
+  const bool of_directions = figure.can_draw == has_directions;
+  if (of_directions && std::ranges::any_of(fits, has_irradiances)) {
+    throw std::invalid_argument(fmt::format(
+        "figure {}: irradiances have no directions: expected the figure irradiances", figure.name));
+  }
   return figure.draw(fits, scan);
 }
 

@@ -68,6 +68,13 @@ TEST_F(IrradianceReference, ACsvHasALineForEachSun) {
   EXPECT_TRUE(night_is_noted);
 }
 
+TEST_F(IrradianceReference, TheExampleCloses) {
+  const Reference r = irradiance_reference(SKYFIT_EXAMPLES "irradiances.csv", {}, {});
+  EXPECT_EQ(r.scans.size(), 5u);
+  EXPECT_EQ(r.samples.size(), 15u);
+  EXPECT_TRUE(r.notes.empty());
+}
+
 TEST_F(IrradianceReference, AnHourOfAWeatherFileBringsItsSunAndItsWater) {
   const std::string file = file_of(
       "LOCATION,Somewhere,CO,USA,made up,1,40.0,-105.0,-7.0,1800\n"
@@ -111,7 +118,8 @@ TEST_F(IrradianceReference, WhatIsWrongIsNamed) {
   EXPECT_THAT(message_of("direct=many lx"), HasSubstr("expected NAME=VALUE[:SIGMA]UNIT"));
   EXPECT_THAT(message_of("direct=0lx"), HasSubstr("expected a value > 0"));
   EXPECT_THAT(message_of("direct=8000:0lx"), HasSubstr("sigma = 0: expected a number > 0"));
-  EXPECT_THAT(message_of("direct=80000lx", {}), HasSubstr("sun"));
+  EXPECT_THAT(message_of("direct=80000lx", {}),
+              HasSubstr("the sun is not known: expected sun_zenith_deg, or local_time"));
   EXPECT_THAT(message_of(file_of("sun_zenith_deg,view\n40,1\n")),
               HasSubstr("irradiances.csv:1: expected a column NAME_lx or NAME_w_m2"));
   EXPECT_THAT(message_of(file_of("sun_zenith_deg,direct_normal_lx\n40,bright\n")),

@@ -121,6 +121,15 @@ TEST(RadianceSky, IsAReferenceWithItsOwnSun) {
   EXPECT_FALSE(is_radiance_sky_file((directory.path() / "none.rad").string()));
 }
 
+TEST(RadianceSky, TheExampleIsThePerezSkyThatItSays) {
+  constexpr double kSixDigits = 2e-5;
+  const Reference scene = load_reference(SKYFIT_EXAMPLES "gendaylit.rad", {}, Sampling::kTregenza),
+                  perez = load_reference("perez:6.3,0.12", {kSun}, Sampling::kTregenza);
+  const double scale = scene.samples[144].value / perez.samples[144].value;
+  for (std::size_t i = 0; i < 145; ++i)
+    EXPECT_NEAR(scene.samples[i].value / perez.samples[i].value / scale, 1, kSixDigits) << i;
+}
+
 TEST(RadianceSky, WhatIsWrongIsNamedByLine) {
   const auto message = [](const std::string& text) {
     return complaint_of([&] { parse_radiance_sky(text, "sky.rad"); });
