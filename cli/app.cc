@@ -54,6 +54,17 @@ void add_commands(CLI::App& app) {
          "else "
          "only those in the folder of the file that names them")
       ->trigger_on_parse();
+  const auto add_verbosity = [&](const char* name, Verbosity chosen, const char* meaning) {
+    return app
+        .add_flag_callback(
+            name, [chosen] { verbosity() = chosen; }, meaning)
+        ->trigger_on_parse();
+  };
+  auto* const quiet = add_verbosity("-q,--quiet", Verbosity::kQuiet,
+                                    "No progress and no warnings; errors and results stay");
+  add_verbosity("-v,--verbose", Verbosity::kVerbose,
+                "Tell begin and end of long work where there is no terminal")
+      ->excludes(quiet);
   add_fit_command(app);
   add_report_command(app);
   add_campaign_command(app);

@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "model/base/content_cache.h"
 #include "model/base/process.h"
 #include "model/base/text.h"
 #include "model/version.h"
@@ -40,12 +41,26 @@ std::string renderer_of(GraphicsDevice device) {
   return "draws";
 }
 
+// Where the cache is and how large; that there is none is no fault.
+std::string cache_line() {
+  const auto directory = user_cache_directory();
+  if (!directory) return fmt::format("none    cache of frames: {}\n", kNoCachePlace);
+  constexpr double kMegabyte = 1e6;
+  const ContentCache cache(*directory);
+  const ContentCache::Usage usage = cache.usage();
+  return fmt::format("ok      cache of frames: {}, {} entries, {:.1f} MB of at most {:.0f} MB\n",
+                     printable(directory->string()), usage.entries,
+                     static_cast<double>(usage.bytes) / kMegabyte,
+                     static_cast<double>(cache.limit_bytes()) / kMegabyte);
+}
+
 void run_doctor() {
   print(fmt::format("skyfit {}\n", kVersion));
   bool well = examine("figures (gnuplot)", [] { return program_version("gnuplot", "--version"); });
   well &= examine("frames, software", [] { return renderer_of(GraphicsDevice::kSoftware); });
   examine("frames by EGL, a GPU or Mesa (--gpu)", [] { return renderer_of(GraphicsDevice::kGpu); });
   examine("videos (ffmpeg)", [] { return program_version("ffmpeg", "-version"); });
+  print(cache_line());
   if (!well) throw std::runtime_error("something that skyfit needs is missing");
 }
 

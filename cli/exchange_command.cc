@@ -33,6 +33,8 @@ void run_export(const ExportArguments& arguments) {
   } catch (const std::invalid_argument& unknown) {
     throw UsageError("--to", arguments.to, unknown.what());
   }
+  if (is_stdout(arguments.out) && program->writes_beside)
+    throw UsageError("--out", arguments.out, "expected a file: others are written beside it");
   require_output_files({arguments.out}, {std::string(program->extension)});
   const double sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 90),
                sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
@@ -84,28 +86,31 @@ struct ImportFileArguments {
 void run_import(const ImportFileArguments& arguments) {
   constexpr std::size_t kMostBytes = 1 << 20;
   if (!arguments.out.empty()) require_output_files({arguments.out}, {".json"});
-  const std::string text =
-      read_file(arguments.file, "the parameters of another program", kMostBytes);
+  constexpr std::string_view kExpected = "the parameters of another program";
+  const bool piped = arguments.file == "-";
+  const std::string file = piped ? "stdin" : arguments.file,
+                    text = piped ? read_stdin(kExpected, kMostBytes)
+                                 : read_file(arguments.file, kExpected, kMostBytes);
   for (const fit::Program& program : fit::readable_programs()) {
     std::vector<std::string> notes;
-    const auto read = program.read(text, arguments.file, notes);
+    const auto read = program.read(text, file, notes);
     if (!read) continue;
     Preset preset{std::string(program.name), *read, nullptr,
                   fmt::format("Imported from {}", program.meaning)};
     try {
       validate(preset.atmosphere);
     } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(fmt::format("{}: as a preset: {}", arguments.file, error.what()));
+      throw std::invalid_argument(fmt::format("{}: as a preset: {}", file, error.what()));
     }
     const std::string json = preset_to_json(preset);
-    for (const std::string& note : notes) warn(fmt::format("{}: {}", arguments.file, note));
+    for (const std::string& note : notes) warn(fmt::format("{}: {}", file, note));
     if (arguments.out.empty()) return print(json);
     return write_whole_file(arguments.out, json);
   }
   throw std::invalid_argument(
       fmt::format("{}: not recognised, expected the parameters of one of the programs that `skyfit "
                   "import --help` lists",
-                  arguments.file));
+                  file));
 }
 
 }  // namespace

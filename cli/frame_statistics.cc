@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+
+#include "cli/output.h"
+#include "model/base/text.h"
 
 namespace skyfit::cli {
 namespace {
@@ -60,6 +64,14 @@ std::string StatisticsTable::medians() const {
   std::vector<double> values;
   for (const std::vector<double>& column : columns_) values.push_back(median(column));
   return line("median", values);
+}
+
+void print_statistics(const std::string& lines, const TimeAccount& time,
+                      const RenderRequest& request) {
+  print(lines + time.table());
+  if (!request.cache_trouble.empty() || (request.cache && request.cache->trouble()))
+    fmt::print(stderr, "skyfit: no cache: {}\n",
+               request.cache ? printable(*request.cache->trouble()) : request.cache_trouble);
 }
 
 }  // namespace skyfit::cli

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/render_request.h"
+#include "cli/time_account.h"
 #include "render/render.h"
 
 namespace skyfit::cli {
@@ -23,5 +25,9 @@ class StatisticsTable {
   std::vector<std::string> passes_;
   std::vector<std::vector<double>> columns_;  // since the last head
 };
+
+// Prints the table's lines and the wall time, and on stderr what kept the run from its cache.
+void print_statistics(const std::string& lines, const TimeAccount& time,
+                      const RenderRequest& request);
 
 }  // namespace skyfit::cli

@@ -55,6 +55,11 @@ void expect_no_other_program(const std::string& file) {
 }  // namespace
 
 Preset preset_named(const std::string& name_or_file) {
+  if (name_or_file == "-") {
+    static const std::string text = read_stdin("a preset");
+    if (text.empty()) throw std::runtime_error("stdin: is empty, expected a preset");
+    return parse_preset(text, "stdin", refs::load_table_csv, named_files());
+  }
   const std::vector<std::string> shipped = refs::shipped_preset_names();
   if (std::ranges::count(shipped, name_or_file) > 0) {
     return parse_preset(refs::shipped_preset_json(name_or_file), name_or_file);

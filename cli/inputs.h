@@ -22,8 +22,8 @@ namespace skyfit::cli {
 NamedFiles& named_files();
 
 // A shipped preset's name or the path of a preset file; a shipped name wins over a file of that
-// name (write ./name for the file). Throws std::invalid_argument or std::runtime_error with one
-// line, which lists the names for neither.
+// name (write ./name for the file), and "-" is the standard input. Throws std::invalid_argument or
+// std::runtime_error with one line, which lists the names for neither.
 Preset preset_named(const std::string& name_or_file);
 
 // The pressure that takes the place of the preset's; nothing when the option is not given. Throws

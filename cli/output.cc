@@ -28,6 +28,8 @@ std::string either(const std::vector<std::string>& words) {
   return fmt::format("{} or {}", fmt::join(words.begin(), last, ", "), *last);
 }
 
+bool stdout_is_taken = false;  // by a file of --out
+
 [[noreturn]] void fail_stdout() {
   throw std::runtime_error(
       fmt::format("stdout: not everything could be written: {}", std::strerror(errno)));
@@ -43,6 +45,12 @@ void require_output_files(const std::vector<std::string>& files,
       throw UsageError(option, file, "expected a name that ends in " + either(extensions));
     }
     require_writable_file(file);
+    if (is_stdout(file)) {
+      if (isatty(STDOUT_FILENO) == 1 || stdout_is_taken)
+        throw UsageError(option, file,
+                         "expected a pipe or a file on the standard output, and once");
+      stdout_is_taken = true;
+    }
     if (!seen.insert(resolved_path(file)).second) {
       throw UsageError(option, file, "expected each file once");
     }
@@ -50,14 +58,15 @@ void require_output_files(const std::vector<std::string>& files,
 }
 
 void print(std::string_view text) {
-  static const bool terminal = isatty(STDOUT_FILENO) == 1;
+  std::FILE* const stream = stdout_is_taken ? stderr : stdout;
+  const bool terminal = isatty(fileno(stream)) == 1;
   std::string shown;
   if (terminal) {
     for (const std::string_view line : split(text, '\n')) shown += printable(line) + '\n';
     shown.pop_back();
     text = shown;
   }
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_stdout();
+  if (std::fwrite(text.data(), 1, text.size(), stream) != text.size()) fail_stdout();
 }
 
 void Figures::draw(const fs::path& directory, std::string_view name,
@@ -88,7 +97,13 @@ std::string json_text(const nlohmann::json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+Verbosity& verbosity() {
+  static Verbosity chosen = Verbosity::kNormal;
+  return chosen;
+}
+
 void warn(std::string_view message) {
+  if (verbosity() == Verbosity::kQuiet) return;
   fmt::print(stderr, "skyfit: warning: {}\n", printable(message));
 }
 

@@ -12,8 +12,9 @@
 namespace skyfit::cli {
 
 // Throws std::runtime_error with one line where a file of --out cannot be written, and UsageError
-// where a name ends in none of `extensions` or a file is named twice. Called before long work whose
-// result goes there.
+// where a name ends in none of `extensions`, a file is named twice, or the standard output (see
+// is_stdout()) is a terminal. Called before long work whose result goes there; what print() says
+// then goes to stderr.
 void require_output_files(const std::vector<std::string>& files,
                           const std::vector<std::string>& extensions,
                           std::string_view option = "--out");
@@ -33,16 +34,21 @@ class Figures {
   std::vector<std::string> failures_;
 };
 
-// Writes text to stdout; on a terminal without the control characters of file names and the like.
-// Throws std::runtime_error when stdout takes no more; finish_stdout() does where not all of it
-// could be written.
+// Writes text to stdout, or to stderr where a file goes to stdout; on a terminal without the
+// control characters of file names and the like. Throws std::runtime_error when stdout takes no
+// more; finish_stdout() does where not all of it could be written.
 void print(std::string_view text);
 void finish_stdout();
 
 // Indented, with a newline at the end. Text that is not UTF-8 gets replacement characters.
 std::string json_text(const nlohmann::json& json);
 
-// One line on stderr, `skyfit: warning: message`.
+// How much stderr says: --quiet leaves out progress and warnings, --verbose tells long work's begin
+// and end, and how long it took, where stderr is no terminal. Set before a command runs.
+enum class Verbosity { kQuiet, kNormal, kVerbose };
+Verbosity& verbosity();
+
+// One line on stderr, `skyfit: warning: message`, unless quiet.
 void warn(std::string_view message);
 
 }  // namespace skyfit::cli

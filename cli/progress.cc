@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "cli/output.h"
 #include "model/base/text.h"
 
 namespace skyfit::cli {
@@ -25,12 +26,18 @@ std::size_t terminal_columns() {
 }  // namespace
 
 Progress::Progress(std::string task)
-    : task_(std::move(task)), terminal_(isatty(STDERR_FILENO) == 1) {
+    : task_(std::move(task)),
+      terminal_(isatty(STDERR_FILENO) == 1 && verbosity() != Verbosity::kQuiet),
+      tells_(!terminal_ && verbosity() == Verbosity::kVerbose),
+      begin_(std::chrono::steady_clock::now()) {
+  if (tells_) fmt::print(stderr, "skyfit: {}\n", printable(task_));
   show(0);
 }
 
 Progress::~Progress() {
   if (terminal_) std::fputs("\r\033[K", stderr);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
+  if (tells_) fmt::print(stderr, "skyfit: {}: {:.2f} s\n", printable(task_), taken.count());
 }
 
 void Progress::show(double fraction, std::string_view status) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bar on stderr for long work: drawn on a terminal, nothing anywhere else.
+// A bar on stderr for long work, drawn on a terminal; elsewhere nothing, or with --verbose a line
+// when it begins and when it ends.
 #pragma once
 
 #include <chrono>
@@ -21,7 +22,8 @@ class Progress {
 
  private:
   std::string task_;
-  bool terminal_;
+  bool terminal_, tells_;
+  std::chrono::steady_clock::time_point begin_;
   std::mutex mutex_;
   std::chrono::steady_clock::time_point next_;
 };

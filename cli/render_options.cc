@@ -245,7 +245,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("N|all")
       ->transform(CLI::Transformer(std::map<std::string, int>{{"all", 0}}).description(""))
       ->check(CLI::Range(0, 20).description(""));
-  command.add_option("--out", options.out, "frame.png or frame.exr; may be repeated")
+  command.add_option("--out", options.out, "frame.png, frame.exr or frame.npy; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_flag(
@@ -256,6 +256,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                    "then holds them, too");
   command.add_flag("--stats", options.stats, "Print triangles, blocks and the time of every pass");
   add_threads_option(command, options.threads);
+  command.add_flag("--no-cache", options.no_cache,
+                   "Compute tables, ground and textures anew instead of reading or keeping them in "
+                   "$XDG_CACHE_HOME/skyfit or ~/.cache/skyfit");
   add_camera_options(command, options);
   add_sun_options(command, options);
   add_scene_options(command, options);

@@ -34,6 +34,7 @@ struct RenderOptions {
   int samples_per_side = FrameOptions{}.samples_per_side;
   int orders = 0;  // 0: all
   bool scalar = false, shadows = false, layers = false, panels = false, gpu = false, stats = false;
+  bool no_cache = false;
   std::vector<std::string> out;
   int threads = default_threads();
   std::optional<Preset> start;  // in the place of --preset, of a caller that has it in memory

@@ -24,18 +24,21 @@ std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) 
 }  // namespace
 
 void render_picture(const RenderRequest& request) {
+  TimeAccount time;
   Frame frame;
   {
     Progress progress("rendering");
     RenderSession session(
-        request, timeline_of(request.sequence),
+        request, timeline_of(request.sequence), 0, time,
         [&](double done, std::string_view what) { progress.show(kTablesShare * done, what); });
     frame = session.draw(shot_at(request.sequence, 0, sun_over), 0, [&](double done) {
       progress.show(kTablesShare + (1 - kTablesShare) * done, "frame");
     });
   }
+  time.done("closing the renderer");
   write_frame_files(frame, paths(request.out), request.tone, request.panels);
-  if (request.stats) print(StatisticsTable().row(0, frame.statistics));
+  time.done("files");
+  if (request.stats) print_statistics(StatisticsTable().row(0, frame.statistics), time, request);
 }
 
 void render_strip(const RenderRequest& request) {
@@ -48,12 +51,13 @@ void render_strip(const RenderRequest& request) {
     preset.fit = nullptr;
     steps.push_back({1.0 * i, preset});
   }
+  TimeAccount time;
   std::vector<Frame> frames;
   std::string statistics;
   {
     Progress progress("rendering");
     StatisticsTable table;
-    RenderSession session(request, steps, [](double, std::string_view) {});
+    RenderSession session(request, steps, 0, time, [](double, std::string_view) {});
     for (int i = 0; i < count; ++i) {
       progress.show((i + 0.0) / count, fmt::format("frame {} of {}", i + 1, count));
       frames.push_back(session.draw(shot_at(request.sequence, 0, sun_over), i, {}));
@@ -61,6 +65,7 @@ void render_strip(const RenderRequest& request) {
     }
     statistics += table.medians();
   }
+  time.done("closing the renderer");
   const ParameterInfo info = parameter_info(strip.parameter);
   std::vector<std::string> values;
   for (const double value : strip.values) values.push_back(fmt::format("{:.9g}", value));
@@ -68,9 +73,10 @@ void render_strip(const RenderRequest& request) {
   whole.metadata.emplace_back(
       "skyfit:strip", fmt::format("{} [{}]: {}", info.name, info.unit, fmt::join(values, ", ")));
   write_frame_files(whole, paths(request.out), request.tone, false);
+  time.done("files");
   print(fmt::format("from left to right, {} [{}]:\n", info.name, info.unit));
   for (int i = 0; i < count; ++i) print(fmt::format("  {:>3}  {}\n", i, values[i]));
-  if (request.stats) print(statistics);
+  if (request.stats) print_statistics(statistics, time, request);
 }
 
 }  // namespace skyfit::cli

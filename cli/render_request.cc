@@ -106,11 +106,15 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
     if (!options.out_dir.empty())
       throw UsageError("--out-dir", options.out_dir,
                        "expected a sequence (--sequence, or --time FROM..TO)");
-    if (options.out.empty()) throw UsageError("--out", "", "expected name.png or name.exr");
-    require_output_files(options.out, {".png", ".exr"});
+    if (options.out.empty())
+      throw UsageError("--out", "", "expected name.png, name.exr or name.npy");
+    require_output_files(options.out, {".png", ".exr", ".npy"});
   }
-  const bool has_exr =
-      std::ranges::any_of(request.is_sequence ? request.extensions : request.out, is_exr);
+  const auto is_linear = [](const std::string& name) {
+    return name.ends_with(".exr") || name.ends_with(".npy");
+  };
+  const std::vector<std::string>& names = request.is_sequence ? request.extensions : request.out;
+  const bool has_exr = std::ranges::any_of(names, is_exr);
   const auto require_exr = [&](bool wanted, const char* option, const std::string& value) {
     if (wanted && !has_exr) throw UsageError(option, value, "expected an output that ends in .exr");
   };
@@ -119,7 +123,9 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
   if (options.panels && !has_png)
     throw UsageError("--panels", "true", "expected an output that ends in .png");
   require_exr(options.layers, "--layers", "true");
-  require_exr(request.frame.primaries != Primaries::kRec709, "--primaries", options.primaries);
+  if (request.frame.primaries != Primaries::kRec709 && std::ranges::none_of(names, is_linear))
+    throw UsageError("--primaries", options.primaries,
+                     "expected an output that ends in .exr or .npy");
 }
 
 }  // namespace
@@ -175,6 +181,12 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   request.panels = options.panels;
   request.stats = options.stats;
   request.threads = options.threads;
+  if (options.no_cache) return request;
+  if (const auto directory = user_cache_directory()) {
+    request.cache = std::make_shared<ContentCache>(*directory);
+  } else {
+    request.cache_trouble = kNoCachePlace;
+  }
   return request;
 }
 

@@ -2,12 +2,14 @@
 // What the options of `skyfit render` ask for.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/render_options.h"
 #include "model/atmosphere/parameters.h"
+#include "model/base/content_cache.h"
 #include "model/tables/tables.h"
 #include "render/sequence/sequence.h"
 
@@ -34,6 +36,8 @@ struct RenderRequest {
   std::vector<std::string> extensions;  // of its frames: .png, .exr
   bool panels = false;                  // beside each PNG of a picture
   bool stats = false;
+  std::shared_ptr<ContentCache> cache;  // null with --no-cache and where there is no place for one
+  std::string cache_trouble;            // why there is no place
   int threads = 1;
 };
 

@@ -36,6 +36,7 @@ class Shooting {
 
   int drawn() const { return drawn_; }
   const StatisticsTable& statistics() const { return statistics_; }
+  const TimeAccount& time() const { return time_; }
   FrameStore& store() { return store_; }
 
   void frame(int number, Progress& progress) {
@@ -67,16 +68,20 @@ class Shooting {
       progress.show((number + done) / frames, fmt::format("frame {} of {}", number + 1, frames));
     };
     show(0);
-    if (!session_) session_.emplace(request_, timeline_, [](double, std::string_view) {});
+    time_.done("frames that are kept");
+    if (!session_)
+      session_.emplace(request_, timeline_, time_s, time_, [](double, std::string_view) {});
     const Frame picture = session_->draw(shot, time_s, show);
     const double metered = metered_exposure(picture);
     if (!exposure) exposure = exposure_after(number, metered);
     store_.write(number, {fingerprint, metered, *exposure}, picture, request_.tone);
+    time_.done("files");
     ++drawn_;
     if (request_.stats) print(statistics_.row(number, picture.statistics));
   }
 
   const RenderRequest& request_;
+  TimeAccount time_;
   std::vector<TimelineStep> timeline_;
   Fingerprints fingerprints_;
   FrameStore store_;
@@ -115,7 +120,7 @@ void render_sequence(const RenderRequest& request) {
     Progress progress("rendering");
     for (int i = 0; i < frames; ++i) shooting.frame(i, progress);
   }
-  if (request.stats) print(shooting.statistics().medians());
+  if (request.stats) print_statistics(shooting.statistics().medians(), shooting.time(), request);
   print(fmt::format("{}: {} frames at {:.9g} per second, {} drawn, {} kept{}\n", request.out_dir,
                     frames, request.sequence.frames_per_second, shooting.drawn(),
                     frames - shooting.drawn(), film(request, shooting.store())));

@@ -8,49 +8,92 @@
 #include "model/atmosphere/lowered_ground.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
-#include "model/tables/tables.h"
+#include "model/tables/table_cache.h"
 #include "render/panels.h"
 
 namespace skyfit::cli {
 
 RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline,
-                             Report report)
+                             double first_time_s, TimeAccount& time, Report report)
     : request_(request),
+      time_(time),
       report_(std::move(report)),
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
                             request.light.transfer)),
-      renderer_(request.scene, request.device),
-      timeline_(std::move(timeline), [this](const Preset& preset) { return tables_of(preset); }) {}
+      keeps_tables_(request.cache && timeline.size() == 1),
+      timeline_(
+          std::move(timeline), [this](const Preset& preset) { return tables_of(preset); },
+          first_time_s),
+      renderer_(request.scene, request.device, request.cache) {
+  time_.done("opening the renderer");
+}
+
+Atmosphere<double> RenderSession::drawn_atmosphere(const Preset& preset) const {
+  return lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
+}
 
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
-  const auto atmosphere = lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
+  const auto atmosphere = drawn_atmosphere(preset);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
+  const TableSizes sizes;
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
-  if (request_.light.orders > 0) {
-    return compute_tables(atmosphere, color, TableSizes{}, request_.threads, progress,
-                          request_.light);
+  const auto compute = [&] {
+    if (request_.light.orders > 0)
+      return compute_tables(atmosphere, color, sizes, request_.threads, progress, request_.light);
+    return compute_tables_of(*model_, atmosphere, color, sizes, request_.threads, progress);
+  };
+  if (!keeps_tables_) return compute();
+  return cached_tables(*request_.cache, {request_.model, request_.light, atmosphere, color, sizes},
+                       compute);
+}
+
+FrameOptions RenderSession::placed(const Shot& shot, const Preset& preset) const {
+  FrameOptions frame = request_.frame;
+  place_camera(
+      shot.camera, shot.sun, preset.atmosphere.bottom_radius_m,
+      [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
+  return frame;
+}
+
+// Makes the atmosphere of a time that of the renderer.
+Preset RenderSession::show(double time_s) {
+  if (settled_) return *timeline_.steady();
+  const Timeline::Now now = timeline_.at(time_s);
+  time_.done("waiting for tables");
+  if (now.tables != shown_) {
+    renderer_.set_atmosphere(now.preset, *now.tables);
+    shown_ = now.tables;
+    time_.done("tables to the renderer");
   }
-  return compute_tables_of(*model_, atmosphere, color, TableSizes{}, request_.threads, progress);
+  if (timeline_.steady() != nullptr) {
+    settled_ = true;
+    shown_.reset();
+    timeline_.forget();
+  }
+  return now.preset;
 }
 
 Frame RenderSession::draw(const Shot& shot, double time_s,
                           const std::function<void(double)>& progress) {
-  const Timeline::Now now = timeline_.at(time_s);
-  if (now.tables != shown_) {
-    renderer_.set_atmosphere(now.preset, *now.tables);
-    shown_ = now.tables;
+  // Before the first frame of an atmosphere that stays, while its tables are made.
+  if (const Preset* preset = timeline_.steady(); preset != nullptr && !settled_) {
+    renderer_.set_ground(drawn_atmosphere(*preset),
+                         color_rule(refs::spectral_data_of(preset->atmosphere)));
+    renderer_.prepare(placed(shot, *preset));
+    time_.done("ground");
   }
-  FrameOptions frame = request_.frame;
-  place_camera(
-      shot.camera, shot.sun, now.preset.atmosphere.bottom_radius_m,
-      [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
-  return renderer_.draw(frame, progress);
+  const Preset preset = show(time_s);
+  Frame drawn = renderer_.draw(placed(shot, preset), progress);
+  time_.done("frame: other", drawn.statistics.steps);
+  return drawn;
 }
 
 void write_frame(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone) {
   check_light(frame);
   if (file.extension() == ".exr") {
     write_exr(frame, file);
+  } else if (file.extension() == ".npy") {
+    write_npy(frame, file);
   } else {
     write_png(frame, file, tone);
   }

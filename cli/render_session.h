@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/render_request.h"
+#include "cli/time_account.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
 #include "render/sequence/timeline.h"
@@ -19,20 +20,29 @@ using Report = std::function<void(double, std::string_view)>;
 
 class RenderSession {
  public:
-  // Opens the scene. `report` hears of the tables. Throws what Renderer and make_sky_model() throw.
-  RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline, Report report);
+  // Opens the scene, while the tables of the time at which the first frame will be drawn are made
+  // in the background. `report` hears of the tables, `time` of all that is done. Throws what
+  // Renderer and make_sky_model() throw.
+  RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline,
+                double first_time_s, TimeAccount& time, Report report);
 
   Frame draw(const Shot& shot, double time_s, const std::function<void(double)>& progress);
 
  private:
   AtmosphereTables tables_of(const Preset& preset) const;
+  Atmosphere<double> drawn_atmosphere(const Preset& preset) const;
+  FrameOptions placed(const Shot& shot, const Preset& preset) const;
+  Preset show(double time_s);
 
   const RenderRequest& request_;
+  TimeAccount& time_;
   Report report_;
   std::unique_ptr<SkyModel> model_;
-  Renderer renderer_;
+  bool keeps_tables_;  // in the cache: not the many of an atmosphere that changes
   Timeline timeline_;
+  Renderer renderer_;
   Timeline::Tables shown_;  // what renderer_ has
+  bool settled_ = false;    // it has them for all times, and alone
 };
 
 // Writes PNG or EXR, by the extension.

@@ -103,10 +103,11 @@ void print_summary(const SkyMap& map, const std::string& file) {
 
 void run_sky_map(const SkyMapArguments& arguments) {
   const bool spectral = !arguments.wavelengths.empty();
-  require_output_files({arguments.out}, spectral ? std::vector<std::string>{".exr"}
-                                                 : std::vector<std::string>{".exr", ".hdr"});
+  require_output_files({arguments.out}, spectral
+                                            ? std::vector<std::string>{".exr", ".npy"}
+                                            : std::vector<std::string>{".exr", ".hdr", ".npy"});
   if (arguments.stokes && arguments.out.ends_with(".hdr"))
-    throw UsageError("--stokes", "", "expected with an .exr file, which has layers");
+    throw UsageError("--stokes", "", "expected with an .exr or .npy file, which has layers");
   if (arguments.stokes && arguments.scalar) throw UsageError("--scalar", "", kScalarStokes);
   if (!arguments.sun_file.empty())
     require_output_files({arguments.sun_file}, {".json"}, "--sun-file");
@@ -155,7 +156,7 @@ void add_sky_map_command(CLI::App& app) {
     return command.add_option(name, value, meaning)->type_name(type)->capture_default_str();
   };
   option("preset", arguments->preset, "Shipped preset or preset file", "PRESET")->required();
-  option("--out", arguments->out, "The picture", "FILE.{exr,hdr}")->required();
+  option("--out", arguments->out, "The picture", "FILE.{exr,hdr,npy}")->required();
   option("--sun-zenith-deg", arguments->sun_zenith, "Zenith angle of the sun, 0 to 180", "ANGLE")
       ->required();
   option("--sun-azimuth-deg", arguments->sun_azimuth, "Azimuth of the sun, clockwise from north",

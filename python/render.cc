@@ -50,7 +50,8 @@ DrawnFrame render(const Preset& preset, const Options& options) {
     throw cli::UsageError("--time", arguments.time, "expected one time, HH:MM, for one frame");
   // The renderer belongs to the thread that works.
   return interruptible([&](const std::atomic<bool>&) {
-    cli::RenderSession session(request, cli::timeline_of(request.sequence),
+    cli::TimeAccount time;
+    cli::RenderSession session(request, cli::timeline_of(request.sequence), 0, time,
                                [](double, std::string_view) {});
     DrawnFrame drawn{session.draw(shot_at(request.sequence, 0, cli::sun_over), 0, {}), request.tone,
                      request.panels};

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "model/base/module_file.h"
+#include "model/base/npy_file.h"
 #include "model/literature/evaluate.h"
 #include "model/numerics/angles.h"
 #include "render/module/module.h"
@@ -39,7 +40,9 @@ void add_metadata(const std::string& preset, const FrameOptions& options, Frame&
   }
 }
 
-Scene raised(Scene scene, double by) {
+constexpr double kRoom = 0.3;  // m, of a camera above the ground
+
+Scene above_its_lowest(Scene scene, double by) {
   scene.lowest_m += by;
   scene.highest_m += by;
   scene.water_level_m += by;
@@ -54,10 +57,10 @@ double basin_depth_m(const Scene& scene) {
   return std::max(0.0, -std::max(scene.lowest_m, scene.water_level_m));
 }
 
-Renderer::Renderer(const Scene& scene, GraphicsDevice device)
+Renderer::Renderer(const Scene& scene, GraphicsDevice device, std::shared_ptr<ContentCache> cache)
     : basin_depth_m_(basin_depth_m(scene)) {
   validate(scene);
-  drawer_ = module().make_drawer(raised(scene, basin_depth_m_), device);
+  drawer_ = module().make_drawer(above_its_lowest(scene, basin_depth_m_), device, std::move(cache));
 }
 
 Renderer::~Renderer() = default;
@@ -69,30 +72,45 @@ void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tabl
   preset_ = preset_to_json(preset);
 }
 
+void Renderer::set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) {
+  drawer_->set_ground(atmosphere, color);
+}
+
+void Renderer::prepare(const FrameOptions& options) {
+  validate(options);
+  if (is_above_ground(options)) drawer_->prepare(raised(options));
+}
+
 double Renderer::ground_height_m(const std::optional<Site>& site) const {
   return drawer_->ground_height_m(site) - basin_depth_m_;
 }
 
+bool Renderer::is_above_ground(const FrameOptions& options) const {
+  return options.camera.altitude_m >= ground_height_m(options.site) + kRoom;
+}
+
 // What the drawer wants: heights from the lowest ground, which is the bottom of its atmosphere.
+FrameOptions Renderer::raised(const FrameOptions& options) const {
+  FrameOptions raised = options;
+  raised.camera.altitude_m += basin_depth_m_;
+  if (raised.clouds) raised.clouds->altitude_m += basin_depth_m_;
+  return raised;
+}
+
 FrameOptions Renderer::above_lowest_ground(const FrameOptions& options) const {
-  constexpr double kRoom = 0.3;  // m
   validate(options);
   if (preset_.empty()) throw std::logic_error("render: a frame needs an atmosphere");
-  const double ground = ground_height_m(options.site);
-  if (options.camera.altitude_m < ground + kRoom) {
+  if (!is_above_ground(options)) {
     throw std::invalid_argument(
         fmt::format("render.camera.altitude_m = {:.9g}: must be above the ground, {:.9g} m",
-                    options.camera.altitude_m, ground + kRoom));
+                    options.camera.altitude_m, ground_height_m(options.site) + kRoom));
   }
   if (limits_) {
     std::vector<SkyPoint> suns = {{options.camera.altitude_m, options.sun_zenith, 0, 0}};
     if (options.second_sun) suns.push_back({options.camera.altitude_m, options.second_sun->zenith});
     literature::check_daylight(limits_->model, suns, limits_->highest_m);
   }
-  FrameOptions raised = options;
-  raised.camera.altitude_m += basin_depth_m_;
-  if (raised.clouds) raised.clouds->altitude_m += basin_depth_m_;
-  return raised;
+  return raised(options);
 }
 
 FrameStatistics Renderer::submit(const FrameOptions& options) {
@@ -116,6 +134,12 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 }
 
 void write_exr(const Frame& frame, const fs::path& file) { module().write_exr(frame, file); }
+
+void write_npy(const Frame& frame, const fs::path& file) {
+  write_npy(file,
+            {static_cast<std::size_t>(frame.height), static_cast<std::size_t>(frame.width), 3},
+            frame.rgb);
+}
 
 void write_png(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
   ToneOptions exposed = tone;

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "model/atmosphere/preset.h"
+#include "model/base/content_cache.h"
 #include "model/base/input_file.h"
 #include "model/tables/tables.h"
 #include "render/color_space.h"
@@ -183,9 +184,12 @@ struct FrameStatistics {
   // Culled nodes of the tree: outside the frustum, behind the planet's horizon.
   int blocks_outside = 0, blocks_behind = 0;
   int blocks_hidden = 0;  // every patch of theirs outside the frustum or behind nearer ground
-  int blocks_made = 0;    // that were not in the store of an earlier frame
+  int blocks_made = 0;    // that no earlier frame had, by this frame or its prepare()
   std::vector<PassTime> passes;  // by the device's timers
   double milliseconds = 0;       // from the frame's begin to its end, reading back not counted
+  // Of Renderer::draw(), by the wall clock, one after the other: "ground" until all is chosen that
+  // is seen, "passes" until the device has drawn, "pixels" until they are in Frame.
+  std::vector<PassTime> steps = {};
 };
 
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
@@ -218,9 +222,11 @@ class FrameDrawer;  // of the module, render/module/module.h
 // memory.
 class Renderer {
  public:
+  // `cache` keeps the ground and its textures from one process to the next; null: none.
   // Throws std::invalid_argument for a scene that validate() refuses, std::runtime_error that names
   // a file that cannot be read or says that there is no OpenGL to draw with.
-  explicit Renderer(const Scene& scene = {}, GraphicsDevice device = GraphicsDevice::kSoftware);
+  explicit Renderer(const Scene& scene = {}, GraphicsDevice device = GraphicsDevice::kSoftware,
+                    std::shared_ptr<ContentCache> cache = nullptr);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
@@ -229,8 +235,14 @@ class Renderer {
   // Throws std::invalid_argument when the planet has another radius than before.
   void set_atmosphere(const Preset& preset, const AtmosphereTables& tables);
 
+  // What of a frame needs no tables, for while they are computed; set_atmosphere() and draw() do it
+  // where it was not done: the ground of an atmosphere, lowered_by() as its tables, and the blocks
+  // of it that a frame sees. Throws as they do; a camera below the ground prepares nothing.
+  void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color);
+  void prepare(const FrameOptions& options);
+
   // Height of the ground above the bottom radius, in metres, at a place or at the coast. Needs an
-  // atmosphere, which knows the radius.
+  // atmosphere or a ground, which know the radius.
   double ground_height_m(const std::optional<Site>& site) const;
 
   // Progress in 0..1; may be empty. Throws std::invalid_argument for options that validate()
@@ -247,6 +259,8 @@ class Renderer {
   FrameStatistics wait();
 
  private:
+  bool is_above_ground(const FrameOptions& options) const;
+  FrameOptions raised(const FrameOptions& options) const;
   FrameOptions above_lowest_ground(const FrameOptions& options) const;
 
   std::unique_ptr<FrameDrawer> drawer_;
@@ -266,6 +280,9 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 // X, Y, Z where these are the primaries. The file appears whole or not at all; throws
 // std::runtime_error that names it.
 void write_exr(const Frame& frame, const std::filesystem::path& file);
+
+// R, G and B in the frame's primaries (cd/m^2), height x width x 3, for NumPy.
+void write_npy(const Frame& frame, const std::filesystem::path& file);
 
 enum class ToneCurve {
   kFilmic,       // a fit of the ACES film curve, Narkowicz 2015

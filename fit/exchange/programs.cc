@@ -31,7 +31,7 @@ Exported export_engine(const Engine& engine, const ExportRequest& request) {
 std::vector<Program> all_programs() {
   std::vector<Program> list;
   for (const Engine& engine : engines()) {
-    list.push_back({engine.name, engine.meaning, engine.extension, false,
+    list.push_back({engine.name, engine.meaning, engine.extension, false, false,
                     [&engine](const ExportRequest& r) { return export_engine(engine, r); },
                     [&engine](std::string_view text, std::string_view source,
                               std::vector<std::string>& notes) {
@@ -43,18 +43,25 @@ std::vector<Program> all_programs() {
                   "Radiance, sun, sky and ground of one hour (.rad and three .dat)",
                   ".rad",
                   true,
+                  true,
                   export_radiance,
                   {}});
   list.push_back({"mitsuba",
                   "Mitsuba 3, emitters of one hour: sky map and sun (.xml and .exr)",
                   ".xml",
                   true,
+                  true,
                   export_mitsuba,
                   {}});
-  list.push_back(
-      {"godot", "Godot 4, resource PhysicalSkyMaterial (.tres)", ".tres", false, export_godot, {}});
+  list.push_back({"godot",
+                  "Godot 4, resource PhysicalSkyMaterial (.tres)",
+                  ".tres",
+                  false,
+                  false,
+                  export_godot,
+                  {}});
   list.push_back({"calcmysky", "CalcMySky for Stellarium, description of the atmosphere (.atmo)",
-                  ".atmo", true, export_calcmysky, read_calcmysky});
+                  ".atmo", true, false, export_calcmysky, read_calcmysky});
   return list;
 }
 

@@ -42,7 +42,8 @@ struct Exported {
 struct Program {
   std::string_view name, meaning;
   std::string_view extension;
-  bool has_star;  // whether what is written holds the preset's star
+  bool has_star;       // whether what is written holds the preset's star
+  bool writes_beside;  // further files beside the one that was asked for
   std::function<Exported(const ExportRequest&)> write;
   // Nothing when the text is another program's. Throws std::invalid_argument in one line that names
   // source, field, value and expectation. `notes`: what it says that an atmosphere does not hold.

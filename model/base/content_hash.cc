@@ -2,18 +2,33 @@
 #include "model/base/content_hash.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <new>
 #include <vector>
 
 namespace skyfit {
 namespace fs = std::filesystem;
 
+struct ContentHash::State {
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> xxh3{XXH3_createState()};
+};
+
+ContentHash::ContentHash() : state_(std::make_unique<State>()) {
+  if (!state_->xxh3 || XXH3_128bits_reset(state_->xxh3.get()) != XXH_OK) throw std::bad_alloc();
+}
+
+ContentHash::~ContentHash() = default;
+ContentHash::ContentHash(ContentHash&&) noexcept = default;
+
 void ContentHash::add(std::string_view bytes) {
-  for (const char byte : bytes)
-    state_ = (state_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  XXH3_128bits_update(state_->xxh3.get(), bytes.data(), bytes.size());
 }
 
 void ContentHash::add_file(const fs::path& file) {
@@ -36,6 +51,9 @@ void ContentHash::add_file(const fs::path& file) {
     add({block.data(), static_cast<std::size_t>(in.gcount())});
 }
 
-std::string ContentHash::text() const { return fmt::format("{:016x}", state_); }
+std::string ContentHash::text() const {
+  const XXH128_hash_t hash = XXH3_128bits_digest(state_->xxh3.get());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
 
 }  // namespace skyfit

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A short name for contents, to tell whether something has changed: FNV-1a, 64 bit, the same on
+// A short name for contents, to tell whether something has changed: XXH3, 128 bit, the same on
 // every machine. Not against forgery.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,14 +12,18 @@ namespace skyfit {
 
 class ContentHash {
  public:
+  ContentHash();
+  ~ContentHash();
+  ContentHash(ContentHash&&) noexcept;
   void add(std::string_view bytes);
   // The content of a regular file, or of all of a folder with their names; of a path where nothing
   // is, nothing.
   void add_file(const std::filesystem::path& file);
-  std::string text() const;  // 16 hexadecimal digits
+  std::string text() const;  // 32 hexadecimal digits
 
  private:
-  std::uint64_t state_ = 0xcbf29ce484222325u;
+  struct State;  // of the library
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace skyfit

@@ -57,6 +57,21 @@ class OpenFile {
   int number_;
 };
 
+std::string read_to_end(int number, const fs::path& shown, std::string_view expectation,
+                        std::uintmax_t most_bytes) {
+  std::string text;
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const ssize_t count = ::read(number, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(shown, std::strerror(errno), expectation);
+    if (count == 0) return text;
+    text.append(block.data(), static_cast<std::size_t>(count));
+    // The files of /proc say that they are empty.
+    if (text.size() > most_bytes) fail(shown, OpenFile::too_large(most_bytes), expectation);
+  }
+}
+
 }  // namespace
 
 void require_regular_file(const fs::path& file, std::string_view expectation,
@@ -67,17 +82,11 @@ void require_regular_file(const fs::path& file, std::string_view expectation,
 std::string read_file(const fs::path& file, std::string_view expectation,
                       std::uintmax_t most_bytes) {
   const OpenFile open(file, expectation, most_bytes);
-  std::string text;
-  std::array<char, 1 << 16> block;
-  for (;;) {
-    const ssize_t count = ::read(open.number(), block.data(), block.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(file, std::strerror(errno), expectation);
-    if (count == 0) return text;
-    text.append(block.data(), static_cast<std::size_t>(count));
-    // The files of /proc say that they are empty.
-    if (text.size() > most_bytes) fail(file, OpenFile::too_large(most_bytes), expectation);
-  }
+  return read_to_end(open.number(), file, expectation, most_bytes);
+}
+
+std::string read_stdin(std::string_view expectation, std::uintmax_t most_bytes) {
+  return read_to_end(STDIN_FILENO, "stdin", expectation, most_bytes);
 }
 
 std::optional<fs::path> named_file(const fs::path& folder, std::string_view name,

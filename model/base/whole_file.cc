@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "model/base/input_file.h"
+
 namespace skyfit {
 namespace {
 
@@ -54,17 +56,25 @@ int sync_error(const fs::path& file) {
   return failed != 0 ? failed : closed;
 }
 
-// The error number of writing, flushing and closing, or 0.
-int write_error(const fs::path& file, std::string_view bytes) {
+// The error number of writing all of it, or 0.
+int write_error(int number, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(number, bytes.data(), bytes.size());
+    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+    if (count < 0 && errno != EINTR) return errno;
+  }
+  return 0;
+}
+
+// The error number of writing, forcing to the disk if `sync`, and closing, or 0.
+int write_error(const fs::path& file, std::span<const std::string_view> parts, bool sync) {
   const int number = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (number < 0) return errno;
   int failed = 0;
-  while (!bytes.empty() && failed == 0) {
-    const ssize_t count = ::write(number, bytes.data(), bytes.size());
-    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-    if (count < 0 && errno != EINTR) failed = errno;
+  for (const std::string_view bytes : parts) {
+    if (failed == 0) failed = write_error(number, bytes);
   }
-  if (failed == 0 && ::fsync(number) != 0 && errno != EINVAL) failed = errno;
+  if (sync && failed == 0 && ::fsync(number) != 0 && errno != EINVAL) failed = errno;
   const int closed = ::close(number) != 0 ? errno : 0;
   return failed != 0 ? failed : closed;
 }
@@ -92,6 +102,7 @@ bool exchange(const fs::path& a, const fs::path& b) {
 
 // Where a target must be a file or nothing. A pipe or a device would be replaced by the file.
 void require_file_name(const fs::path& file) {
+  if (is_stdout(file)) return;
   std::error_code error;
   if (file.filename().empty() || fs::is_directory(file, error))
     fail(file, "expected the name of a file, this is a directory");
@@ -114,10 +125,13 @@ fs::path resolved_path(const fs::path& path) {
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
+bool is_stdout(const fs::path& file) { return !file.has_parent_path() && file.stem() == "-"; }
+
 WholeFiles::WholeFiles(std::vector<fs::path> targets) : targets_(std::move(targets)) {
   for (const fs::path& target : targets_) {
     require_file_name(target);
-    const fs::path folder = fs::absolute(target).parent_path();
+    const fs::path folder =
+        is_stdout(target) ? fs::temp_directory_path() : fs::absolute(target).parent_path();
     auto& directory = directories_[folder];
     if (!directory) make_private(target, folder, directory);
     temporaries_.push_back(directory->path() /
@@ -126,7 +140,7 @@ WholeFiles::WholeFiles(std::vector<fs::path> targets) : targets_(std::move(targe
 }
 
 void WholeFiles::write(std::size_t index, std::string_view bytes) const {
-  if (const int error = write_error(temporaries_[index], bytes); error != 0)
+  if (const int error = write_error(temporaries_[index], {&bytes, 1}, true); error != 0)
     fail(index, std::strerror(error));
 }
 
@@ -146,6 +160,12 @@ void WholeFiles::publish() {
   for (std::size_t i = 0; i < targets_.size(); ++i)
     if (const int error = sync_error(temporaries_[i]); error != 0) fail(i, std::strerror(error));
   for (std::size_t i = 0; i < targets_.size(); ++i) {
+    if (is_stdout(targets_[i])) {
+      const std::string bytes = read_file(temporaries_[i], "what was written", kMostImageBytes);
+      if (const int error = write_error(STDOUT_FILENO, bytes); error != 0)
+        fail(i, std::strerror(error));
+      continue;
+    }
     std::error_code error;
     fs::rename(temporaries_[i], targets_[i], error);
     if (error) fail(i, error.message());
@@ -159,12 +179,18 @@ void write_whole_file(const fs::path& file, std::string_view bytes) {
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  if (const int error = write_error(file, bytes); error != 0)
+  if (const int error = write_error(file, {&bytes, 1}, true); error != 0)
+    fail_to_write(file, std::strerror(error));
+}
+
+void write_losable_file(const fs::path& file, std::span<const std::string_view> parts) {
+  if (const int error = write_error(file, parts, false); error != 0)
     fail_to_write(file, std::strerror(error));
 }
 
 void require_writable_file(const fs::path& file) {
   require_file_name(file);
+  if (is_stdout(file)) return;
   const fs::path path = resolved_path(file);
   if (!fs::exists(path.parent_path())) fail(file, "cannot be written: its folder does not exist");
   std::optional<TemporaryDirectory> probe;

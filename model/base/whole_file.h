@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,10 @@
 #include "model/base/temporary_directory.h"
 
 namespace skyfit {
+
+// Whether a name stands for the standard output: "-" with the extension of what goes there, as in
+// "-.png". It is made like a file and written there as a whole.
+bool is_stdout(const std::filesystem::path& file);
 
 // Several files that are published together. The names of the temporary ones are our own, with the
 // target's extension, so that a program that draws or encodes them sees no text of a user.
@@ -47,6 +52,8 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
 
 // Not atomic: for files inside of a staging directory.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
+// The same of parts, one after the other, and not forced to the disk: for what may be lost.
+void write_losable_file(const std::filesystem::path& file, std::span<const std::string_view> parts);
 
 // Throws when the file cannot be created in its folder, or its name is that of something that is no
 // file; leaves nothing behind. Called before long work whose result goes there.

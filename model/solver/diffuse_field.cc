@@ -94,11 +94,7 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
 
 // Steps of the iteration that couples the suns: where it does not converge, by day, and in deep
 // twilight, where light comes from a node of the sun grid further with each step or two.
-constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 24;
-// The modes that the later steps of deep twilight change; the light there hardly depends on the
-// azimuth, and the modes above keep what few steps gave them: 0.02 % of the radiance of earth-clear
-// at most to a sun at 97 deg, 0.5 % to 108.
-constexpr int kTwilightModes = 8;
+constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 12;
 
 // Whether the coupling's iteration has led to a twilight: the mean radiance on the ground is above
 // 0 and falls from sun to sun, no level's is far above those of the sun before, and the first
@@ -129,43 +125,6 @@ bool has_converged(const DiffuseField& after_few, const DiffuseField& field,
 
 }  // namespace
 
-int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
-  constexpr double kThin = 0.02;  // top height over radius
-  if (shells.top > kThin * shells.bottom_radius) return 0;
-  constexpr double kLow = 86 * kRadiansPerDegree;
-  int i = 0;
-  while (grid.zenith(i) < kLow) ++i;
-  return i;
-}
-
-HorizontalCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved,
-                                const Streams& streams, int first) {
-  HorizontalCoupling c;
-  c.converges = first > 0;
-  for (int i = 0; i < grid.size(); ++i) {
-    if (solved[i] < 0) continue;
-    c.coupled.push_back(i >= first);
-    HorizontalCoupling::Sun sun;
-    if (i >= first) {
-      sun.at_zenith = grid.zenith(i) == 0;
-      sun.cotangent = sun.at_zenith ? 0 : 1 / std::tan(grid.zenith(i));
-      sun.slope = grid.slope(i);
-      for (int& k : sun.slope.index) k = solved[k];
-    }
-    c.suns.push_back(sun);
-  }
-  for (int i = 0; i + 1 < streams.levels(); ++i) {
-    for (int k = 0; k < streams.most(); ++k) {
-      // The difference of the ray's zenith angles at both ends.
-      const double low = streams.mu(i, k), high = streams.mu(i + 1, k);
-      c.step.push_back(k < streams.count(i) ? std::asin(std::sqrt(1 - low * low) * high -
-                                                        low * std::sqrt(1 - high * high))
-                                            : 0.0);
-    }
-  }
-  return c;
-}
-
 template <int N>
 std::vector<DiffuseField> solve_diffuse_fields(
     const Shells& shells, std::span<const Optics<N>> optics, int slices,
@@ -184,6 +143,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
   int modes = 0;
   for (const Optics<N>& o : optics)
     modes = std::max(modes, mode_count(o, moments, options.tolerance));
+  if (!coupling.shifted.empty()) modes = std::max(modes, std::min(kShiftedModes, moments));
   for (DiffuseField& field : fields) {
     field.shape = shape;
     field.moments.resize(modes);
@@ -243,7 +203,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
     std::vector<DiffuseField> result =
         couple(coupling.converges ? kCouplings : kFewCouplings, modes);
     if (options.deep_twilight && coupling.converges) {
-      std::vector<DiffuseField> more = couple(kTwilightCouplings - kCouplings, kTwilightModes);
+      std::vector<DiffuseField> more = couple(kTwilightCouplings - kCouplings, kShiftedModes);
       for (int w = 0; w < width; ++w) {
         if (has_converged(result[w], more[w], coupling)) result[w] = std::move(more[w]);
       }

@@ -14,7 +14,7 @@ void StreamLight::set_neighbour(const HorizontalCoupling& coupling, int layer,
   to_previous.assign(from_afar.size(), 0.0);
   for (std::size_t r = 0; r < rays(layer); ++r) {
     for (std::size_t j = 0; j < suns(); ++j) {
-      if (!coupling.coupled[j]) continue;
+      if (!coupling.coupled[j] || (!coupling.shifted.empty() && coupling.shifted[j])) continue;
       const HorizontalCoupling::Sun& sun = coupling.suns[j];
       const double* const here = from_afar.data() + (r * suns() + j) * width;
       double* const next = to_next.data() + (r * suns() + j) * width;
@@ -46,7 +46,7 @@ void StreamLight::prepare_coupling(const HorizontalCoupling& coupling, const Str
   const StreamColumns source = source_function(diffuse);
   for (std::size_t side = 0; side < 2; ++side) {
     const bool looks_up = side == 0;
-    for (auto* v : {&to_next_, &to_previous_}) {
+    for (auto* v : {&to_next_, &to_previous_, &from_afar_}) {
       for (auto& kind : *v) kind[side].resize(medium_->layers.size());
     }
     for (int i = 0; i + 1 < levels(); ++i) {
@@ -58,11 +58,13 @@ void StreamLight::prepare_coupling(const HorizontalCoupling& coupling, const Str
       Batch x((looks_up ? w.down : w.up).far);
       for (std::size_t k = 0; k < x.size(); ++k) x[k] *= of(beam_source_)[k];
       batch::add_blend(w.t.data(), of(values), w.far.data(), of(source), x.data(), rays(i), suns());
+      if (!coupling.shifted.empty()) from_afar_[kValues][side][i] = x;
       set_neighbour(coupling, i, x, 1, to_next_[kValues][side][i], to_previous_[kValues][side][i]);
       if (p_count == 0) continue;
       Batch dx = layer_tangent(i, looks_up, diffuse, false);
       batch::add_blend(w.t.data(), of(tangents), w.far.data(), of(source_tangent), dx.data(),
                        rays(i), columns);
+      if (!coupling.shifted.empty()) from_afar_[kTangents][side][i] = dx;
       set_neighbour(coupling, i, dx, p_count, to_next_[kTangents][side][i],
                     to_previous_[kTangents][side][i]);
     }
@@ -72,8 +74,9 @@ void StreamLight::prepare_coupling(const HorizontalCoupling& coupling, const Str
 // docs/theory (7.4).
 // Adds -psi / 2 (P_{m-1} + Q_{m+1}), in mode 0 -psi Q_1.
 void StreamLight::add_coupling(const HorizontalCoupling& coupling, const LightOfMode& light_of,
-                               int width, Kind kind) {
+                               int width, Kind kind, bool sines) {
   const std::size_t columns = suns() * (kind == kValues ? 1 : medium_->parameters);
+  if (!coupling.shifted.empty()) add_shares(coupling, light_of, width, kind, sines);
   for (int lane = 0; lane < static_cast<int>(kBatchWidth); ++lane) {
     const int m = modes_[lane];
     const auto add = [&](int neighbour, double factor, bool next) {
@@ -101,6 +104,39 @@ void StreamLight::add_coupling(const HorizontalCoupling& coupling, const LightOf
     } else {
       add(m - 1, -0.5, true);
       add(m + 1, -0.5, false);
+    }
+  }
+}
+
+// docs/theory (7.7). The lanes of one mode lie side by side.
+void StreamLight::add_shares(const HorizontalCoupling& coupling, const LightOfMode& light_of,
+                             int width, Kind kind, bool sines) {
+  const std::size_t p_count = kind == kValues ? 1 : medium_->parameters,
+                    count = static_cast<std::size_t>(width);
+  std::vector<OfMode> of_mode;
+  for (int mode = 0; mode < kShiftedModes; ++mode) of_mode.push_back(light_of(mode));
+  for (std::size_t lane = 0; lane + count <= kBatchWidth; lane += count) {
+    if (modes_[lane] >= kShiftedModes) break;
+    const auto m = static_cast<std::size_t>(modes_[lane]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      std::vector<Batch>& source = side == 0 ? down_source : up_source;
+      for (std::size_t i = 0; i < source.size(); ++i) {
+        for (std::size_t r = 0; r < rays(static_cast<int>(i)); ++r) {
+          const auto& of_ray = coupling.shares[i * static_cast<std::size_t>(streams_->most()) + r];
+          for (const HorizontalCoupling::Share& share : of_ray[m]) {
+            const OfMode& of = of_mode[share.from_mode];
+            if (!of.light) continue;
+            const double weight = sines ? share.sine : share.cosine;
+            const double* x = of.light->from_afar_[kind][side][i].data() +
+                              (r * suns() + share.from_sun) * p_count * kBatchWidth +
+                              static_cast<std::size_t>(of.first_lane);
+            double* y = source[i].data() + (r * suns() + share.sun) * p_count * kBatchWidth + lane;
+            for (std::size_t c = 0; c < p_count; ++c, x += kBatchWidth, y += kBatchWidth) {
+              for (std::size_t w = 0; w < count; ++w) y[w] += weight * x[w];
+            }
+          }
+        }
+      }
     }
   }
 }

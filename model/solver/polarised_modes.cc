@@ -502,7 +502,7 @@ void PolarisedModes::add_coupling(const HorizontalCoupling& coupling, const Mode
       const OfMode of = modes_of(mode);
       return {of.modes ? &of.modes->components_[c].light : nullptr, of.first_lane};
     };
-    components_[c].light.add_coupling(coupling, light_of, width, kind);
+    components_[c].light.add_coupling(coupling, light_of, width, kind, c == 1);
   }
 }
 

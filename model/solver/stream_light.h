@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -50,10 +51,24 @@ struct HorizontalCoupling {
   std::vector<Sun> suns;      // of the solved suns
   std::vector<char> coupled;  // [sun]: whether light from neighbouring places is taken as theirs
   std::vector<double> step;   // [layer][ray]: psi of a layer, radians
+  // In twilight, where light falls steeply with the sun, the step is not taken to first
+  // order: light under a sun and of a mode is made of that of other suns and modes at the far end,
+  // docs/theory (7.7). What it takes of one of them, for cosine and for sine series, and less its
+  // own:
+  struct Share {
+    std::uint8_t sun, from_sun, from_mode;
+    float cosine, sine;
+  };
+  std::vector<char> shifted;  // [sun]: whether it takes these; empty: none does
+  std::vector<std::vector<std::vector<Share>>> shares;  // [layer][ray] by [mode]
   // Whether more than two steps of the iteration are of use: not where all suns are coupled, on a
   // planet whose atmosphere is thick against its radius, there they diverge.
   bool converges = true;
 };
+
+// Modes that a shift couples: light toward the sun is so much brighter that it takes more of them
+// than phase functions have.
+inline constexpr int kShiftedModes = 6;
 
 class StreamLight {
  public:
@@ -93,7 +108,7 @@ class StreamLight {
   };
   using LightOfMode = std::function<OfMode(int mode)>;
   void add_coupling(const HorizontalCoupling& coupling, const LightOfMode& light_of, int width,
-                    Kind kind);
+                    Kind kind, bool sines = false);
 
  private:
   static constexpr std::size_t kBatchWidth = batch::kBatchWidth;
@@ -107,6 +122,8 @@ class StreamLight {
   // Of the light that leaves a layer along the rays that look up, or down; `near` false leaves out
   // the sources at the near end.
   Batch layer_tangent(int layer, bool looks_up, const StreamSources& diffuse, bool near) const;
+  void add_shares(const HorizontalCoupling& coupling, const LightOfMode& light_of, int width,
+                  Kind kind, bool sines);
   void set_neighbour(const HorizontalCoupling& coupling, int layer, const Batch& from_afar,
                      std::size_t parameters, Batch& to_next, Batch& to_previous) const;
 
@@ -119,6 +136,8 @@ class StreamLight {
   // What the light that enters each layer from its far end becomes at the near end, derived by the
   // sun's place as the next and as the previous mode need it: [kind][down, up][layer].
   std::array<std::array<std::vector<Batch>, 2>, 2> to_next_, to_previous_;
+  // That light itself, for the suns that are shifted.
+  std::array<std::array<std::vector<Batch>, 2>, 2> from_afar_;
 };
 
 }  // namespace skyfit

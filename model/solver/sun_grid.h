@@ -35,9 +35,10 @@ class SunGrid {
   // decay of twilight, which goes on below the grid.
   SunStencil stencil(double mu_s) const;
 
+  double decay(double zenith) const;  // of the twilight, 1 by day
+
  private:
   void set_fours();
-  double decay(double zenith) const;       // of the twilight, 1 by day
   double decay_rate(double zenith) const;  // 1/rad
 
   double fastest_, slow_;  // of the decay: its largest rate, 1/rad, and in what angle it gets there

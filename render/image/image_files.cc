@@ -10,6 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "model/base/npy_file.h"
 #include "model/base/whole_file.h"
 #include "render/image/gamut.h"
 #include "render/image/tone.h"
@@ -148,12 +149,19 @@ void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file
   }
   spec.channelnames.insert(spec.channelnames.end(), map.layers.begin(), map.layers.end());
   if (layers > 0) pixels = interleaved(pixels, colors, map.layer_values, layers);
+  if (file.extension() == ".npy")
+    return write_npy(file,
+                     {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width),
+                      colors + layers},
+                     pixels);
   write_whole(file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
 void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
   OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("png:compressionLevel",
+                 3);  // noise hardly shrinks: half the time of 6, 5 % larger
   for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
   const std::vector<std::uint8_t> bytes = tone_mapped(frame, tone);
   write_whole(file, spec, OIIO::TypeDesc::UINT8, bytes.data());

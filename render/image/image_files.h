@@ -12,6 +12,7 @@
 namespace skyfit {
 
 void write_exr_file(const Frame& frame, const std::filesystem::path& file);
+// .npy of (height x width x channels), else a picture.
 void write_map_file(const SkyMap& map, Primaries primaries, const std::filesystem::path& file);
 void write_png_file(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone);
 

@@ -15,6 +15,8 @@ namespace skyfit {
 class FrameDrawer {
  public:
   virtual ~FrameDrawer() = default;
+  virtual void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) = 0;
+  virtual void prepare(const FrameOptions& options) = 0;
   virtual void set_atmosphere(const AtmosphereTables& tables) = 0;
   virtual double ground_height_m(const std::optional<Site>& site) const = 0;
   virtual Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) = 0;
@@ -23,9 +25,10 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 8;
+  static constexpr int kRevision = 9;
   int revision;
-  std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice);
+  std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
+                                              std::shared_ptr<ContentCache>);
   void (*write_exr)(const Frame&, const std::filesystem::path&);
   void (*write_map)(const SkyMap&, Primaries, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);

@@ -2,6 +2,7 @@
 #include "render/sequence/timeline.h"
 
 #include <fmt/format.h>
+#include <tbb/info.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,8 +83,15 @@ TimelineMoment moment_at(const std::vector<TimelineStep>& steps, double time_s) 
   return {after - 1, after, share};
 }
 
-Timeline::Timeline(std::vector<TimelineStep> steps, Compute compute)
-    : steps_(std::move(steps)), compute_(std::move(compute)) {}
+Timeline::Timeline(std::vector<TimelineStep> steps, Compute compute, double first_time_s)
+    : steps_(std::move(steps)), compute_(std::move(compute)) {
+  // Once, and now: TBB asks how many cores the process may use, and Mesa, while it looks at the
+  // processor, binds the main thread to one.
+  tbb::info::default_concurrency();
+  const TimelineMoment moment = moment_at(steps_, first_time_s);
+  tables_of(moment.before);
+  tables_of(moment.after);
+}
 
 Timeline::Now Timeline::at(double time_s) {
   const TimelineMoment moment = moment_at(steps_, time_s);

@@ -36,8 +36,9 @@ class Timeline {
   using Compute = std::function<AtmosphereTables(const Preset&)>;
   using Tables = std::shared_ptr<const AtmosphereTables>;
 
-  // `compute` is called from another thread, one call at a time.
-  Timeline(std::vector<TimelineStep> steps, Compute compute);
+  // `compute` is called from another thread, one call at a time, at once for the tables of
+  // `first_time_s`.
+  Timeline(std::vector<TimelineStep> steps, Compute compute, double first_time_s);
 
   struct Now {
     Preset preset;
@@ -46,6 +47,10 @@ class Timeline {
   // Waits for tables that are not ready. Times may come in any order, ascending ones are cheap.
   // Throws what `compute` throws.
   Now at(double time_s);
+
+  // The preset of all times; null where it changes.
+  const Preset* steady() const { return steps_.size() == 1 ? &steps_[0].preset : nullptr; }
+  void forget() { made_.clear(); }  // tables, until they are asked for again
 
  private:
   struct Made {

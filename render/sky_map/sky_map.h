@@ -66,8 +66,8 @@ SkyMap sky_map(const SkyModel& model, const Atmosphere<double>& atmosphere,
                const MapChannels& channels, const MapProjection& projection,
                const SkyMapOptions& options);
 
-// .exr, or .hdr of XYZ, whole or not at all; XYZ becomes the primaries. Throws std::runtime_error
-// that names the file.
+// .exr, .npy, or .hdr of XYZ, whole or not at all; XYZ becomes the primaries. Throws
+// std::runtime_error that names the file.
 void write_sky_map(const SkyMap& map, Primaries primaries, const std::filesystem::path& file);
 
 }  // namespace skyfit

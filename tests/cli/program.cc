@@ -31,18 +31,20 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 }  // namespace
 
 Outcome ProgramTest::run(const std::vector<std::string>& arguments,
-                         const std::vector<std::string>& environment,
-                         const std::string& out) const {
+                         const std::vector<std::string>& environment, const std::string& out,
+                         const std::string& in) const {
   std::vector<std::string> argv = {SKYFIT_PROGRAM};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> env = environment;
+  std::vector<std::string> env = environment;  // the first of a name counts
+  env.emplace_back("XDG_CACHE_HOME=" SKYFIT_TEST_CACHES);
+  env.emplace_back("MESA_SHADER_CACHE_DIR=" SKYFIT_TEST_CACHES);  // wherever the other is
   for (char** variable = environ; *variable != nullptr; ++variable) env.emplace_back(*variable);
 
   const fs::path out_file = out.empty() ? capture_ / "out" : fs::path(out),
                  err_file = capture_ / "err";
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 0, in.c_str(), O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 1, out_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
                                    0600);
   posix_spawn_file_actions_addopen(&actions, 2, err_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC,

@@ -20,10 +20,12 @@ struct Outcome {
 
 class ProgramTest : public ::testing::Test {
  protected:
-  // Runs the program with the folder as its working directory. `environment` holds NAME=VALUE to
-  // add; `out` is the file that takes stdout instead of Outcome::out.
+  // Runs the program with the folder as its working directory and caches that no user has.
+  // `environment` holds NAME=VALUE to add; `out` is the file that takes stdout instead of
+  // Outcome::out, `in` the one that stdin reads.
   Outcome run(const std::vector<std::string>& arguments,
-              const std::vector<std::string>& environment = {}, const std::string& out = {}) const;
+              const std::vector<std::string>& environment = {}, const std::string& out = {},
+              const std::string& in = "/dev/null") const;
 
   // Asserts that the program refuses: one line on stderr that contains every text, a status that is
   // not 0, nothing on stdout, and no file more or less than before.

@@ -51,7 +51,7 @@ std::string room_of(const std::string& path, std::span<const RoomRule> rules) {
 // such as dlfcn.h.
 bool is_system_header(const std::string& name) {
   static const std::regex system(
-      "[a-z0-9_]+|(dlfcn|link|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
+      "[a-z0-9_]+|(dlfcn|elf|link|unistd|fcntl|glob|signal|spawn|stdlib|string|immintrin)\\.h|sys/"
       "[a-z]+\\.h");
   return std::regex_match(name, system);
 }
@@ -79,7 +79,7 @@ bool may_include(const std::string& included, bool quoted, const fs::path& top,
 std::span<const RoomRule> room_rules() {
   static const std::vector<RoomRule> rules = {
       {"model/shared", {}, {}, {}},
-      {"model/base", {}, kMath, {}},
+      {"model/base", {}, kMath + std::vector<std::string>{"xxhash.h"}, {}},
       {"model/numerics", {}, kMath, {}},
       {"model/geometry", {"model/shared", "model/numerics"}, kMath, {}},
       {"model/atmosphere",
@@ -93,8 +93,8 @@ std::span<const RoomRule> room_rules() {
        kMath,
        {}},
       {"model/tables",
-       {"model/shared", "model/numerics", "model/geometry", "model/atmosphere", "model/photometry",
-        "model/solver", "model/sky_model.h"},
+       {"model/shared", "model/base", "model/numerics", "model/geometry", "model/atmosphere",
+        "model/photometry", "model/solver", "model/sky_model.h"},
        kMath,
        {}},
       {"model/literature",
@@ -102,7 +102,8 @@ std::span<const RoomRule> room_rules() {
         "model/sky_model.h"},
        kMath,
        {}},
-      {"model", kModelRooms, kMath, kMathLibraries + std::vector<std::string>{"dl"}},
+      {"model", kModelRooms, kMath,
+       kMathLibraries + std::vector<std::string>{"dl", "PkgConfig::xxHash"}},
       {"data_refs", kModelRooms + std::vector<std::string>{"model", "data_refs/image"}, kMath,
        kMathLibraries + std::vector<std::string>{"skyfit::model"}},
       {"data_refs/image",

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// With the sun's depression the light of the sky falls, and stays above 0, to the end of twilight.
+// With the sun's depression the light of the sky falls, and stays above 0, to the end of twilight;
+// it is that of Monte Carlo.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
+#include <map>
 #include <numbers>
 
 #include "model/solver/reference_model.h"
 #include "tests/atmospheres.h"
+#include "tests/model/truth.h"
 
 namespace skyfit {
 namespace {
@@ -46,6 +50,38 @@ TEST(DeepTwilight, FallsWithTheSunsDepression) {
     a.at("mie").phase = {PhaseType::kTwoLobe, 0, 0.8, 0.3, 0.6};
     for (const Transfer transfer : {Transfer::kVector, Transfer::kScalar})
       expect_falling(a, transfer);
+  }
+}
+
+// Within 10 % of Monte Carlo and three times its noise, and without more bias than is stated.
+TEST(DeepTwilight, AgreesWithMonteCarlo) {
+  std::map<double, std::vector<truth::Row>> by_sun;
+  for (const truth::Row& row : truth::read_rows("deep_twilight.csv"))
+    by_sun[row.number(0)].push_back(row);
+  ASSERT_EQ(by_sun.size(), 6u);
+  ReferenceOptions options;
+  options.transfer = Transfer::kScalar;
+  const truth::MonteCarloCase c = truth::monte_carlo_case("twilight-clear");
+  const WavelengthNode node{550, 0};
+  for (const auto& [sun_deg, rows] : by_sun) {
+    std::vector<SkyPoint> points;
+    for (const truth::Row& row : rows)
+      points.push_back({0, sun_deg * kDegree, row.number(1) * kDegree, row.number(2) * kDegree});
+    const SkyValues sky = ReferenceModel(options).radiance(c.atmosphere, {&node, 1}, points, {});
+    double bias = 0, noise = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double truth = rows[k].number(3) + rows[k].number(4), sigma = rows[k].number(5) / truth,
+                   error = sky.value[k] / truth - 1;
+      constexpr double kAsked = 0.1, kSigmas = 3;
+      EXPECT_LT(std::abs(error), kAsked + kSigmas * sigma)
+          << "sun " << sun_deg << " view " << rows[k].number(1) << " azimuth " << rows[k].number(2);
+      bias += error / static_cast<double>(rows.size());
+      noise += sigma * sigma;
+    }
+    noise = std::sqrt(noise) / static_cast<double>(rows.size());
+    std::cout << "sun " << sun_deg << ": " << 100 * bias << " % too bright, noise of the truth "
+              << 100 * noise << " %\n";
+    EXPECT_LT(std::abs(bias), (sun_deg < 95 ? 0.005 : sun_deg < 99 ? 0.08 : 0.1) + 2 * noise);
   }
 }
 

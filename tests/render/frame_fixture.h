@@ -10,8 +10,10 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/glm.hpp>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "model/base/temporary_directory.h"
 #include "render/render.h"
@@ -32,8 +34,9 @@ inline const AtmosphereTables& small_tables() {
 }
 
 inline Renderer make_renderer(const Scene& scene = {},
-                              GraphicsDevice device = GraphicsDevice::kSoftware) {
-  Renderer made(scene, device);
+                              GraphicsDevice device = GraphicsDevice::kSoftware,
+                              std::shared_ptr<ContentCache> cache = nullptr) {
+  Renderer made(scene, device, std::move(cache));
   made.set_atmosphere(earth_clear(), small_tables());
   return made;
 }

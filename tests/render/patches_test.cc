@@ -70,7 +70,7 @@ class Patches : public ::testing::Test {
                                  clear_gbuffer();
                                  terrain_.draw(made.draw, shot.projection, view.axes);
                                }}});
-    made.depth = graph_.read_back("depth", GL_DEPTH_COMPONENT, 1);
+    made.depth = graph_.read_rows("depth", GL_DEPTH_COMPONENT, 1, 0, kHeight);
     made.gbuffer = graph_.read_back_words("gbuffer");
     return made;
   }
@@ -79,7 +79,7 @@ class Patches : public ::testing::Test {
   BlockStore& store() { return terrain_.store(); }
 
   std::unique_ptr<GlContext> context_ = make_osmesa_context();
-  TerrainPass terrain_{relief(), kEarth};
+  TerrainPass terrain_{relief(), kEarth, nullptr};
   FrameGraph graph_;
 };
 

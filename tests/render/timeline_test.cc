@@ -62,7 +62,8 @@ TEST(Timeline, TablesAreMadeOncePerStep) {
             compute_tables(p.atmosphere, color_rule(refs::standard_spectral_data()), kTiny, 1, {});
         --running;
         return tables;
-      });
+      },
+      0);
   const Timeline::Now start = timeline.at(0), again = timeline.at(0), half = timeline.at(0.5);
   EXPECT_EQ(start.tables, again.tables);
   EXPECT_NE(start.tables, half.tables);
@@ -75,9 +76,9 @@ TEST(Timeline, TablesAreMadeOncePerStep) {
 }
 
 TEST(Timeline, ErrorsOfTheTablesArrive) {
-  Timeline timeline({{0, preset(1e-5)}}, [](const Preset&) -> AtmosphereTables {
-    throw std::runtime_error("no tables");
-  });
+  Timeline timeline(
+      {{0, preset(1e-5)}},
+      [](const Preset&) -> AtmosphereTables { throw std::runtime_error("no tables"); }, 0);
   EXPECT_THAT([&] { timeline.at(0); }, ThrowsMessage<std::runtime_error>("no tables"));
 }
 

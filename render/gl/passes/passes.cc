@@ -158,28 +158,28 @@ void FrameGraph::bind_image(const std::string& name, GLuint unit) const {
 }
 
 template <class T>
-std::vector<T> FrameGraph::read(const std::string& name, GLenum format, GLenum type,
-                                int channels) const {
+std::vector<T> FrameGraph::read(const std::string& name, GLenum format, GLenum type, int channels,
+                                int first, int rows) const {
   const Texture& source = texture(name);
-  std::vector<T> pixels(static_cast<std::size_t>(source.width) * source.height * channels);
+  std::vector<T> pixels(static_cast<std::size_t>(source.width) * rows * channels);
   const std::size_t bytes = pixels.size() * sizeof(T);
   if (bytes > static_cast<std::size_t>(std::numeric_limits<GLsizei>::max())) {
     throw std::runtime_error(fmt::format("render: texture \"{}\" is too large to read back", name));
   }
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glGetTextureImage(source.object.id(), 0, format, type, static_cast<GLsizei>(bytes),
-                    pixels.data());
+  glGetTextureSubImage(source.object.id(), 0, 0, first, 0, source.width, rows, 1, format, type,
+                       static_cast<GLsizei>(bytes), pixels.data());
   check_gl("reading back " + name);
   return pixels;
 }
 
-std::vector<float> FrameGraph::read_back(const std::string& name, GLenum format,
-                                         int channels) const {
-  return read<float>(name, format, GL_FLOAT, channels);
+std::vector<float> FrameGraph::read_rows(const std::string& name, GLenum format, int channels,
+                                         int first, int rows) const {
+  return read<float>(name, format, GL_FLOAT, channels, first, rows);
 }
 
 std::vector<std::uint32_t> FrameGraph::read_back_words(const std::string& name) const {
-  return read<std::uint32_t>(name, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4);
+  return read<std::uint32_t>(name, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4, 0, texture(name).height);
 }
 
 }  // namespace skyfit

@@ -53,8 +53,10 @@ class FrameGraph {
 
   void bind(const std::string& name, GLuint unit) const;
 
-  // `channels` floats per pixel, rows from the bottom to the top.
-  std::vector<float> read_back(const std::string& name, GLenum format, int channels) const;
+  // `channels` floats per pixel of some rows of a target, the lowest being `first`; from the bottom
+  // to the top.
+  std::vector<float> read_rows(const std::string& name, GLenum format, int channels, int first,
+                               int rows) const;
   // Of a target of whole numbers, four words per pixel.
   std::vector<std::uint32_t> read_back_words(const std::string& name) const;
 
@@ -67,7 +69,8 @@ class FrameGraph {
   const Texture& texture(const std::string& name) const;
   GlFramebuffer framebuffer(const Pass& pass) const;
   template <class T>
-  std::vector<T> read(const std::string& name, GLenum format, GLenum type, int channels) const;
+  std::vector<T> read(const std::string& name, GLenum format, GLenum type, int channels, int first,
+                      int rows) const;
   void bind_image(const std::string& name, GLuint unit) const;
 
   std::map<std::string, Texture> textures_;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "render/gl/atmosphere/atmosphere_pass.h"
 #include "render/gl/context/context.h"
@@ -59,18 +61,35 @@ std::int64_t device_clock_ns() {
   return now;
 }
 
+// Steps one after the other by the wall clock.
+class StepClock {
+ public:
+  void done(const char* step) {
+    const Clock::time_point now = Clock::now();
+    steps_.push_back({step, std::chrono::duration<double, std::milli>(now - last_).count()});
+    last_ = now;
+  }
+  const std::vector<PassTime>& steps() const { return steps_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+  std::vector<PassTime> steps_;
+};
+
 class GlRenderer final : public FrameDrawer {
  public:
-  GlRenderer(const Scene& scene, GraphicsDevice device)
+  GlRenderer(const Scene& scene, GraphicsDevice device, std::shared_ptr<ContentCache> cache)
       : scene_(scene),
         device_(device),
+        cache_(std::move(cache)),
         context_(make_context(device)),
-        materials_(scene.textures),
+        materials_(scene.textures, cache_.get()),
         atmosphere_(device) {}
 
-  void set_atmosphere(const AtmosphereTables& tables) override {
+  void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) override {
     context_->make_current();
-    const double bottom = tables.atmosphere.bottom_radius_m;
+    const double bottom = atmosphere.bottom_radius_m;
     if (ground_ && bottom != radius_m_) {
       throw std::invalid_argument(
           fmt::format("render.bottom_radius = {:.9g} m: must stay {:.9g} m from frame to frame",
@@ -80,19 +99,30 @@ class GlRenderer final : public FrameDrawer {
     // The made-up planet's colours have the preset's ground albedo as their mean.
     NodeValues albedo;
     for (std::size_t k = 0; k < 4; ++k)
-      albedo[k] = ground_albedo_at(tables.atmosphere, tables.color.nodes[k].wavelength_nm);
+      albedo[k] = ground_albedo_at(atmosphere, color.nodes[k].wavelength_nm);
     if (!ground_ || (scene_.height_map.empty() && albedo != albedo_)) {
       albedo_ = albedo;
       terrain_.reset();
-      make_ground(tables);
-      terrain_.emplace(*ground_, radius_m_);
+      make_ground(atmosphere, color);
+      terrain_.emplace(*ground_, radius_m_, cache_.get());
     }
     if (meshes_.size() < scene_.meshes.size()) {
       for (const PlacedMesh& mesh : scene_.meshes) {
         meshes_.push_back(ObjectPass::upload_mesh(
-            read_object_mesh(mesh.file, mesh.reflectance, tables.color, scene_.named_files)));
+            read_object_mesh(mesh.file, mesh.reflectance, color, scene_.named_files)));
       }
     }
+  }
+
+  void prepare(const FrameOptions& options) override {
+    const FrameOptions sampled = affordable(options);
+    TerrainView view = view_of(sampled);
+    terrain_->store().begin_frame();
+    affordable_blocks(view, terrain_->store());
+  }
+
+  void set_atmosphere(const AtmosphereTables& tables) override {
+    set_ground(tables.atmosphere, tables.color);
     add_tables(tables, graph_);
     atmosphere_.set_tables(tables);
   }
@@ -109,7 +139,12 @@ class GlRenderer final : public FrameDrawer {
     const int samples = sampled.samples_per_side;
     Frame frame;
     before_.reset();
-    frame.statistics = start_frame(sampled, true, report).wait();
+    StepClock clock;
+    frame.statistics = start_frame(sampled, true, [&](double done) {
+                         clock.done("ground");
+                         report(done);
+                       }).wait();
+    clock.done("passes");
     report(0.9);
     frame.primaries = options.primaries;
     frame.width = options.width;
@@ -119,6 +154,8 @@ class GlRenderer final : public FrameDrawer {
     if (options.layers) frame.layers = resolve_layers(graph_, samples, frame);
     add_directions(options.camera, frame);
     if (options.glare == Glare::kEye) frame.glare = glare_of(frame);
+    clock.done("pixels");
+    frame.statistics.steps = clock.steps();
     report(1);
     return frame;
   }
@@ -138,13 +175,13 @@ class GlRenderer final : public FrameDrawer {
   }
 
  private:
-  void make_ground(const AtmosphereTables& tables) {
+  void make_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) {
     if (scene_.height_map.empty()) {
-      auto relief = std::make_unique<Relief>(radius_m_, albedo_, tables.atmosphere.sea);
+      auto relief = std::make_unique<Relief>(radius_m_, albedo_, atmosphere.sea);
       home_ = relief->coast();
       ground_ = std::move(relief);
     } else {
-      ground_ = std::make_unique<MapGround>(scene_, radius_m_, tables.color);
+      ground_ = std::make_unique<MapGround>(scene_, radius_m_, color);
       home_ = site_axes({});
     }
   }
@@ -204,21 +241,29 @@ class GlRenderer final : public FrameDrawer {
     double farthest_km = 0;
   };
 
+  double ground_distance_m(const FrameOptions& options) const {
+    return options.camera.altitude_m - ground_height_m(options.site);
+  }
+
+  TerrainView view_of(const FrameOptions& options) const {
+    return terrain_view(options, axes_of(options.site), *ground_, radius_m_,
+                        ground_distance_m(options));
+  }
+
   // Chooses the blocks of the picture and of the shadow maps and makes those that are missing.
   void prepare_scene(const FrameOptions& options, FrameStatistics& statistics) {
     const double aspect = static_cast<double>(options.width) / options.height;
     current_.axes = axes_of(options.site);
     current_.projection = make_projection(options.camera, aspect);
-    const double ground_distance = options.camera.altitude_m - ground_height_m(options.site);
-    TerrainView view = terrain_view(options, current_.axes, *ground_, radius_m_, ground_distance);
+    TerrainView view = view_of(options);
     BlockStore& store = terrain_->store();
     store.begin_frame();
     const BlockSelection selection = affordable_blocks(view, store);
     statistics.blocks_outside = selection.outside;
     statistics.blocks_behind = selection.behind;
     current_.shadows.clear();
-    if (options.shadows) prepare_shadows(options, view, ground_distance);
-    statistics.blocks_made = store.made();
+    if (options.shadows) prepare_shadows(options, view, ground_distance_m(options));
+    statistics.blocks_made = store.take_made();
     terrain_->prepare(selection.blocks, view, current_.blocks);
     statistics.triangles = current_.blocks.triangles;
     statistics.blocks_drawn = current_.blocks.blocks;
@@ -338,6 +383,7 @@ class GlRenderer final : public FrameDrawer {
 
   Scene scene_;
   GraphicsDevice device_;
+  std::shared_ptr<ContentCache> cache_;  // may be null
   std::unique_ptr<GlContext> context_;
   FrameGraph graph_;
   double radius_m_ = 0;
@@ -358,8 +404,9 @@ class GlRenderer final : public FrameDrawer {
 
 }  // namespace
 
-std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device) {
-  return std::make_unique<GlRenderer>(scene, device);
+std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device,
+                                         std::shared_ptr<ContentCache> cache) {
+  return std::make_unique<GlRenderer>(scene, device, std::move(cache));
 }
 
 }  // namespace skyfit

@@ -10,6 +10,7 @@
 namespace skyfit {
 
 // What the Renderer of render.h draws with.
-std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device);
+std::unique_ptr<FrameDrawer> make_drawer(const Scene& scene, GraphicsDevice device,
+                                         std::shared_ptr<ContentCache> cache);
 
 }  // namespace skyfit

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -21,39 +20,52 @@
 namespace skyfit {
 namespace {
 
-// Calls f(pixel, sample) for every sample; OpenGL's rows run upward, a frame's downward.
+// Calls f(pixel, values) with the `channels` values of every sample of a target, those of a pixel
+// in the same order whatever the threads; OpenGL's rows run upward, a frame's downward. The target
+// is read in bands: as a whole it may be larger than all else that a frame needs.
 template <class F>
-void for_samples(const Frame& frame, int samples_per_side, F&& f) {
-  const auto width = static_cast<std::size_t>(frame.width) * samples_per_side;
-  for (int y = 0; y < frame.height * samples_per_side; ++y) {
-    const auto row =
-        static_cast<std::size_t>(frame.height - 1 - y / samples_per_side) * frame.width;
-    for (std::size_t x = 0; x < width; ++x)
-      f(row + x / samples_per_side, static_cast<std::size_t>(y) * width + x);
+void for_samples(const FrameGraph& graph, const std::string& target, GLenum format, int channels,
+                 const Frame& frame, int samples_per_side, F&& f) {
+  constexpr int kBand = 64;  // rows of pixels
+  const auto columns = static_cast<std::size_t>(frame.width) * samples_per_side;
+  for (int low = 0; low < frame.height; low += kBand) {
+    const int rows = std::min(kBand, frame.height - low);
+    const std::vector<float> values =
+        graph.read_rows(target, format, channels, low * samples_per_side, rows * samples_per_side);
+    tbb::parallel_for(0, rows, [&](int row) {
+      const std::size_t first =
+          static_cast<std::size_t>(frame.height - 1 - low - row) * frame.width;
+      for (int y = row * samples_per_side; y < (row + 1) * samples_per_side; ++y) {
+        const float* sample = &values[static_cast<std::size_t>(y) * columns * channels];
+        for (std::size_t x = 0; x < columns; ++x, sample += channels)
+          f(first + x / samples_per_side, sample);
+      }
+    });
   }
 }
 
 // No light is negative. `values`: [pixel][3], in units of `unit` in each channel.
 void bring_into_gamut(const ColorSpace& space, const ColorChannels& unit,
                       std::vector<float>& values) {
-  for (std::size_t i = 0; i < values.size(); i += 3) {
-    if (std::min({values[i], values[i + 1], values[i + 2]}) >= 0) continue;
+  tbb::parallel_for(std::size_t{0}, values.size() / 3, [&](std::size_t pixel) {
+    const std::size_t i = 3 * pixel;
+    if (std::min({values[i], values[i + 1], values[i + 2]}) >= 0) return;
     ColorChannels color;
     for (std::size_t k = 0; k < 3; ++k) color[k] = unit[k] * values[i + k];
     const ColorChannels mapped = into_gamut(color, luminance_of(color, space), space);
     for (std::size_t k = 0; k < 3; ++k) values[i + k] = static_cast<float>(mapped[k] / unit[k]);
-  }
+  });
 }
 
 // [pixel][3], the mean of the samples.
 std::vector<float> resolve_color(const FrameGraph& graph, const std::string& name,
                                  int samples_per_side, const Frame& frame) {
-  const std::vector<float> source = graph.read_back(name, GL_RGB, 3);
   std::vector<float> values(3 * frame.luminance.size(), 0);
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
-  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
-    for (std::size_t k = 0; k < 3; ++k) values[3 * pixel + k] += part * source[3 * sample + k];
-  });
+  for_samples(graph, name, GL_RGB, 3, frame, samples_per_side,
+              [&](std::size_t pixel, const float* sample) {
+                for (std::size_t k = 0; k < 3; ++k) values[3 * pixel + k] += part * sample[k];
+              });
   return values;
 }
 
@@ -64,25 +76,26 @@ std::vector<float> resolve_direct(const FrameGraph& graph, int samples_per_side,
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
   std::size_t k = 0;
   for (const char* layer : {"in_scatter", "reflected", "transmittance"}) {
-    const std::vector<float> source = graph.read_back(layer, GL_RGBA, 4);
-    for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
-      values[3 * pixel + k] += part * source[4 * sample + 3];
-    });
+    for_samples(
+        graph, layer, GL_RGBA, 4, frame, samples_per_side,
+        [&](std::size_t pixel, const float* sample) { values[3 * pixel + k] += part * sample[3]; });
     ++k;
   }
   return values;
 }
 
 void resolve_discs(const FrameGraph& graph, int samples_per_side, Frame& frame) {
-  const std::vector<float> discs = graph.read_back(kDiscWrite, GL_RGBA, 4);
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
-  std::map<std::size_t, std::array<float, 4>> covered;
-  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
-    if (discs[4 * sample + 3] <= 0) return;
-    for (std::size_t k = 0; k < 4; ++k) covered[pixel][k] += part * discs[4 * sample + k];
-  });
+  std::vector<std::array<float, 4>> sums(frame.luminance.size(), {0, 0, 0, 0});
+  for_samples(graph, kDiscWrite, GL_RGBA, 4, frame, samples_per_side,
+              [&](std::size_t pixel, const float* sample) {
+                if (sample[3] <= 0) return;
+                for (std::size_t k = 0; k < 4; ++k) sums[pixel][k] += part * sample[k];
+              });
   const ColorSpace& space = color_space(frame.primaries);
-  for (const auto& [pixel, sum] : covered) {
+  for (std::size_t pixel = 0; pixel < sums.size(); ++pixel) {
+    const std::array<float, 4>& sum = sums[pixel];
+    if (sum[3] <= 0) continue;
     const ColorChannels light = {sum[0], sum[1], sum[2]};
     const double luminance = luminance_of(light, space);
     const ColorChannels mapped = into_gamut(light, luminance, space);
@@ -99,21 +112,21 @@ void resolve_discs(const FrameGraph& graph, int samples_per_side, Frame& frame) 
 void resolve_light(const FrameGraph& graph, int samples_per_side, Frame& frame) {
   const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
-  const std::vector<float> light = graph.read_back("light", GL_RGBA, 4);
   frame.rgb.assign(3 * pixels, 0);
   frame.luminance.assign(pixels, 0);
-  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
-    for (std::size_t k = 0; k < 3; ++k) frame.rgb[3 * pixel + k] += part * light[4 * sample + k];
-    frame.luminance[pixel] += part * light[4 * sample + 3];
-  });
+  for_samples(graph, "light", GL_RGBA, 4, frame, samples_per_side,
+              [&](std::size_t pixel, const float* sample) {
+                for (std::size_t k = 0; k < 3; ++k) frame.rgb[3 * pixel + k] += part * sample[k];
+                frame.luminance[pixel] += part * sample[3];
+              });
   const ColorSpace& space = color_space(frame.primaries);
   bring_into_gamut(space, {1, 1, 1}, frame.rgb);
   resolve_discs(graph, samples_per_side, frame);
-  const std::vector<float> distance = graph.read_back("distance", GL_RED, 1);
   frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
-  for_samples(frame, samples_per_side, [&](std::size_t pixel, std::size_t sample) {
-    frame.depth_m[pixel] = std::min(frame.depth_m[pixel], 1e3f * distance[sample]);
-  });
+  for_samples(graph, "distance", GL_RED, 1, frame, samples_per_side,
+              [&](std::size_t pixel, const float* sample) {
+                frame.depth_m[pixel] = std::min(frame.depth_m[pixel], 1e3f * sample[0]);
+              });
 }
 
 FrameLayers resolve_layers(const FrameGraph& graph, int samples_per_side, const Frame& frame) {

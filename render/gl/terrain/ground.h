@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "model/base/content_cache.h"
 #include "model/tables/tables.h"
 
 namespace skyfit {
@@ -27,6 +28,9 @@ class Ground {
                       double resolution_m) const = 0;
 
   virtual double highest_m() const = 0;  // a bound on height_m()
+
+  // All that the answers above follow from.
+  virtual void add_inputs(CacheKey& key) const = 0;
 };
 
 }  // namespace skyfit

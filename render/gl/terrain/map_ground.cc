@@ -27,10 +27,15 @@ constexpr double kRough = 9;
 }  // namespace
 
 ColorMap::ColorMap(const std::filesystem::path& file, const ColorRule& rule)
-    : map_(read_planet_map(file, PlanetMap::Values::kColors)), colors_(rule) {}
+    : map_(read_planet_map(file, PlanetMap::Values::kColors)), rule_(rule), colors_(rule) {}
 
 NodeValues ColorMap::reflectance(const glm::dvec3& direction, double angle) const {
   return colors_.at(map_->at(direction, angle).value);
+}
+
+void ColorMap::add_inputs(CacheKey& key) const {
+  map_->add_inputs(key);
+  key.value(rule_);
 }
 
 MapGround::MapGround(const Scene& scene, double bottom_radius_m, const ColorRule& rule)
@@ -40,6 +45,12 @@ MapGround::MapGround(const Scene& scene, double bottom_radius_m, const ColorRule
       water_level_m_(scene.water_level_m),
       heights_(read_planet_map(scene.height_map, PlanetMap::Values::kHeights)) {
   if (!scene.color_map.empty()) colors_ = std::make_unique<ColorMap>(scene.color_map, rule);
+}
+
+void MapGround::add_inputs(CacheKey& key) const {
+  key.text("map").value(radius_m_).value(lowest_m_).value(highest_m_).value(water_level_m_);
+  heights_->add_inputs(key);
+  if (colors_) colors_->add_inputs(key);
 }
 
 double MapGround::height_m(const glm::dvec3& direction, double resolution_m) const {

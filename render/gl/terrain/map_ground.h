@@ -22,8 +22,11 @@ class ColorMap {
   // Details smaller than `angle`, in radians, are left out.
   NodeValues reflectance(const glm::dvec3& direction, double angle) const;
 
+  void add_inputs(CacheKey& key) const;
+
  private:
   std::unique_ptr<PlanetMap> map_;
+  ColorRule rule_;
   ColorReflectance colors_;
 };
 
@@ -38,6 +41,7 @@ class MapGround final : public Ground {
   double rock(const glm::dvec3& direction, double height_m, double steepness,
               double resolution_m) const override;
   double highest_m() const override;
+  void add_inputs(CacheKey& key) const override;
 
  private:
   double detail_m(const glm::dvec3& direction, double slope, double above_water_m,

@@ -82,6 +82,19 @@ GlTexture solid_texture(const MaterialTexels& texels) {
   return texture;
 }
 
+MaterialTexels kept_texture(Texture texture, ContentCache& cache) {
+  CacheKey key("texture");
+  key.value(texture);
+  MaterialTexels texels(4 * kTexels);
+  const auto room = [&](std::size_t, std::uint64_t) {
+    return std::as_writable_bytes(std::span(texels));
+  };
+  if (cache.find(key, room)) return texels;
+  texels = make_texture(texture);
+  cache.keep(key, {std::as_bytes(std::span(texels))});
+  return texels;
+}
+
 }  // namespace
 
 MaterialTexels make_texture(Texture texture) {
@@ -146,8 +159,10 @@ std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels) {
   return mipmaps;
 }
 
-MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory) {
-  if (directory.empty()) return make_texture(texture);
+MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory,
+                            ContentCache* cache) {
+  if (directory.empty())
+    return cache != nullptr ? kept_texture(texture, *cache) : make_texture(texture);
   const std::filesystem::path file = directory / fmt::format("{}.png", name_of(texture));
   if (!std::filesystem::exists(file)) {
     MaterialTexels texels = make_texture(texture);
@@ -172,9 +187,9 @@ MaterialTexels load_texture(Texture texture, const std::filesystem::path& direct
   return texels;
 }
 
-Materials::Materials(const std::filesystem::path& directory)
-    : grains_(solid_texture(load_texture(Texture::kGrains, directory))),
-      crags_(solid_texture(load_texture(Texture::kCrags, directory))) {
+Materials::Materials(const std::filesystem::path& directory, ContentCache* cache)
+    : grains_(solid_texture(load_texture(Texture::kGrains, directory, cache))),
+      crags_(solid_texture(load_texture(Texture::kCrags, directory, cache))) {
   glGetTextureImage(grains_.id(), kLastLevel, GL_RGBA, GL_FLOAT, sizeof grain_mean_, &grain_mean_);
 }
 

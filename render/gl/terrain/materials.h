@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "model/base/content_cache.h"
 #include "render/gl/context/objects.h"
 #include "render/gl/context/uniform_block.h"
 
@@ -24,9 +25,10 @@ enum class Texture { kGrains, kCrags };  // soft and grainy; with ridges and cra
 MaterialTexels make_texture(Texture texture);
 
 // From DIRECTORY/grains.png and crags.png, slices one below the other; made and saved when it is
-// missing, only made when `directory` is empty. Throws std::runtime_error that names a file that
-// cannot be read or written or has another size.
-MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory);
+// missing. Without a directory: from the cache, which may be null, or made. Throws
+// std::runtime_error that names a file that cannot be read or written or has another size.
+MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory,
+                            ContentCache* cache = nullptr);
 
 // The texture and its mipmaps down to one texel: means of 2 x 2 x 2 texels, each rounded once.
 // Drivers round those of bytes in their own way and level by level, which tilts the distant ground.
@@ -35,7 +37,7 @@ std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels);
 
 class Materials {
  public:
-  explicit Materials(const std::filesystem::path& directory);
+  Materials(const std::filesystem::path& directory, ContentCache* cache);
 
   // Beyond it a pixel of that angle sees nothing but the grains' mean.
   static double grainless_distance_m(double pixel_rad);

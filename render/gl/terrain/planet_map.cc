@@ -11,6 +11,7 @@
 #include <numbers>
 #include <numeric>
 #include <type_traits>
+#include <typeinfo>
 #include <vector>
 
 #include "render/gl/terrain/map_file.h"
@@ -183,6 +184,12 @@ class SplineMap final : public PlanetMap {
   }
 
   double texel_angle() const override { return Layout::kAngle / levels_.front().rows; }
+
+  void add_inputs(CacheKey& key) const override {
+    const std::vector<T>& texels = levels_.front().texels;
+    key.text(typeid(*this).name()).value(levels_.front().rows);
+    key.text({reinterpret_cast<const char*>(texels.data()), texels.size() * sizeof(T)});
+  }
 
   Sample at(const glm::dvec3& direction, double angle) const override {
     // The shortest wave between texels is two of them long.

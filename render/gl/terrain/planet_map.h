@@ -8,6 +8,8 @@
 #include <glm/vec3.hpp>
 #include <memory>
 
+#include "model/base/content_cache.h"
+
 namespace skyfit {
 
 class PlanetMap {
@@ -30,6 +32,9 @@ class PlanetMap {
 
   // Between neighbouring texels, in radians.
   virtual double texel_angle() const = 0;
+
+  // All that the answers above follow from.
+  virtual void add_inputs(CacheKey& key) const = 0;
 };
 
 // Throws as inspect_map() and read_map() do. A texel takes as many bytes as in the file, a third

@@ -201,6 +201,10 @@ double Relief::rock(const glm::dvec3& direction, double height_m, double steepne
   return std::max(high, smoothstep(0.04, 0.14, steepness));
 }
 
+void Relief::add_inputs(CacheKey& key) const {
+  key.text("relief").value(radius_m_).value(albedo_).value(sea_);
+}
+
 double Relief::highest_m() const {
   // A ridge is at most 1.2 times its first octave; noise of amplitude 1 stays within 1.5.
   return 1.2 * (kMountainHeight + 1.3 * kCragHeight) + 2.5 * kPlainHeight + 2.1 * kHillHeight;

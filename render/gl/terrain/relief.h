@@ -30,6 +30,7 @@ class Relief final : public Ground {
   double rock(const glm::dvec3& direction, double height_m, double steepness,
               double resolution_m) const override;
   double highest_m() const override;
+  void add_inputs(CacheKey& key) const override;
 
  private:
   void settle_on_a_coast();

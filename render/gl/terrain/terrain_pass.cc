@@ -62,9 +62,9 @@ std::array<std::size_t, kPatches> near_to_far(const CubeBlock& block, const Terr
 
 }  // namespace
 
-TerrainPass::TerrainPass(const Ground& ground, double radius_m)
+TerrainPass::TerrainPass(const Ground& ground, double radius_m, ContentCache* cache)
     : radius_m_(radius_m),
-      store_(ground, radius_m),
+      store_(ground, radius_m, cache),
       program_(terrain_program("render/shaders/terrain.vert", "render/shaders/terrain.frag")),
       depth_program_(
           terrain_program("render/shaders/terrain_depth.vert", "render/shaders/depth_only.frag")),

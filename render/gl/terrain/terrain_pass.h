@@ -25,8 +25,8 @@ struct TerrainDraw {
 
 class TerrainPass {
  public:
-  // `ground` outlives the pass.
-  TerrainPass(const Ground& ground, double radius_m);
+  // `ground` and `cache`, which may be null, outlive the pass.
+  TerrainPass(const Ground& ground, double radius_m, ContentCache* cache);
 
   BlockStore& store() { return store_; }
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/base/npy_file.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "model/base/whole_file.h"
+
+namespace skyfit {
+
+// Magic bytes, length of the header, and the header: a Python dictionary, padded so that the
+// numbers begin at a multiple of 64 bytes.
+void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
+               std::span<const float> values) {
+  static_assert(std::endian::native == std::endian::little);
+  if (std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) !=
+      values.size())
+    throw std::invalid_argument(
+        fmt::format("{}: {} values do not fill the shape", file.string(), values.size()));
+  std::string dimensions;
+  for (const std::size_t size : shape) dimensions += fmt::format("{}, ", size);
+  std::string header =
+      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", dimensions);
+  constexpr std::size_t kPrefix = 10, kAlignment = 64;
+  header.append(kAlignment - 1 - (kPrefix + header.size()) % kAlignment, ' ');
+  header += '\n';
+  const auto length = static_cast<std::uint16_t>(header.size());
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(length & 0xff);
+  bytes += static_cast<char>(length >> 8);
+  bytes += header;
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  write_whole_file(file, bytes);
+}
+
+}  // namespace skyfit

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which suns are coupled, and how: see diffuse_field.h and HorizontalCoupling.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "model/numerics/angles.h"
+#include "model/solver/diffuse_field.h"
+
+namespace skyfit {
+namespace {
+
+constexpr std::size_t kModes = kShiftedModes;
+using OfModes = std::array<double, kModes>;
+
+// cos and sin of m phi.
+struct Waves {
+  OfModes cosine, sine;
+};
+Waves waves(double phi) {
+  Waves w;
+  for (std::size_t m = 0; m < kModes; ++m) {
+    w.cosine[m] = std::cos(static_cast<double>(m) * phi);
+    w.sine[m] = std::sin(static_cast<double>(m) * phi);
+  }
+  return w;
+}
+
+// docs/theory (7.7): for one layer and ray, the modes of one sun's light. [from sun][m][from mode]
+struct Shift {
+  std::vector<std::array<OfModes, kModes>> cosine, sine;
+};
+Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t suns,
+               double sun_zenith, double psi) {
+  constexpr int kAzimuths = 16;
+  Shift shift{std::vector<std::array<OfModes, kModes>>(suns),
+              std::vector<std::array<OfModes, kModes>>(suns)};
+  const double mu = std::cos(sun_zenith), s = std::sin(sun_zenith);
+  for (int k = 0; k < kAzimuths; ++k) {
+    const double phi = std::numbers::pi * (k + 0.5) / kAzimuths;
+    const Waves here = waves(phi),
+                far = waves(std::atan2(s * std::sin(phi),
+                                       s * std::cos(phi) * std::cos(psi) - mu * std::sin(psi)));
+    const SunStencil stencil = grid.stencil(mu * std::cos(psi) + s * std::sin(psi) * std::cos(phi));
+    for (std::size_t q = 0; q < stencil.index.size(); ++q) {
+      const auto sun = static_cast<std::size_t>(solved[static_cast<std::size_t>(stencil.index[q])]);
+      for (std::size_t from = 0; from < kModes; ++from) {
+        const double weight = (from % 2 == 0 ? stencil.even[q] : stencil.odd[q]) / kAzimuths,
+                     cosine = weight * (from == 0 ? 1 : 2) * far.cosine[from],
+                     sine = weight * 2 * far.sine[from];
+        for (std::size_t m = 0; m < kModes; ++m) {
+          shift.cosine[sun][m][from] += cosine * here.cosine[m];
+          shift.sine[sun][m][from] += sine * here.sine[m];
+        }
+      }
+    }
+  }
+  return shift;
+}
+
+void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalCoupling& c) {
+  constexpr double kDusk = 92 * kRadiansPerDegree;  // above it, first order does as well
+  constexpr double kSmall = 1e-3;  // of a sun's light, as twilight decays
+  const std::size_t suns = c.suns.size();
+  c.shifted.assign(suns, false);
+  std::vector<double> decay(suns);
+  for (int i = 0; i < grid.size(); ++i) {
+    if (solved[i] < 0) continue;
+    c.shifted[solved[i]] = c.coupled[solved[i]] && grid.zenith(i) > kDusk;
+    decay[solved[i]] = grid.decay(grid.zenith(i));
+  }
+  c.shares.resize(c.step.size());
+  tbb::parallel_for(std::size_t{0}, c.step.size(), [&](std::size_t at) {
+    c.shares[at].resize(kModes);
+    if (c.step[at] == 0) return;
+    for (int i = 0; i < grid.size(); ++i) {
+      if (solved[i] < 0 || !c.shifted[solved[i]]) continue;
+      const auto sun = static_cast<std::size_t>(solved[i]);
+      const Shift shift = shift_of(grid, solved, suns, grid.zenith(i), c.step[at]);
+      for (std::size_t m = 0; m < kModes; ++m) {
+        for (std::size_t from_sun = 0; from_sun < suns; ++from_sun) {
+          for (std::size_t from = 0; from < kModes; ++from) {
+            const double own = m == from && from_sun == sun ? 1 : 0,
+                         cosine = shift.cosine[from_sun][m][from] - own,
+                         sine = shift.sine[from_sun][m][from] - own;
+            if (decay[from_sun] / decay[sun] * std::max(std::abs(cosine), std::abs(sine)) < kSmall)
+              continue;
+            c.shares[at][m].push_back({static_cast<std::uint8_t>(sun),
+                                       static_cast<std::uint8_t>(from_sun),
+                                       static_cast<std::uint8_t>(from), static_cast<float>(cosine),
+                                       static_cast<float>(sine)});
+          }
+        }
+      }
+    }
+  });
+}
+
+}  // namespace
+
+int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
+  constexpr double kThin = 0.02;  // top height over radius
+  if (shells.top > kThin * shells.bottom_radius) return 0;
+  constexpr double kLow = 86 * kRadiansPerDegree;
+  int i = 0;
+  while (grid.zenith(i) < kLow) ++i;
+  return i;
+}
+
+HorizontalCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved,
+                                const Streams& streams, int first) {
+  HorizontalCoupling c;
+  c.converges = first > 0;
+  for (int i = 0; i < grid.size(); ++i) {
+    if (solved[i] < 0) continue;
+    c.coupled.push_back(i >= first);
+    HorizontalCoupling::Sun sun;
+    if (i >= first) {
+      sun.at_zenith = grid.zenith(i) == 0;
+      sun.cotangent = sun.at_zenith ? 0 : 1 / std::tan(grid.zenith(i));
+      sun.slope = grid.slope(i);
+      for (int& k : sun.slope.index) k = solved[k];
+    }
+    c.suns.push_back(sun);
+  }
+  for (int i = 0; i + 1 < streams.levels(); ++i) {
+    for (int k = 0; k < streams.most(); ++k) {
+      // The difference of the ray's zenith angles at both ends.
+      const double low = streams.mu(i, k), high = streams.mu(i + 1, k);
+      c.step.push_back(k < streams.count(i) ? std::asin(std::sqrt(1 - low * low) * high -
+                                                        low * std::sqrt(1 - high * high))
+                                            : 0.0);
+    }
+  }
+  if (c.converges) set_shares(grid, solved, c);
+  return c;
+}
+
+}  // namespace skyfit

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/tables/table_cache.h"
+
+#include <array>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "model/atmosphere/preset.h"
+
+namespace skyfit {
+namespace {
+
+// Bytes of padding would differ from run to run.
+static_assert(std::has_unique_object_representations_v<TableSizes> &&
+              std::has_unique_object_representations_v<TableLight> &&
+              std::has_unique_object_representations_v<NielsenChoices>);
+static_assert(sizeof(ColorRule) == (4 * 4 + 3 * 4) * sizeof(double));
+
+CacheKey key_of(const TableInputs& inputs) {
+  CacheKey key("tables");
+  key.text(inputs.model).value(inputs.light).value(inputs.color).value(inputs.sizes);
+  key.text(preset_to_json({{}, inputs.atmosphere, nullptr}));
+  return key;
+}
+
+// What is computed, but what follows from the inputs at once.
+struct Header {
+  TableSizes sizes;
+  SkyRayMapping mapping;
+  NielsenChoices nielsen;
+  bool limited;
+  double highest_m;
+  std::array<std::array<int, 3>, 7> extents;
+};
+
+// The order of the parts behind the header and the name in the limits.
+template <class Tables>
+auto all_tables(Tables& tables) {
+  // One name for each member: a new one must be thought of here.
+  auto& [atmosphere, phases, color, sizes, optical_depth, irradiance, rayleigh_like, single, phase,
+         sky_rays] = tables;
+  return std::array{&optical_depth, &irradiance,   &rayleigh_like,   &single,
+                    &phase,         &sky_rays.air, &sky_rays.aerosol};
+}
+constexpr std::size_t kBefore = 2;
+
+void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tables) {
+  const auto& [mapping, air, aerosol, nielsen, limits] = tables.sky_rays;
+  Header header{};
+  header.sizes = tables.sizes;
+  header.mapping = mapping;
+  header.nielsen = nielsen;
+  header.limited = limits.has_value();
+  header.highest_m = limits ? limits->highest_m : 0;
+  const std::string model = limits ? limits->model : "";
+  std::vector<std::span<const std::byte>> parts = {std::as_bytes(std::span(&header, 1)),
+                                                   std::as_bytes(std::span(model))};
+  for (std::size_t i = 0; const Table* table : all_tables(tables)) {
+    header.extents[i++] = {table->width, table->height, table->depth};
+    parts.push_back(std::as_bytes(std::span(table->rgba)));
+  }
+  cache.keep(key, parts);
+}
+
+bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
+  Header header{};
+  std::string model;
+  const auto room = [&](std::size_t part, std::uint64_t bytes) -> std::span<std::byte> {
+    if (part == 0) return std::as_writable_bytes(std::span(&header, 1));
+    if (part == 1) {
+      model.resize(bytes);
+      return std::as_writable_bytes(std::span(model));
+    }
+    const auto all = all_tables(tables);
+    if (part >= kBefore + all.size()) return {};
+    const auto [width, height, depth] = header.extents[part - kBefore];
+    Table& table = *all[part - kBefore];
+    table = {width, height, depth, {}};
+    table.rgba.resize(bytes / sizeof(float));
+    return std::as_writable_bytes(std::span(table.rgba));
+  };
+  if (!cache.find(key, room)) return false;
+  tables.sizes = header.sizes;
+  tables.sky_rays.mapping = header.mapping;
+  tables.sky_rays.nielsen = header.nielsen;
+  if (header.limited) tables.sky_rays.limits = DaylightLimits{model, header.highest_m};
+  return true;
+}
+
+}  // namespace
+
+AtmosphereTables cached_tables(ContentCache& cache, const TableInputs& inputs,
+                               const std::function<AtmosphereTables()>& compute) {
+  const CacheKey key = key_of(inputs);
+  AtmosphereTables kept;
+  if (find(cache, key, kept)) {
+    kept.atmosphere = inputs.atmosphere;
+    kept.color = inputs.color;
+    kept.phases = phase_classes(inputs.atmosphere);
+    return kept;
+  }
+  AtmosphereTables computed = compute();
+  keep(cache, key, computed);
+  return computed;
+}
+
+}  // namespace skyfit
