@@ -93,6 +93,20 @@ TEST_F(IrradianceReference, AnHourOfAWeatherFileBringsItsSunAndItsWater) {
   EXPECT_EQ(wet.scans[0].precipitable_water_mm, 25);
 }
 
+TEST_F(IrradianceReference, WaterOfTmyIsInCmAndWeaHasNone) {
+  const std::string tmy = file_of(
+      "1,\"Somewhere\",CO,-7.0,40.0,-105.0,1800\n"
+      "Date (MM/DD/YYYY),Time (HH:MM),GHI (W/m^2),DNI (W/m^2),DHI (W/m^2),Pwat (cm)\n"
+      "06/21/1999,12:00,950,850,110,1.7\n");
+  EXPECT_EQ(irradiance_reference(tmy + "@2026-06-21T11:20", {}, {}).scans[0].precipitable_water_mm,
+            17);
+  const std::string wea = file_of(
+      "place Somewhere\nlatitude 40.0\nlongitude 105.0\ntime_zone 105\nsite_elevation 1800\n"
+      "weather_data_file_units 1\n6 21 11.5 850 110\n");
+  EXPECT_THAT(complaint_of([&] { irradiance_reference(wea + "@2026-06-21T11:20", {}, {}); }),
+              HasSubstr("precipitable_water: not known"));
+}
+
 TEST_F(IrradianceReference, BeamAndSkyThatDoNotMakeTheSumAreNoted) {
   const double direct = 80000 * std::cos(kSun);
   const auto notes = [&](double global) {
