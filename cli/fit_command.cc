@@ -40,8 +40,8 @@ refs::Reference reference_of(const FitArguments& arguments, const CLI::App& comm
 }
 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
-  if (arguments.reference.empty() == arguments.irradiance.empty())
-    throw UsageError("--reference", arguments.reference, "expected a reference, or --irradiance");
+  if (arguments.reference.empty() && arguments.irradiance.empty())
+    throw CLI::RequiredError("--reference or --irradiance");
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
   require_netcdf(arguments.netcdf);

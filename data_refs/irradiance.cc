@@ -36,6 +36,17 @@ struct UnitRow {
 constexpr std::array<UnitRow, 2> kUnits = {
     {{"lx", "lx", Quantity::kIlluminance, 2e5}, {"W/m2", "w_m2", Quantity::kIrradiance, 2000}}};
 
+// What may stand behind a number of the command line.
+struct Spelling {
+  std::string_view text;
+  const UnitRow& unit;
+  double factor;
+};
+constexpr std::array<Spelling, 4> kSpellings = {{{"klx", kUnits[0], 1e3},
+                                                 {"lx", kUnits[0], 1},
+                                                 {"W/m2", kUnits[1], 1},
+                                                 {"W/m^2", kUnits[1], 1}}};
+
 struct ShortName {
   std::string_view name;
   Irradiance what;
@@ -182,13 +193,13 @@ std::vector<std::string> parts_of(std::string_view text) {
 }
 
 // Of "83000:500lx", the numbers before the unit.
-Measured measured_of(std::string_view part, std::string_view numbers) {
+Measured measured_of(std::string_view part, std::string_view numbers, double factor) {
   const std::size_t colon = numbers.find(':');
   const auto number = [&](std::string_view text) {
-    const std::optional<double> value = csv_number(text);
+    const std::optional<double> value = csv_number(trim(text));
     if (!value || !std::isfinite(*value))
       fail(part, "expected NAME=VALUE[:SIGMA]UNIT, such as direct_normal=83000:1500lx");
-    return *value;
+    return factor * *value;
   };
   Measured measured{number(numbers.substr(0, colon)), {}};
   if (colon != std::string_view::npos) measured.sigma = number(numbers.substr(colon + 1));
@@ -218,16 +229,18 @@ void read_value(const std::string& part, Row& row, const UnitRow*& unit) {
     fail(part, fmt::format("expected one of {}, {}", fmt::join(kIrradianceNames, ", "), kWater));
   }
   const auto its =
-      std::ranges::find_if(kUnits, [&](const UnitRow& u) { return value.ends_with(u.name); });
-  if (its == kUnits.end())
+      std::ranges::find_if(kSpellings, [&](const Spelling& s) { return value.ends_with(s.text); });
+  if (its == kSpellings.end()) {
     fail(part,
-         "no unit, expected lx (an illuminance) or W/m2 (of all wavelengths) behind the number");
-  if (unit != nullptr && unit != &*its)
+         "no unit, expected lx or klx (an illuminance) or W/m2 (of all wavelengths) behind the "
+         "number");
+  }
+  if (unit != nullptr && unit != &its->unit)
     fail(part, fmt::format("expected {} as before: one unit for all", unit->name));
-  unit = &*its;
+  unit = &its->unit;
   Measured& measured = row.of[static_cast<std::size_t>(*what)];
   if (measured.value) fail(part, "is given twice");
-  measured = measured_of(part, value.substr(0, value.size() - its->name.size()));
+  measured = measured_of(part, value.substr(0, value.size() - its->text.size()), its->factor);
   if (!(*measured.value > 0)) fail(part, "expected a value > 0");
 }
 

@@ -7,8 +7,9 @@
 //   FILE.epw@2026-06-21T12:00[,precipitable_water=14mm]     an hour of a weather file
 //
 // The names are kIrradianceNames (model/irradiance.h); direct, diffuse and global are short for
-// direct_normal, diffuse_horizontal and global_horizontal. The unit is lx of an illuminance or W/m2
-// of an irradiance of all wavelengths, one for all. W/m2 need the column of water vapour.
+// direct_normal, diffuse_horizontal and global_horizontal. The unit is lx or klx of an illuminance
+// or W/m2 of an irradiance of all wavelengths, one quantity for all. W/m2 need the column of water
+// vapour.
 //
 // The CSV has columns of these names and the unit, direct_normal_lx or direct_normal_w_m2, and
 // optionally the same with _sigma behind. The sun is in sun_zenith_deg, or computed from the column

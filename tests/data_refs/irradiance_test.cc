@@ -45,6 +45,15 @@ TEST_F(IrradianceReference, ValuesOfTheCommandLine) {
   EXPECT_FALSE(gives_luminance(r));
 }
 
+TEST_F(IrradianceReference, UnitsHaveSpellings) {
+  const auto value = [](std::string_view text) {
+    return irradiance_reference(text, kSun, {}).samples[0];
+  };
+  EXPECT_EQ(value("direct=83klx").value, 83000);
+  EXPECT_EQ(value("direct=83:2 klx").sigma, 2000);
+  EXPECT_EQ(value("direct = 850 W/m^2, precipitable_water=14mm").value, 850);
+}
+
 TEST_F(IrradianceReference, ACsvHasALineForEachSun) {
   const Reference r = irradiance_reference(
       file_of("# latitude_deg=47.5 longitude_deg=11 elevation_m=700\n"
