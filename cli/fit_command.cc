@@ -31,14 +31,21 @@ FinishedFit fit_with_progress(FitRequest& request) {
   return finished_fit(request, *request.model);
 }
 
+refs::Reference reference_of(const FitArguments& arguments, const CLI::App& command) {
+  if (arguments.irradiance.empty()) {
+    return load_references(arguments.reference, arguments.sun_zenith, arguments.sampling,
+                           arguments.import, command);
+  }
+  return load_irradiances(arguments.irradiance, arguments.sun_zenith, arguments.import, command);
+}
+
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
+  if (arguments.reference.empty() && arguments.irradiance.empty())
+    throw CLI::RequiredError("--reference or --irradiance");
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
   require_netcdf(arguments.netcdf);
-  FitRequest request = fit_request(arguments,
-                                   load_references(arguments.reference, arguments.sun_zenith,
-                                                   arguments.sampling, arguments.import, command),
-                                   command);
+  FitRequest request = fit_request(arguments, reference_of(arguments, command), command);
   const FinishedFit finished = fit_with_progress(request);
   Figures figures;
   out.publish([&](const std::filesystem::path& staging) {
@@ -79,13 +86,21 @@ std::string parameter_list() {
 void add_fit_command(CLI::App& app) {
   const auto options = std::make_shared<FitArguments>();
   CLI::App* const command = app.add_subcommand("fit", "Fits an atmosphere to a reference.");
+  CLI::Option* const reference =
+      command
+          ->add_option(
+              "--reference", options->reference,
+              "Shipped reference (skyfit references) or measured skies, fitted jointly; cie:all\n"
+              "fits each of the standard skies and leaves one table and one figure of all")
+          ->type_name("NAME|FILE,FILE");
   command
       ->add_option(
-          "--reference", options->reference,
-          "Shipped reference (skyfit references) or measured skies, fitted jointly; cie:all\n"
-          "fits each of the standard skies and leaves one table and one figure of all")
-      ->required()
-      ->type_name("NAME|FILE,FILE");
+          "--irradiance", options->irradiance,
+          "Irradiances in the place of a sky: direct_normal, direct_horizontal,\n"
+          "diffuse_horizontal, global_horizontal in lx, or in W/m2 of all wavelengths with\n"
+          "precipitable_water=NUMBERmm; a CSV of them; or FILE@TIME of a weather file")
+      ->type_name("NAME=VALUE[:SIGMA]UNIT,..|FILE.csv|FILE@TIME")
+      ->excludes(reference);
   add_fit_options(*command, *options);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");
@@ -101,14 +116,16 @@ void add_fit_command(CLI::App& app) {
       "\n"
       "What is fitted by default depends on the quantity of the reference alone: a relative\n"
       "luminance with --link log --scale profiled --pointing stated, an absolute luminance or a\n"
-      "spectral radiance with --link linear --scale fixed --pointing azimuth. Columns q_over_i "
-      "and\n"
+      "spectral radiance with --link linear --scale fixed --pointing azimuth, irradiances with\n"
+      "--link log --scale fixed and a known noise of 5 % or as stated, only the aerosol's optical\n"
+      "depth and, of two kinds or more, its single scattering albedo free. Columns q_over_i and\n"
       "u_over_i, or dolp, of a CSV of samples are fitted beside them, linear and without a scale.\n"
       "\n" +
       standard_sky_list() + "\n" + parameter_list() +
       "\nExamples:\n"
       "  skyfit fit --reference cie:12 --out fitted\n"
       "  skyfit fit --reference cie:all --out skies\n"
+      "  skyfit fit --irradiance direct=96000lx,diffuse=13500lx --sun-zenith-deg 32 --out fitted\n"
       "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted\n"
       "  skyfit fit --reference 0930.csv,1030.csv --exclude-sample 0 --per-scan mie.scattering "
       "--out day");

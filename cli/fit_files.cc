@@ -54,11 +54,11 @@ std::vector<plot::Sample> samples_of(const fit::Result& result) {
     const SkyPoint point = fit::pointed(
         fit::sky_point(s), scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
     const bool fitted = std::isfinite(result.sigma[i]);
-    samples.push_back({static_cast<int>(scan - result.scans.begin()) + 1,
-                       whole_degrees(s.sun_zenith), whole_degrees(point.view_zenith),
-                       whole_degrees(point.relative_azimuth), s.wavelength_nm, s.value,
-                       fitted ? result.sigma[i] : 0, result.model[i], fitted ? s.weight : 0,
-                       result.start_model[i]});
+    samples.push_back(
+        {static_cast<int>(scan - result.scans.begin()) + 1, whole_degrees(s.sun_zenith),
+         whole_degrees(point.view_zenith), whole_degrees(point.relative_azimuth), s.wavelength_nm,
+         s.value, fitted ? result.sigma[i] : 0, result.model[i], fitted ? s.weight : 0,
+         result.start_model[i], s.irradiance ? std::string(kIrradianceNames[*s.irradiance]) : ""});
   }
   return samples;
 }
@@ -71,8 +71,9 @@ bool shows_planes(const std::vector<plot::Sample>& samples, std::size_t scans) {
 }
 
 bool shows_comparison(const fit::Result& result, const std::vector<plot::Sample>& samples) {
-  return !has_absolute_values(result) || (result.reference.quantity == refs::Quantity::kLuminance &&
-                                          shows_planes(samples, result.scans.size()));
+  return result.reference.quantity == refs::Quantity::kRelativeLuminance ||
+         (result.reference.quantity == refs::Quantity::kLuminance &&
+          shows_planes(samples, result.scans.size()));
 }
 
 void draw_comparison(const std::filesystem::path& directory, const plot::FitOutcome& outcome,
@@ -138,6 +139,9 @@ plot::MeasuredOutcome measured_outcome(const fit::Result& result,
   plot::MeasuredOutcome outcome;
   outcome.title = result.reference.name;
   outcome.spectral = result.reference.quantity == refs::Quantity::kSpectralRadiance;
+  if (refs::is_irradiance(result.reference.quantity))
+    outcome.irradiance_unit =
+        result.reference.quantity == refs::Quantity::kIlluminance ? "lx" : "W m⁻²";
   outcome.samples = std::move(samples);
   for (const fit::ScanOutcome& scan : result.scans) {
     outcome.scans.push_back(

@@ -161,7 +161,7 @@ void add_likelihood_options(CLI::App& command, FitArguments& arguments) {
       "NAME,NAME");
   add("--link", arguments.link,
       "Residuals of values (linear) or of their logarithms (log); by default log for a\n"
-      "relative luminance, else linear",
+      "relative luminance and for irradiances, else linear",
       "NAME");
   add("--scale", arguments.scale,
       "fixed: values are absolute; an unknown scale, shared or per-scan (prior 1+-0.05); or\n"
@@ -170,7 +170,7 @@ void add_likelihood_options(CLI::App& command, FitArguments& arguments) {
       "NAME");
   add("--pointing", arguments.pointing,
       "stated, or an unknown azimuth offset per scan (azimuth), or two tilts as well (tilt);\n"
-      "by default stated for a relative luminance, else azimuth",
+      "by default stated for a relative luminance and irradiances, else azimuth",
       "NAME");
   add("--noise", arguments.noise,
       "Known noise, relative and absolute; by default 0.05 times a factor that the residuals\n"

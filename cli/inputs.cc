@@ -11,9 +11,11 @@
 
 #include "cli/arguments.h"
 #include "cli/output.h"
+#include "data_refs/irradiance.h"
 #include "data_refs/joint_reference.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/perez_sky.h"
+#include "data_refs/radiance_sky.h"
 #include "data_refs/table_csv.h"
 #include "fit/exchange/programs.h"
 #include "model/registry.h"
@@ -105,17 +107,17 @@ void add_sampling_options(CLI::App& command, std::string& sampling, std::string&
 }
 
 void warn_of_unused_options(const CLI::App& command, const std::string& reference) {
-  const bool is_measured = !is_shipped_reference(reference);
+  const bool is_scene = refs::is_radiance_sky_file(reference);
+  const bool is_measured = !is_shipped_reference(reference) && !is_scene;
   const bool is_analytic = !is_measured && !reference.starts_with("truth:");
+  const bool has_own_sun = is_scene || (is_analytic && reference.find('@') != reference.npos);
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0) continue;
     const bool is_import = option->get_group() == kImportGroup;
     const bool is_sampling =
         option->check_lname("sampling") || option->check_lname("sun-zenith-deg");
-    const bool is_hour = is_analytic && reference.find('@') != reference.npos;
-    if (is_hour && option->check_lname("sun-zenith-deg")) {
-      warn(
-          fmt::format("{} is not used: {} has the sun of its hour", option->get_name(), reference));
+    if (has_own_sun && option->check_lname("sun-zenith-deg")) {
+      warn(fmt::format("{} is not used: {} has its own sun", option->get_name(), reference));
       continue;
     }
     if (!(is_import && !is_measured) && !(is_sampling && !is_analytic)) continue;
@@ -219,6 +221,22 @@ refs::Reference load_references(const std::string& names, const std::string& sun
   refs::Reference joint = refs::joint_reference(references);
   joint.notes.insert(joint.notes.end(), notes.begin(), notes.end());
   return joint;
+}
+
+refs::Reference load_irradiances(const std::string& text, const std::string& sun_zenith,
+                                 const ImportArguments& import, const CLI::App& command) {
+  std::optional<double> sun;
+  if (command.count("--sun-zenith-deg") > 0) {
+    const std::vector<double> suns = parse_sun_zeniths(sun_zenith);
+    if (suns.size() != 1)
+      throw UsageError("--sun-zenith-deg", sun_zenith, "expected one sun of --irradiance");
+    sun = suns.front();
+  }
+  for (const char* unused : {"--sampling", "--exclude-sun-deg", "--exclude-sample"}) {
+    if (command.count(unused) > 0)
+      warn(fmt::format("{} is not used: irradiances have no directions", unused));
+  }
+  return refs::irradiance_reference(text, sun, parse_import_options(import));
 }
 
 bool is_shipped_reference(const std::string& name) {

@@ -40,9 +40,10 @@ void draw_measured(const PlotOptions& options, const std::vector<std::filesystem
   std::vector<plot::MeasuredOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(read_measured_outcome(directory));
-  const plot::MeasuredFigure& figure = options.figure.empty()
-                                           ? plot::measured_figures().front()
-                                           : plot::measured_figure(options.figure);
+  const auto by_default = std::ranges::find_if(
+      plot::measured_figures(), [&](const auto& figure) { return figure.can_draw(fits.front()); });
+  const plot::MeasuredFigure& figure =
+      options.figure.empty() ? *by_default : plot::measured_figure(options.figure);
   plot::write_figure(plot::draw(figure, fits, options.scan), files);
 }
 

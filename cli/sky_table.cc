@@ -12,10 +12,8 @@ constexpr const char* kCandela = "cd m-2";
 
 std::vector<SkyColumn> irradiance_columns(std::string_view unit, const std::string& units) {
   std::vector<SkyColumn> columns;
-  for (const char* name : {"direct_normal", "direct_horizontal", "diffuse_horizontal",
-                           "global_horizontal"}) {  // the order of Irradiance
+  for (const std::string_view name : kIrradianceNames)
     columns.push_back({fmt::format("{}_{}", name, unit), units});
-  }
   return columns;
 }
 

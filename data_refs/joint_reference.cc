@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "data_refs/units.h"
+
 namespace skyfit::refs {
 namespace {
 
@@ -13,18 +15,6 @@ int scan_count(const Reference& reference) {
   int count = static_cast<int>(reference.scans.size());
   for (const Sample& sample : reference.samples) count = std::max(count, sample.scan + 1);
   return count;
-}
-
-std::string_view unit_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::kLuminance:
-      return "luminance";
-    case Quantity::kSpectralRadiance:
-      return "spectral radiance";
-    case Quantity::kRelativeLuminance:
-      break;
-  }
-  return "relative luminance";
 }
 
 }  // namespace
@@ -39,9 +29,9 @@ Reference joint_reference(const std::vector<Reference>& references) {
   joint.transfer = references.front().transfer;
   for (const Reference& reference : references) {
     if (reference.quantity != joint.quantity) {
-      throw std::invalid_argument(fmt::format("{}: {}: expected {} as in {}", reference.name,
-                                              unit_of(reference.quantity), unit_of(joint.quantity),
-                                              references.front().name));
+      throw std::invalid_argument(fmt::format(
+          "{}: {}: expected {} as in {}", reference.name, quantity_name(reference.quantity),
+          quantity_name(joint.quantity), references.front().name));
     }
     if (reference.transfer != joint.transfer) {
       throw std::invalid_argument(fmt::format("{}: {} transfer: expected {} as in {}",

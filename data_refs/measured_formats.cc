@@ -26,7 +26,7 @@ namespace skyfit::refs {
 namespace {
 
 Reference read_samples(const SkyFile& file, const ImportOptions& facts) {
-  if (file.line().find("_zenith_deg") == std::string_view::npos) {  // which a CSV of samples has
+  if (file.line().find("view_zenith_deg") == std::string_view::npos) {  // which samples have
     if (const auto other = other_format(file.text()))
       throw std::invalid_argument(file.name() + ": " + *other);
   }

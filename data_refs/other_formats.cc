@@ -30,22 +30,23 @@ constexpr std::array<OtherFormat, 11> kFormats = {{
      "a prior by fit --aeronet-aod"},
     {R"(^location,[^\n]*\n\s*design conditions)",
      "is an EnergyPlus weather file (EPW), which holds irradiances; skyfit reads skies with "
-     "directions, and an hour of such a file as perez:FILE@YYYY-MM-DDTHH:MM"},
+     "directions, and an hour of such a file as perez:FILE@YYYY-MM-DDTHH:MM or by "
+     "fit --irradiance FILE@YYYY-MM-DDTHH:MM"},
     {R"(^\s*(#\?radiance[^\n]*\n)?(#[^\n]*\n|\s*\n)*\s*(void\s+(light|glow|brightfunc|plastic)\s|!\s*gen))",
-     "is a scene of Radiance, such as gendaylit and gensky write; skyfit reads skies as samples "
-     "and "
-     "perez:EPSILON,DELTA, not yet these"},
+     "is a scene of Radiance, such as gendaylit and gensky write; skyfit reads the sky of one with "
+     "perezlum.cal or skybright.cal where it takes a reference (fit, references, compare, "
+     "classify)"},
     {R"(^\s*#?\s*gen(daylit|sky|daymtx)\b)",
-     "is what gendaylit, gensky or gendaymtx wrote; skyfit reads skies as samples and "
-     "perez:EPSILON,DELTA, not yet these"},
+     "is what gendaylit, gensky or gendaymtx wrote, without a sky of perezlum.cal or "
+     "skybright.cal, "
+     "which skyfit reads"},
     {R"(^\s*<\?xml|^\s*<!doctype|^\s*<html)",
      "is XML or HTML; skyfit reads skies as text tables and images"},
     {R"(^\s*[{\[])",
      "is JSON; skyfit reads presets as --preset and skies as text tables and images"},
-    {R"(^\s*(#[^\n]*\n)*[^#\n]*irradiance)",
+    {R"(^\s*(#[^\n]*\n)*[^#\n]*(irradiance|(direct|diffuse|global)_(normal|horizontal)_(lx|w_m2)))",
      "is a table of irradiances, which have no directions; skyfit reads radiances and luminances "
-     "of "
-     "directions"},
+     "of directions, and irradiances by fit --irradiance"},
     {R"(^netcdf\s|^CDF)", "is netCDF; skyfit reads skies as text tables and images, not yet these"},
     {R"(^%!ps|^%pdf)", "is a document; skyfit reads skies as text tables and images"},
 }};

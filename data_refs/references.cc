@@ -5,15 +5,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <numbers>
 #include <stdexcept>
 
 #include "data_refs/cie_sky.h"
+#include "data_refs/csv.h"
 #include "data_refs/embedded.h"
 #include "data_refs/measured_formats.h"
 #include "data_refs/perez_sky.h"
+#include "data_refs/radiance_sky.h"
 #include "data_refs/sampling.h"
 #include "data_refs/truth.h"
 #include "data_refs/weather_file.h"
@@ -85,6 +88,27 @@ Reference weather_reference(std::string_view name, Sampling sampling) {
   return reference;
 }
 
+// A scene of Radiance with a sky: its luminances under its sun.
+Reference radiance_reference(const std::filesystem::path& file, Sampling sampling) {
+  const RadianceSky sky =
+      parse_radiance_sky(read_csv_file(file, "a scene of Radiance"), file.string());
+  Reference reference = sampled({sky.sun_zenith}, sampling, [&](const Sample& s) {
+    const double luminance = radiance_sky_luminance(sky, s.view_zenith, scattering_angle(s));
+    if (luminance > 0 && std::isfinite(luminance)) return luminance;
+    throw std::invalid_argument(fmt::format(
+        "{}: the luminance at view zenith {:.6g} deg is {:.3g} cd/m^2: expected more than 0",
+        file.string(), s.view_zenith * kDegreesPerRadian, luminance));
+  });
+  reference.quantity = Quantity::kLuminance;
+  reference.name = file.string();
+  reference.description = sky.description();
+  Scan scan;
+  scan.name = file.string();
+  scan.sun_azimuth = sky.sun_azimuth;
+  reference.scans.push_back(scan);
+  return reference;
+}
+
 Reference analytic_reference(std::string_view name, const std::vector<double>& suns,
                              Sampling sampling) {
   if (name == kTraditionalOvercast) {
@@ -142,6 +166,7 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
     return reference;
   }
   const std::filesystem::path file(name);
+  if (is_radiance_sky_file(name)) return radiance_reference(file, sampling);
   if (std::filesystem::exists(file)) return load_measured_sky(file, options);
   throw std::invalid_argument(
       fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {}, "

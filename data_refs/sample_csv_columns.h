@@ -27,8 +27,14 @@ inline constexpr std::array kValueColumns = {
     ValueColumn{"luminance_cd_m2", Quantity::kLuminance},
     ValueColumn{"relative_luminance", Quantity::kRelativeLuminance},
     ValueColumn{"spectral_radiance_w_m2_sr_nm", Quantity::kSpectralRadiance}};
+// Of irradiances, which are no columns of such a CSV (irradiance.h): their names in records.
+inline constexpr std::array kIrradianceColumns = {
+    ValueColumn{"illuminance_lx", Quantity::kIlluminance},
+    ValueColumn{"irradiance_w_m2", Quantity::kIrradiance}};
 constexpr std::string_view value_column(Quantity quantity) {
-  return std::ranges::find(kValueColumns, quantity, &ValueColumn::quantity)->name;
+  return is_irradiance(quantity)
+             ? std::ranges::find(kIrradianceColumns, quantity, &ValueColumn::quantity)->name
+             : std::ranges::find(kValueColumns, quantity, &ValueColumn::quantity)->name;
 }
 
 struct PolarisationColumn {

@@ -16,6 +16,7 @@ std::map<std::string, int> samples_left_out(const Reference& reference) {
 
 bool gives_luminance(const Reference& reference) {
   constexpr double kFirst_nm = 450, kLast_nm = 660, kWidestStep_nm = 41;
+  if (is_irradiance(reference.quantity)) return false;
   if (reference.quantity != Quantity::kSpectralRadiance) return true;
   std::set<double> wavelengths;
   for (const Sample& s : reference.samples) {
@@ -42,7 +43,8 @@ double scattering_angle(const Sample& sample) {
 DirectionFromSun direction_from_sun(const Sample& sample) {
   constexpr double kUnit = 1e-9;  // a thousand times what degrees and back cost, far below any step
   return {sample.scan, std::llround((sample.view_zenith - sample.sun_zenith) / kUnit),
-          std::llround(sample.relative_azimuth / kUnit)};
+          std::llround(sample.relative_azimuth / kUnit),
+          sample.irradiance ? static_cast<int>(*sample.irradiance) : -1};
 }
 
 }  // namespace skyfit::refs

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data_refs/solar_position.h"
+#include "model/irradiance.h"
 #include "model/transfer.h"
 
 namespace skyfit::refs {
@@ -17,8 +18,16 @@ namespace skyfit::refs {
 enum class Quantity {
   kLuminance,          // cd/m^2
   kRelativeLuminance,  // up to a factor per sun position
-  kSpectralRadiance    // W m^-2 sr^-1 nm^-1, at Sample::wavelength_nm
+  kSpectralRadiance,   // W m^-2 sr^-1 nm^-1, at Sample::wavelength_nm
+  kIlluminance,        // lx
+  kIrradiance          // W m^-2 of all wavelengths
 };
+
+// Whether the samples are the light of a whole hemisphere or of the sun's beam: they have an
+// Irradiance and no line of sight.
+constexpr bool is_irradiance(Quantity quantity) {
+  return quantity == Quantity::kIlluminance || quantity == Quantity::kIrradiance;
+}
 
 // What a polarimeter reads beside the radiance, a pure number: Q / I and U / I in the meridian
 // plane of the view as StokesValues has them (model/sky_model.h), or the degree of linear
@@ -30,7 +39,8 @@ struct PolarisationReading {
   std::optional<double> sigma;  // one standard deviation
 };
 
-// Angles in radians; azimuth 0 looks toward the sun's azimuth.
+// Angles in radians; azimuth 0 looks toward the sun's azimuth. Of an irradiance the view is the
+// normal of the surface that the light falls on.
 struct Sample {
   double sun_zenith = 0;
   double view_zenith = 0;
@@ -45,6 +55,7 @@ struct Sample {
   double sun_azimuth_since = 0;
   std::vector<PolarisationReading> polarisation = {};  // of the same light; at most one of each
   int direction = 0;  // its number in a measured scan; many wavelengths share one
+  std::optional<Irradiance> irradiance = {};  // which, where the quantity is one
 };
 
 // What is known of one scan beside its samples. Instants in UTC.
@@ -55,6 +66,8 @@ struct Scan {
   double sun_distance_au = 1;         // of the time; 1 where the time is not known
   std::optional<double> elevation_m;  // of the site above the sea
   std::optional<Site> site = {};      // that the sun was computed for
+  // The vertical column of water vapour, > 0: an irradiance of all wavelengths depends on it.
+  std::optional<double> precipitable_water_mm = {};
 };
 
 struct Reference {
@@ -79,8 +92,8 @@ std::map<std::string, int> samples_left_out(const Reference& reference);
 double scattering_angle(const Sample& sample);
 
 // What samples of one direction of a scan share while the sun moves: the scan, view zenith minus
-// sun zenith and relative azimuth, in 1e-9 radians.
-using DirectionFromSun = std::tuple<int, long long, long long>;
+// sun zenith and relative azimuth, in 1e-9 radians; and which irradiance it is, -1 where it is none.
+using DirectionFromSun = std::tuple<int, long long, long long, int>;
 DirectionFromSun direction_from_sun(const Sample& sample);
 
 }  // namespace skyfit::refs

@@ -90,6 +90,10 @@ std::string_view quantity_name(Quantity quantity) {
       return "relative luminance";
     case Quantity::kSpectralRadiance:
       return "spectral radiance";
+    case Quantity::kIlluminance:
+      return "illuminance";
+    case Quantity::kIrradiance:
+      return "irradiance";
   }
   return {};
 }

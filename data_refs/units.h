@@ -26,7 +26,7 @@ std::string unit_names(std::initializer_list<Quantity> quantities = {});
 // Nothing when it is none of units().
 std::optional<Unit> find_unit(std::string_view text);
 
-// "spectral radiance", "luminance", "relative luminance"
+// "spectral radiance", "luminance", "relative luminance", "illuminance", "irradiance"
 std::string_view quantity_name(Quantity quantity);
 
 }  // namespace skyfit::refs

@@ -13,6 +13,7 @@
 #include "data_refs/csv.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
+#include "model/photometry/broadband.h"
 
 namespace skyfit::refs {
 namespace {
@@ -29,7 +30,9 @@ struct Layout {
   int first_row = 0;  // line
   char separator = ',';
   double interval_h = 1;
-  std::size_t direct = 0, diffuse = 0;  // fields of a row
+  std::size_t direct = 0, diffuse = 0;    // fields of a row
+  std::optional<std::size_t> water = {};  // precipitable water
+  double mm_per_water = 1;
   Clock (*clock)(const std::vector<std::string>& fields, double interval_h, std::string_view source,
                  int line) = nullptr;
 };
@@ -96,7 +99,7 @@ Clock tmy_clock(const std::vector<std::string>& fields, double interval_h, std::
 
 Layout epw_layout(const std::vector<std::string>& lines, std::string_view source) {
   const std::vector<std::string> fields = csv_fields(lines[0], source, 1);
-  Layout layout{.first_row = 9, .direct = 14, .diffuse = 15, .clock = epw_clock};
+  Layout layout{.first_row = 9, .direct = 14, .diffuse = 15, .water = 28, .clock = epw_clock};
   layout.utc_offset_h = number_of(fields, 8, "time zone", source, 1);
   layout.site = site_of(number_of(fields, 6, "latitude", source, 1),
                         number_of(fields, 7, "longitude", source, 1),
@@ -134,19 +137,35 @@ Layout tmy_layout(const std::vector<std::string>& lines, std::string_view source
   const std::vector<std::string> fields = csv_fields(lines[0], source, 1),
                                  names = csv_fields(lines.at(1), source, 2);
   Layout layout{.first_row = 3, .clock = tmy_clock};
-  const auto column = [&](std::string_view name) {
+  const auto column_if_there = [&](std::string_view name) -> std::optional<std::size_t> {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (names[i].starts_with(name)) return i;
     }
+    return {};
+  };
+  const auto column = [&](std::string_view name) {
+    if (const auto at = column_if_there(name)) return *at;
     fail_at(source, 2, fmt::format("expected a column {}", name));
   };
   layout.direct = column("DNI (");
   layout.diffuse = column("DHI (");
+  layout.water = column_if_there("Pwat (cm)");
+  layout.mm_per_water = 10;
   layout.utc_offset_h = number_of(fields, 3, "time zone", source, 1);
   layout.site = site_of(number_of(fields, 4, "latitude", source, 1),
                         number_of(fields, 5, "longitude", source, 1),
                         number_of(fields, 6, "elevation", source, 1), layout.utc_offset_h, source);
   return layout;
+}
+
+// Nothing where the file has none; 999 and -9900 stand for a missing value.
+std::optional<double> water_of(const std::vector<std::string>& fields, const Layout& layout) {
+  constexpr double kMost_mm = 100;
+  if (!layout.water || *layout.water >= fields.size()) return {};
+  const std::optional<double> water = csv_number(fields[*layout.water]);
+  const double mm = water.value_or(0) * layout.mm_per_water;
+  if (!(mm > 0 && mm <= kMost_mm)) return {};
+  return mm;
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -207,6 +226,7 @@ WeatherHour weather_hour(std::string_view file_and_time) {
     found.direct_normal_w_m2 = number_of(fields, layout.direct, "direct normal", file, line);
     found.diffuse_horizontal_w_m2 =
         number_of(fields, layout.diffuse, "diffuse horizontal", file, line);
+    found.precipitable_water_mm = water_of(fields, layout);
     constexpr double kMost = 2000;  // W/m^2; 9999 stands for a missing value
     for (const auto& [name, value] : {std::pair{"direct normal", found.direct_normal_w_m2},
                                       {"diffuse horizontal", found.diffuse_horizontal_w_m2}}) {
@@ -240,10 +260,8 @@ PerezHour perez_hour(const WeatherHour& hour, std::string_view name) {
       ((hour.diffuse_horizontal_w_m2 + hour.direct_normal_w_m2) / hour.diffuse_horizontal_w_m2 +
        cube) /
       (1 + cube);
-  const double air_mass =
-      1 / (std::cos(zenith) + 0.50572 * std::pow(96.07995 - zenith_deg, -1.6364));
-  result.sky.delta = air_mass * hour.diffuse_horizontal_w_m2 * result.sun.distance_au *
-                     result.sun.distance_au / kSolarConstant;
+  result.sky.delta = relative_air_mass(zenith) * hour.diffuse_horizontal_w_m2 *
+                     result.sun.distance_au * result.sun.distance_au / kSolarConstant;
   if (!(result.sky.delta > 0 && result.sky.delta <= 1)) {
     throw std::invalid_argument(
         fmt::format("{}: brightness {:.4g} of {:.9g} W/m^2 of diffuse light: expected at most 1",

@@ -5,6 +5,7 @@
 // years of their rows are of a typical year and not read: an hour is found by month, day and clock.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,7 @@ struct WeatherHour {
   Instant middle;
   Site site;
   double direct_normal_w_m2 = 0, diffuse_horizontal_w_m2 = 0;
+  std::optional<double> precipitable_water_mm;  // where the file has it: EPW and TMY3
 };
 
 // Of "FILE@YYYY-MM-DDTHH:MM" in the file's own standard time, the interval that contains it, where

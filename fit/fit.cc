@@ -349,7 +349,8 @@ const UnknownRow& Result::unknown(std::string_view name) const {
 Result fit_atmosphere(const refs::Reference& reference, const SpectralData& spectra,
                       const SkyModel& model, const FitOptions& options) {
   validate(options);
-  return Fit(reference, spectra, model, options).run();
+  const FitOptions used = refs::is_irradiance(reference.quantity) ? as_pointed(options) : options;
+  return Fit(reference, spectra, model, used).run();
 }
 
 }  // namespace skyfit::fit

@@ -13,6 +13,7 @@
 #include "model/atmosphere/atmosphere.h"
 #include "model/atmosphere/parameters.h"
 #include "model/geometry/sky_point.h"
+#include "model/irradiance.h"
 #include "model/photometry/photometry.h"
 #include "model/tables/sky_rays.h"
 #include "model/transfer.h"
@@ -30,16 +31,6 @@ struct SkyValues {
                       wavelength];
   }
 };
-
-// The irradiances of one observer under one sun, per unit solar irradiance at the top of the
-// atmosphere (pure numbers).
-enum Irradiance : int {
-  kDirectNormal,       // the sun's beam on a surface that faces it
-  kDirectHorizontal,   // direct normal * cos(sun zenith), 0 when the sun is down
-  kDiffuseHorizontal,  // sky on a horizontal surface that faces up
-  kGlobalHorizontal,   // direct + diffuse
-};
-inline constexpr int kIrradianceCount = 4;
 
 // Stokes parameters, each as the radiance of SkyModel::radiance(), per unit unpolarised solar
 // irradiance (1/sr). The reference plane is the meridian plane of the view, which holds the line of
@@ -84,7 +75,8 @@ class SkyModel {
                               std::span<const SkyPoint> points,
                               std::span<const Parameter> derivatives) const;
 
-  // The values of Irradiance, in its order, as the points of SkyValues: the integral of radiance()
+  // The values of Irradiance, in its order, as the points of SkyValues, per unit solar irradiance
+  // at the top of the atmosphere (pure numbers): the integral of radiance()
   // over the sky, and the sun's beam behind the whole of the atmosphere's optical depth, which no
   // model approximates. Throws as radiance() does.
   SkyValues irradiance(const Atmosphere<double>& atmosphere,

@@ -20,6 +20,10 @@ std::string unit_of(refs::Quantity quantity) {
       return "cd m-2";
     case refs::Quantity::kSpectralRadiance:
       return "W m-2 sr-1 nm-1";
+    case refs::Quantity::kIlluminance:
+      return "lx";
+    case refs::Quantity::kIrradiance:
+      return "W m-2";
     case refs::Quantity::kRelativeLuminance:
       break;
   }
@@ -53,6 +57,13 @@ void add_samples(const refs::Reference& reference, NetcdfFile& file) {
   if (reference.quantity == refs::Quantity::kSpectralRadiance)
     add("wavelength", column(samples, [](const refs::Sample& s) { return s.wavelength_nm; }),
         "wavelength in air", "nm");
+  if (refs::is_irradiance(reference.quantity))
+    add("irradiance",
+        column(samples,
+               [](const refs::Sample& s) {
+                 return std::string(kIrradianceNames[s.irradiance.value()]);
+               }),
+        "which irradiance the sample is", "");
   add("reference_value", column(samples, [](const refs::Sample& s) { return s.value; }),
       "value of the reference", unit_of(reference.quantity));
   add("weight", column(samples, [](const refs::Sample& s) { return s.weight; }),

@@ -10,6 +10,9 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "data_refs/gas_absorption.h"
+#include "model/photometry/broadband.h"
+
 namespace skyfit::fit {
 namespace {
 
@@ -33,6 +36,9 @@ void check(const refs::Reference& reference, std::size_t index, const Selection&
   if (spectral != (sample.wavelength_nm > 0))
     fail(reference, index, "wavelength_nm", sample.wavelength_nm,
          spectral ? "> 0 for a spectral radiance" : "0 for a luminance");
+  if (refs::is_irradiance(reference.quantity) != sample.irradiance.has_value())
+    fail(reference, index, "irradiance", sample.irradiance.value_or(kDirectNormal),
+         "known of an irradiance and of nothing else");
   if (selection.with_weightless) return;
   if (!(sample.value > 0) || !std::isfinite(sample.value))
     fail(reference, index, "value", sample.value, "finite and > 0");
@@ -62,6 +68,26 @@ void add_spectral_channels(Dataset& data, const refs::Reference& reference,
     }
   } catch (const std::out_of_range& error) {
     throw std::invalid_argument(fmt::format("{}: {}", reference.name, error.what()));
+  }
+}
+
+// docs/theory (10.6): a channel for each scan, in the order of data.scans.
+void add_broadband_channels(Dataset& data, const refs::Reference& reference,
+                            const SpectralData& spectra) {
+  for (const ScanInfo& info : data.scans) {
+    const auto number = static_cast<std::size_t>(info.number);
+    if (number >= reference.scans.size() || !reference.scans[number].precipitable_water_mm) {
+      throw std::invalid_argument(fmt::format(
+          "{}: {}: precipitable_water_mm: must be known of an irradiance of all wavelengths",
+          reference.name, info.name));
+    }
+    const BroadbandRule rule =
+        broadband_rule(spectra, refs::standard_gas_absorption(), info.sun_zenith,
+                       *reference.scans[number].precipitable_water_mm);
+    data.nodes = rule.nodes;
+    Channel channel{0, {}, rule.weight};
+    for (std::size_t k = 0; k < rule.nodes.size(); ++k) channel.node.push_back(static_cast<int>(k));
+    data.channels.push_back(channel);
   }
 }
 
@@ -111,6 +137,18 @@ bool is_view_of(const View& view, const refs::Sample& sample) {
          view.stated.relative_azimuth == sample.relative_azimuth;
 }
 
+// Its channel among those of the dataset; nothing where it was not chosen.
+std::optional<int> channel_of(const Dataset& data, refs::Quantity quantity,
+                              const refs::Sample& sample) {
+  const auto at =
+      quantity == refs::Quantity::kIrradiance
+          ? std::ranges::find(data.scans, sample.scan, &ScanInfo::number) - data.scans.begin()
+          : std::ranges::find(data.channels, sample.wavelength_nm, &Channel::wavelength_nm) -
+                data.channels.begin();
+  if (at >= static_cast<std::ptrdiff_t>(data.channels.size())) return {};
+  return static_cast<int>(at);
+}
+
 // The view of a sample, and its line of sight where that is a new one.
 void add_direction(Dataset& data, const refs::Sample& sample, bool is_new) {
   if (!is_new && is_view_of(data.views.back(), sample)) return;
@@ -141,20 +179,18 @@ std::vector<std::size_t> in_order(const refs::Reference& reference,
 
 void add_samples(Dataset& data, const refs::Reference& reference,
                  const std::vector<std::size_t>& samples, const Selection& selection) {
-  std::map<double, int> channel_of;
-  for (std::size_t c = 0; c < data.channels.size(); ++c)
-    channel_of[data.channels[c].wavelength_nm] = static_cast<int>(c);
   std::optional<refs::DirectionFromSun> last;
   for (const std::size_t i : in_order(reference, samples)) {
     const refs::Sample& sample = reference.samples[i];
-    const auto channel = channel_of.find(sample.wavelength_nm);
-    if (channel == channel_of.end()) continue;
+    const std::optional<int> channel = channel_of(data, reference.quantity, sample);
+    if (!channel) continue;
     const auto direction = refs::direction_from_sun(sample);
     add_direction(data, sample, direction != last);
     last = direction;
     data.samples.push_back({i, static_cast<int>(data.lines_of_sight.size()) - 1,
-                            static_cast<int>(data.views.size()) - 1, channel->second, sample.value,
+                            static_cast<int>(data.views.size()) - 1, *channel, sample.value,
                             sigma_of(sample, selection.noise)});
+    data.samples.back().irradiance = sample.irradiance;
     if (!selection.with_polarisation) continue;
     for (const refs::PolarisationReading& reading : sample.polarisation) {
       data.samples.push_back(data.samples.back());
@@ -202,6 +238,8 @@ Dataset dataset(const refs::Reference& reference, const SpectralData& spectra,
   if (reference.quantity == refs::Quantity::kSpectralRadiance) {
     add_spectral_channels(data, reference, spectra,
                           wavelengths_of(wavelengths, selection.largest_channels));
+  } else if (reference.quantity == refs::Quantity::kIrradiance) {
+    add_broadband_channels(data, reference, spectra);
   } else {
     add_luminance_channel(data, selection.largest_channels > 0 ? coarse_luminance_rule(spectra)
                                                                : luminance_rule(spectra));

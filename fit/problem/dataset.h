@@ -6,6 +6,10 @@
 // square of the sun's distance in au. A spectral radiance has one node, weighted with the sun's
 // irradiance at 1 au there; a luminance has those of a luminance rule.
 //
+// An irradiance is the same of the model's irradiances (SkyModel::irradiance): an illuminance by
+// the nodes of a luminance rule, one of all wavelengths by those of a broadband rule, whose weights
+// depend on the sun and the water vapour of the scan.
+//
 // A reading of polarisation is a sample of its own in the channel of its radiance: Q / I, U / I or
 // sqrt(Q^2 + U^2) / I of the sums of that weight. Neither the sun's distance nor a scale matters to
 // it.
@@ -21,7 +25,7 @@
 
 namespace skyfit::fit {
 
-// What samples share a wavelength (0: luminance).
+// What samples share a wavelength (0: luminance; irradiances of all wavelengths share a sun).
 struct Channel {
   double wavelength_nm = 0;
   std::vector<int> node;
@@ -56,6 +60,7 @@ struct Sample {
   int line_of_sight, view, channel;
   double value, sigma;  // in the reference's unit; sigma includes the sample's weight
   std::optional<refs::Polarisation> polarisation = {};  // what is read; nothing: the radiance
+  std::optional<Irradiance> irradiance = {};            // which, where the quantity is one
 };
 
 struct Dataset {

@@ -30,7 +30,9 @@ void require_positive(const Dataset& data, const Eigen::VectorXd& model) {
         "{:.6g} {}: must be > 0 for a logarithmic residual",
         at.sun_zenith * kDegreesPerRadian, at.view_zenith * kDegreesPerRadian,
         at.relative_azimuth * kDegreesPerRadian, value,
-        nm > 0 ? fmt::format("W m^-2 sr^-1 nm^-1 at {:.6g} nm", nm) : "cd/m^2"));
+        nm > 0              ? fmt::format("W m^-2 sr^-1 nm^-1 at {:.6g} nm", nm)
+        : sample.irradiance ? fmt::format("({})", kIrradianceNames[*sample.irradiance])
+                            : "cd/m^2"));
   }
 }
 
@@ -119,7 +121,9 @@ std::string_view scale_name(Scale scale) {
 }
 
 Link default_link(refs::Quantity quantity) {
-  return quantity == refs::Quantity::kRelativeLuminance ? Link::kLog : Link::kLinear;
+  return quantity == refs::Quantity::kRelativeLuminance || refs::is_irradiance(quantity)
+             ? Link::kLog
+             : Link::kLinear;
 }
 
 Scale default_scale(refs::Quantity quantity) {

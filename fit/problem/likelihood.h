@@ -50,7 +50,8 @@ struct Likelihood {
 };
 
 // What a quantity is fitted with unless options say otherwise: a relative luminance with log and
-// profiled, an absolute luminance or spectral radiance with linear and fixed.
+// profiled, an absolute luminance or spectral radiance with linear and fixed, an irradiance with
+// log and fixed.
 Link default_link(refs::Quantity quantity);
 Scale default_scale(refs::Quantity quantity);
 

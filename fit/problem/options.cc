@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "data_refs/units.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -97,17 +98,23 @@ Likelihood likelihood_of(const FitOptions& options, const refs::Reference& refer
                     scale_name(likelihood.scale), reference.name));
   }
   likelihood.noise = options.noise.value_or(NoiseModel{});
-  likelihood.noise_is_known =
-      options.noise || (likelihood.link == Link::kLog && states_sigma(reference));
+  likelihood.noise_is_known = options.noise || refs::is_irradiance(reference.quantity) ||
+                              (likelihood.link == Link::kLog && states_sigma(reference));
   likelihood.loss = options.loss;
   likelihood.loss_width = options.loss_width;
   return likelihood;
 }
 
 Pointing pointing_of(const FitOptions& options, const refs::Reference& reference) {
-  return options.pointing.value_or(reference.quantity == refs::Quantity::kRelativeLuminance
-                                       ? Pointing::kStated
-                                       : Pointing::kAzimuth);
+  const bool irradiance = refs::is_irradiance(reference.quantity);
+  if (irradiance && options.pointing.value_or(Pointing::kStated) != Pointing::kStated) {
+    throw std::invalid_argument(fmt::format(
+        "fit.pointing = {}: must be stated for an {} ({}), which has no direction",
+        pointing_name(*options.pointing), refs::quantity_name(reference.quantity), reference.name));
+  }
+  return options.pointing.value_or(
+      irradiance || reference.quantity == refs::Quantity::kRelativeLuminance ? Pointing::kStated
+                                                                             : Pointing::kAzimuth);
 }
 
 }  // namespace skyfit::fit

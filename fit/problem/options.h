@@ -6,9 +6,15 @@
 //   luminance             linear  fixed     azimuth   -
 //   spectral radiance     linear  fixed     azimuth   the Angstrom exponent, of two wavelengths or
 //                                                     more
+//   irradiance            log     fixed     stated    only the aerosol's optical depth at 550 nm;
+//   of
+//                                                     two kinds or more its single scattering
+//                                                     albedo, too
+//
+// Too few irradiances show their own noise: theirs is known, as stated or 5 %.
 //
 // Where the pointing is unknown the forward lobe g1 gets a prior. Where no preset is given, the air
-// of a luminance or a spectral radiance scatters after Bodhaine et al. 1999 (dry_air.h) and has the
+// of all but relative luminances scatters after Bodhaine et al. 1999 (dry_air.h) and has the
 // pressure that is given, or the standard pressure of the elevation that the scans state, or that
 // of the sea's level; its prior is 0.5 % of that.
 #pragma once

@@ -124,6 +124,15 @@ void add_instruments(const FitOptions& options, Pointing pointing, Scale scale, 
   }
 }
 
+constexpr double kGreen = 550;  // nm
+
+// The amount of a constituent as its vertical optical depth at 550 nm.
+void set_optical_depth(Constituent<double>& c, double optical_depth) {
+  c.amount = optical_depth;
+  c.amount_type = AmountType::kOpticalDepth;
+  c.wavelength_nm = kGreen;
+}
+
 // The aerosol with its amount as an optical depth, and the values that are known as its start.
 Atmosphere<double> with_known_aerosol(Atmosphere<double> atmosphere,
                                       const refs::AerosolKnowledge& known) {
@@ -133,17 +142,13 @@ Atmosphere<double> with_known_aerosol(Atmosphere<double> atmosphere,
     throw std::invalid_argument(
         "fit.start: expected an aerosol whose amount goes as a power of wavelength, of which "
         "AERONET's products can be priors");
-  constexpr double kGreen = 550;
   Constituent<double>& c = atmosphere.at(aerosol->name);
   const auto within = [&](Quantity quantity, double value) {
     const ParameterInfo info = parameter_info({c.name, quantity});
     return std::clamp(value, info.lower, info.upper);
   };
-  if (known.optical_depth) {
-    c.amount = within(Quantity::kOpticalDepth, known.optical_depth->mean);
-    c.amount_type = AmountType::kOpticalDepth;
-    c.wavelength_nm = kGreen;
-  }
+  if (known.optical_depth)
+    set_optical_depth(c, within(Quantity::kOpticalDepth, known.optical_depth->mean));
   if (known.angstrom_exponent)
     c.angstrom_exponent = within(Quantity::kAngstromExponent, known.angstrom_exponent->mean);
   if (known.single_scattering_albedo && !c.albedo_spectrum) {
@@ -165,6 +170,38 @@ std::map<Parameter, Prior> priors_of(const refs::AerosolKnowledge& known,
   add(Quantity::kAngstromExponent, known.angstrom_exponent);
   add(Quantity::kSingleScatteringAlbedo, known.single_scattering_albedo);
   return priors;
+}
+
+// What irradiances tell, which have no directions: the aerosol's amount; and from two of beam, sky
+// and both its single scattering albedo.
+std::set<Quantity> told_by_irradiances(const refs::Reference& reference) {
+  std::set<Irradiance> kinds;
+  for (const refs::Sample& sample : reference.samples) {
+    if (sample.weight == 0 || !sample.irradiance) continue;
+    kinds.insert(*sample.irradiance == kDirectHorizontal ? kDirectNormal : *sample.irradiance);
+  }
+  std::set<Quantity> told = {Quantity::kOpticalDepth, Quantity::kScattering, Quantity::kExtinction,
+                             Quantity::kVolume};
+  if (kinds.size() > 1) told.insert(Quantity::kSingleScatteringAlbedo);
+  return told;
+}
+
+// Of irradiances only what they tell is free, and what has a prior.
+FitOptions with_free_of_irradiances(FitOptions options, const refs::Reference& reference,
+                                    const SkyModel& model, const Atmosphere<double>& atmosphere) {
+  const Constituent<double>* const aerosol = main_aerosol(atmosphere);
+  if (options.free || !refs::is_irradiance(reference.quantity) || aerosol == nullptr)
+    return options;
+  const std::set<Quantity> told = told_by_irradiances(reference);
+  options.free.emplace();
+  for (const Parameter& id : parameters_of(atmosphere)) {
+    const bool of_aerosol =
+        told.contains(id.quantity()) && id == Parameter{aerosol->name, id.quantity()};
+    if ((of_aerosol || options.priors.contains(id)) && model.can_fit(id) &&
+        !options.fix.contains(id))
+      options.free->push_back(id);
+  }
+  return options;
 }
 
 // The table's and those of options.h.
@@ -271,6 +308,8 @@ Atmosphere<double> given_atmosphere(const refs::Reference& reference, const FitO
   Atmosphere<double> given = start_atmosphere(options);
   if (!options.start && reference.quantity != refs::Quantity::kRelativeLuminance)
     given = with_gases_of_measured_skies(given);
+  if (!options.start && refs::is_irradiance(reference.quantity))
+    set_optical_depth(given.at("mie"), aerosol_optical_depth(given));
   if (const auto pressure = site_pressure(reference, options)) set_site_pressure(given, *pressure);
   if (options.ground) given.ground_spectrum = *options.ground;
   if (options.aerosol) given = with_known_aerosol(std::move(given), *options.aerosol);
@@ -377,8 +416,9 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
   const Pointing pointing = pointing_of(options, reference);
   const bool several_wavelengths =
       problem.fitted.channels.size() > 1 && reference.quantity == refs::Quantity::kSpectralRadiance;
-  const FitOptions with_defaults = with_default_parameters(options, model, several_wavelengths,
-                                                           pointing != Pointing::kStated, base);
+  const FitOptions with_defaults =
+      with_default_parameters(with_free_of_irradiances(options, reference, model, base), model,
+                              several_wavelengths, pointing != Pointing::kStated, base);
   const std::vector<FreeParameter> parameters = choose_free_parameters(with_defaults, model, base);
   problem.starts = choose_starts(base, parameters, options.starts, options.start.has_value());
   problem.start = start_state(problem.starts.front().atmosphere, problem.scans());

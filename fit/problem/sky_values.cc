@@ -116,9 +116,14 @@ class Evaluation {
   }
 
   SampleValues run() {
-    for (const Group& group : groups_of(data_, state_)) {
-      add_atmosphere(group);
-      add_pointing(group);
+    const bool irradiances = !data_.samples.empty() && data_.samples.front().irradiance;
+    if (irradiances) {
+      add_irradiances();
+    } else {
+      for (const Group& group : groups_of(data_, state_)) {
+        add_atmosphere(group);
+        add_pointing(group);
+      }
     }
     add_scale();
     return std::move(result_);
@@ -143,11 +148,65 @@ class Evaluation {
     for (const Eigen::Index r : group.samples) {
       const Sample& sample = data_.samples[static_cast<std::size_t>(r)];
       if (group.views[static_cast<std::size_t>(view)] != sample.view) ++view;  // both ascend
-      const int scan = data_.scan_of(sample);
-      const double factor = data_.scans[static_cast<std::size_t>(scan)].inverse_distance2 *
-                            state_.instrument[static_cast<std::size_t>(scan)]
-                                             [static_cast<std::size_t>(Instrument::kScale)];
-      use(r, sample, view, factor);
+      use(r, sample, view, factor_of(data_.scan_of(sample)));
+    }
+  }
+
+  // From the weighted radiance or irradiance to the instrument's.
+  double factor_of(int scan) const {
+    return data_.scans[static_cast<std::size_t>(scan)].inverse_distance2 *
+           state_.instrument[static_cast<std::size_t>(scan)]
+                            [static_cast<std::size_t>(Instrument::kScale)];
+  }
+
+  // The parameters of the atmosphere of a scan that are unknowns, and where each unknown stands
+  // among them; -1: it is none of them.
+  struct Differentiated {
+    std::vector<Parameter> wanted;
+    std::vector<int> slice;
+  };
+  Differentiated differentiated(int scan) const {
+    Differentiated result{{}, std::vector<int>(unknowns_.size(), -1)};
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      const Parameter* parameter = std::get_if<Parameter>(&unknowns_[u].what);
+      if (parameter == nullptr) continue;
+      if (!state_.one_atmosphere && !unknowns_[u].applies_to(scan)) continue;
+      result.slice[u] = static_cast<int>(result.wanted.size());
+      result.wanted.push_back(*parameter);
+    }
+    return result;
+  }
+
+  // Those under one sun come from one hemisphere.
+  void add_irradiances() {
+    std::map<Sun, std::vector<Eigen::Index>> suns;
+    for (std::size_t r = 0; r < data_.samples.size(); ++r) {
+      const Sample& sample = data_.samples[r];
+      suns[sun_of(data_.views[static_cast<std::size_t>(sample.view)])].push_back(
+          static_cast<Eigen::Index>(r));
+    }
+    for (const auto& [sun, samples] : suns) {
+      const auto [scan, sun_zenith] = sun;
+      const auto [wanted, slice] = differentiated(scan);
+      const SkyValues light = model_.irradiance(state_.atmosphere[static_cast<std::size_t>(scan)],
+                                                data_.nodes, 0, sun_zenith, wanted);
+      for (const Eigen::Index r : samples) add_irradiance(r, light, slice);
+    }
+  }
+
+  void add_irradiance(Eigen::Index r, const SkyValues& light, const std::vector<int>& slice) {
+    const Sample& sample = data_.samples[static_cast<std::size_t>(r)];
+    const Channel& channel = data_.channels[static_cast<std::size_t>(sample.channel)];
+    const int scan = data_.scan_of(sample);
+    const double factor = factor_of(scan);
+    for (std::size_t k = 0; k < channel.node.size(); ++k) {
+      const double weight = factor * channel.weight[k];
+      result_.value(r) += weight * light.at(*sample.irradiance, channel.node[k]);
+      for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+        if (slice[u] < 0 || !unknowns_[u].applies_to(scan)) continue;
+        result_.derivative(r, static_cast<Eigen::Index>(u)) +=
+            weight * light.derivative_at(slice[u], *sample.irradiance, channel.node[k]);
+      }
     }
   }
 
@@ -180,18 +239,11 @@ class Evaluation {
   }
 
   void add_atmosphere(const Group& group) {
-    std::vector<Parameter> wanted;
-    std::vector<int> slice(unknowns_.size(), -1);
-    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-      const Parameter* parameter = std::get_if<Parameter>(&unknowns_[u].what);
-      if (parameter == nullptr) continue;
-      if (!state_.one_atmosphere && !unknowns_[u].applies_to(group.scan)) continue;
-      slice[u] = static_cast<int>(wanted.size());
-      wanted.push_back(*parameter);
-    }
+    const Differentiated of = differentiated(group.scan);
+    const std::vector<int>& slice = of.slice;
     std::vector<SkyPoint> points;
     for (const int view : group.views) points.push_back(point(view, Instrument::kAzimuthOffset, 0));
-    const StokesValues sky = light(group, points, wanted);
+    const StokesValues sky = light(group, points, of.wanted);
     for_samples(group, [&](Eigen::Index r, const Sample& sample, int view, double factor) {
       const Light seen = light_at(group, sample, sky, view);
       result_.value(r) = value_of(sample, seen, factor);

@@ -258,7 +258,8 @@ void read_record(const PresetReader& record, Result& result) {
   result.reference.description = reference.text("description");
   result.reference.quantity = named(reference, "quantity",
                                     {refs::Quantity::kLuminance, refs::Quantity::kSpectralRadiance,
-                                     refs::Quantity::kRelativeLuminance},
+                                     refs::Quantity::kRelativeLuminance,
+                                     refs::Quantity::kIlluminance, refs::Quantity::kIrradiance},
                                     refs::sample_csv::value_column);
   result.exclude_sun = reference.number("exclude_sun_deg") / kDegreesPerRadian;
   result.reference.notes = record.texts("notes");

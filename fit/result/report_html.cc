@@ -119,9 +119,7 @@ void add_summary(xml_node body, const Result& result) {
                             transfer_name(result.transfer), result.version));
   item("Started from", result.start_name);
   item("Likelihood", likelihood_text(result));
-  item("Samples", fmt::format("{} in {} directions of {} scans; {:.4g} deg around the sun left out",
-                              result.samples, result.directions, result.scans.size(),
-                              result.exclude_sun * kDegreesPerRadian));
+  item("Samples", samples_text(result));
   item("Solver",
        fmt::format("{} after {} iterations of all {} starts; {} model solutions, {} with "
                    "derivatives; {:.3g} s",
@@ -184,8 +182,8 @@ void add_figures(xml_node body, std::span<const ReportFigure> figures) {
 
 void add_errors(xml_node body, const Result& result) {
   add_section(body, "Errors");
-  xml_node table =
-      add_table(body, {"", "RMS of log, %", "luminance, %", "spectral, %", "mean bias, %"});
+  xml_node table = add_table(
+      body, {"", "RMS of log, %", value_name(result) + ", %", "spectral, %", "mean bias, %"});
   const auto row = [&](std::string_view name, const Errors& e) {
     add_row(table, {std::string(name), number_text(e.rms_log, 4), number_text(e.luminance, 4),
                     number_text(e.spectral, 4), number_text(e.mean_bias, 3)});
@@ -194,7 +192,7 @@ void add_errors(xml_node body, const Result& result) {
   row("all scans, fitted", result.errors);
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     row(scan_name(result, s), result.scans[s].errors);
-  add(body, "p", errors_meaning(), "small");
+  add(body, "p", errors_meaning(result), "small");
   if (result.polarisation.empty()) return;
   xml_node readings = add_table(
       body, {"Polarisation, RMS in percentage points", "readings", "start", "fitted", "one sigma"});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data_refs/units.h"
 #include "fit/result/findings.h"
 #include "fit/result/record.h"
 #include "fit/result/report.h"
@@ -44,14 +45,13 @@ std::string header(const Result& result) {
       "reference   {}\n"
       "model       {} ({} transfer, skyfit {}), started from {}\n"
       "likelihood  {}\n"
-      "samples     {} in {} directions of {} scans, {:.4g} deg around the sun left out\n"
+      "samples     {}\n"
       "solver      {} after {} iterations of all {} starts; {} model solutions, {} with "
       "derivatives\n\n",
       result.preset.name, result.reference.description, result.model_name,
       transfer_name(result.transfer), result.version, result.start_name, likelihood_text(result),
-      result.samples, result.directions, result.scans.size(),
-      result.exclude_sun * kDegreesPerRadian, result.termination, result.iterations,
-      result.starts.size(), result.model_evaluations, result.derivative_evaluations);
+      samples_text(result), result.termination, result.iterations, result.starts.size(),
+      result.model_evaluations, result.derivative_evaluations);
 }
 
 // What is known of the reference, and its samples without weight by reason.
@@ -70,13 +70,13 @@ std::string errors_text(const Result& result) {
     return fmt::format(kRow, name, number_text(errors.rms_log, 4), number_text(errors.luminance, 4),
                        number_text(errors.spectral, 4), number_text(errors.mean_bias, 3));
   };
-  std::string text =
-      fmt::format(kRow, "Errors, percent", "RMS of log", "luminance", "spectral", "mean bias");
+  std::string text = fmt::format(kRow, "Errors, percent", "RMS of log", value_name(result),
+                                 "spectral", "mean bias");
   text += row("all scans, at the start", result.start_errors);
   text += row("all scans, fitted", result.errors);
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     text += row(scan_name(result, s), result.scans[s].errors);
-  return text + errors_meaning() + "\n";
+  return text + errors_meaning(result) + "\n";
 }
 
 std::string polarisation_text(const Result& result) {
@@ -93,6 +93,7 @@ std::string polarisation_text(const Result& result) {
 }
 
 std::string rms_text(const Result& result) {
+  if (refs::is_irradiance(result.reference.quantity)) return "";  // the errors say it all
   const auto row = [](std::string_view name, double start, double fitted) {
     return fmt::format("{:<52}{:>12}{:>12}\n", name, number_text(start), number_text(fitted));
   };
@@ -292,11 +293,28 @@ std::string scan_name(const Result& result, std::size_t scan) {
                      info.sun_zenith * kDegreesPerRadian);
 }
 
-std::string errors_meaning() {
-  return "RMS of log: root mean square of ln(model / value) with a free scale per scan; luminance: "
-         "of\nmodel / value - 1 over the directions; spectral: |model - value| over |value|, "
-         "2-norms "
-         "over all\nsamples of 400 to 700 nm.\n";
+std::string samples_text(const Result& result) {
+  if (refs::is_irradiance(result.reference.quantity))
+    return fmt::format("{} under {} sun{}", result.samples, result.scans.size(),
+                       result.scans.size() == 1 ? "" : "s");
+  return fmt::format("{} in {} directions of {} scans, {:.4g} deg around the sun left out",
+                     result.samples, result.directions, result.scans.size(),
+                     result.exclude_sun * kDegreesPerRadian);
+}
+
+std::string value_name(const Result& result) {
+  return std::string(refs::is_irradiance(result.reference.quantity)
+                         ? refs::quantity_name(result.reference.quantity)
+                         : "luminance");
+}
+
+std::string errors_meaning(const Result& result) {
+  return fmt::format(
+      "RMS of log: root mean square of ln(model / value) with a free scale per scan; {}: of\n"
+      "model / value - 1 over the {}; spectral: |model - value| over |value|, 2-norms over all\n"
+      "samples of 400 to 700 nm.\n",
+      value_name(result),
+      refs::is_irradiance(result.reference.quantity) ? "samples" : "directions");
 }
 
 std::string hold_outs_meaning() {
@@ -337,9 +355,14 @@ std::string sigma_text(const Result& result) {
   for (const PolarisationErrors& errors : result.polarisation) readings += errors.readings;
   if (result.likelihood.noise_is_known) {
     text = fmt::format(
-        "One sigma is from the known noise ({:.3g} % root mean square) and the priors; chi^2 per "
-        "degree of\nfreedom = {:.4g} (well above 1: the misfit is larger than the noise).\n",
-        result.sigma_percent, result.chi_square_per_dof);
+        "One sigma is from the known noise ({:.3g} % root mean square) and the priors; {}.\n",
+        result.sigma_percent,
+        std::isfinite(result.chi_square_per_dof)
+            ? fmt::format(
+                  "chi^2 per degree of\nfreedom = {:.4g} (well above 1: the misfit is larger "
+                  "than the noise)",
+                  result.chi_square_per_dof)
+            : "there are no more\nsamples than unknowns, so that chi^2 says nothing");
   } else {
     text = fmt::format(
         "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "
@@ -382,7 +405,7 @@ std::string brief_report(const Result& result) {
   std::string errors = fmt::format("{:.3g} % RMS log error ({:.3g} % at the start)",
                                    result.errors.rms_log, result.start_errors.rms_log);
   if (!relative(result)) {
-    errors = fmt::format("luminance error {:.3g} %", result.errors.luminance);
+    errors = fmt::format("{} error {:.3g} %", value_name(result), result.errors.luminance);
     if (std::isfinite(result.errors.spectral))
       errors += fmt::format(", spectral error {:.3g} %", result.errors.spectral);
   }

@@ -16,6 +16,10 @@ std::string number_text(double value, int digits = 5);
 std::string likelihood_text(const Result& result);
 // "[2] 1030.csv, sun 45.1 deg"; `scan` from 0.
 std::string scan_name(const Result& result, std::size_t scan);
+// "145 in 145 directions of 1 scans, 3 deg around the sun left out", or "2 under 1 sun".
+std::string samples_text(const Result& result);
+// Of the errors of directions: "luminance", or what irradiances are.
+std::string value_name(const Result& result);
 // "at lower bound", "not identifiable" or nothing.
 std::string remark_text(const UnknownRow& row);
 std::string prior_text(const UnknownRow& row);
@@ -24,7 +28,7 @@ std::string_view polarisation_name(refs::Polarisation what);
 // What one sigma is made of; lines of at most 100 columns.
 std::string sigma_text(const Result& result);
 // What "RMS of log", "luminance", "spectral" and "own" errors are.
-std::string errors_meaning();
+std::string errors_meaning(const Result& result);
 std::string hold_outs_meaning();
 // A sentence for each prior that the misfit overrides; the same lines.
 std::vector<std::string> pulled_priors(const Result& result);

@@ -11,7 +11,8 @@
 namespace skyfit::plot {
 namespace {
 
-bool always(const MeasuredOutcome&) { return true; }
+bool has_irradiances(const MeasuredOutcome& outcome) { return !outcome.irradiance_unit.empty(); }
+bool has_directions(const MeasuredOutcome& outcome) { return !has_irradiances(outcome); }
 
 bool has_series(const MeasuredOutcome& outcome) {
   return outcome.scans.size() >= 2 &&
@@ -23,14 +24,16 @@ bool has_series(const MeasuredOutcome& outcome) {
 
 using Outcomes = std::span<const MeasuredOutcome>;
 
-constexpr std::array<MeasuredFigure, 5> kFigures = {{
+constexpr std::array<MeasuredFigure, 6> kFigures = {{
     {"maps", "measured, model and their ratio over the sky, a row per scan (at most 6)", false,
-     always, [](Outcomes fits, int) { return maps_figure(fits[0]); }},
+     has_directions, [](Outcomes fits, int) { return maps_figure(fits[0]); }},
     {"spectra", "six directions of one scan with what a sample scatters by; spectral scans only",
      false, [](const MeasuredOutcome& outcome) { return outcome.spectral; },
      [](Outcomes fits, int scan) { return spectra_figure(fits[0], scan); }},
     {"residuals", "model / measured - 1 against scattering angle, view zenith and wavelength",
-     false, always, [](Outcomes fits, int) { return residuals_figure(fits[0]); }},
+     false, has_directions, [](Outcomes fits, int) { return residuals_figure(fits[0]); }},
+    {"irradiances", "irradiances against the sun's zenith angle; fits of irradiances only", false,
+     has_irradiances, [](Outcomes fits, int) { return irradiances_figure(fits[0]); }},
     {"corner", "the covariance: densities, and pairs with ellipses of 1 and 2 sigma", false,
      [](const MeasuredOutcome& outcome) { return outcome.covariance.size() >= 2; },
      [](Outcomes fits, int) { return corner_figure(fits[0]); }},
@@ -56,6 +59,11 @@ Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits,
   if (fits.size() != 1 && !figure.takes_several)
     throw std::invalid_argument(
         fmt::format("figure: {} fits of measured skies: expected 1 for this figure", fits.size()));
+  const bool of_directions = figure.can_draw == has_directions;
+  if (of_directions && std::ranges::any_of(fits, has_irradiances)) {
+    throw std::invalid_argument(fmt::format(
+        "figure {}: irradiances have no directions: expected the figure irradiances", figure.name));
+  }
   return figure.draw(fits, scan);
 }
 

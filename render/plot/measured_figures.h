@@ -32,6 +32,7 @@ Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits,
 Figure maps_figure(const MeasuredOutcome& outcome);
 Figure spectra_figure(const MeasuredOutcome& outcome, int scan);
 Figure residuals_figure(const MeasuredOutcome& outcome);
+Figure irradiances_figure(const MeasuredOutcome& outcome);
 Figure corner_figure(const MeasuredOutcome& outcome);
 Figure series_figure(std::span<const MeasuredOutcome> fits);
 

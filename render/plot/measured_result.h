@@ -25,7 +25,8 @@ struct MeasuredUnknown {
 
 struct MeasuredOutcome {
   std::string title;
-  bool spectral = true;  // else cd/m^2
+  bool spectral = true;         // else cd/m^2, or irradiances
+  std::string irradiance_unit;  // of irradiances; empty: samples have directions
   std::vector<Sample> samples;
   std::vector<MeasuredScan> scans;
   std::vector<MeasuredUnknown> unknowns;

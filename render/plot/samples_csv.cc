@@ -2,6 +2,7 @@
 #include "render/plot/samples_csv.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,7 @@
 #include "data_refs/csv.h"
 #include "model/base/input_file.h"
 #include "model/base/whole_file.h"
+#include "model/irradiance.h"
 
 namespace skyfit::plot {
 namespace {
@@ -27,7 +29,8 @@ bool not_negative(double value) { return value >= 0; }
 bool zenith(double value) { return value >= 0 && value <= 180; }
 bool signed_zenith(double value) { return value >= -180 && value <= 180; }
 
-constexpr std::string_view kScan = "scan", kResidual = "residual", kStart = "start_model";
+constexpr std::string_view kScan = "scan", kResidual = "residual", kStart = "start_model",
+                           kIrradiance = "irradiance";
 
 constexpr std::array<Column, 7> kColumns = {{
     {"sun_zenith_deg", &Sample::sun_zenith_deg, "a number in 0..180", zenith},
@@ -65,10 +68,13 @@ std::string samples_to_csv(std::span<const Sample> samples) {
       !samples.empty() && std::ranges::all_of(samples, [](const Sample& sample) {
         return std::isfinite(sample.start_model);
       });
+  const bool irradiances =
+      std::ranges::any_of(samples, [](const Sample& sample) { return !sample.irradiance.empty(); });
   std::string text(kScan);
   for (const Column& column : kColumns) text += fmt::format(",{}", column.name);
-  text += fmt::format(",{},{}{}{}\n", kResidual, kWeight.name, with_start ? "," : "",
-                      with_start ? kStart : "");
+  text += fmt::format(",{},{}", kResidual, kWeight.name);
+  if (with_start) text += fmt::format(",{}", kStart);
+  text += irradiances ? fmt::format(",{}\n", kIrradiance) : "\n";
   for (const Sample& sample : samples) {
     text += std::to_string(sample.scan);
     for (const Column& column : kColumns)
@@ -77,6 +83,7 @@ std::string samples_to_csv(std::span<const Sample> samples) {
     text += positive ? fmt::format(",{}", sample.residual()) : ",nan";
     text += fmt::format(",{}", sample.weight);
     if (with_start) text += fmt::format(",{}", sample.start_model);
+    if (irradiances) text += "," + sample.irradiance;
     text += '\n';
   }
   return text;
@@ -100,6 +107,12 @@ std::vector<Sample> parse_samples_csv(std::string_view text, std::string_view so
     for (const Column& column : kColumns) read_column(table, record, column, sample);
     read_column(table, record, kWeight, sample);
     if (table.has(kStart)) read_column(table, record, kStartModel, sample);
+    if (table.has(kIrradiance)) {
+      sample.irradiance = table.text(record, kIrradiance);
+      if (std::ranges::count(kIrradianceNames, sample.irradiance) == 0)
+        table.fail_value(record, kIrradiance,
+                         fmt::format("one of {}", fmt::join(kIrradianceNames, ", ")));
+    }
     samples.push_back(sample);
   }
   if (samples.empty())

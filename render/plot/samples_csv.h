@@ -2,7 +2,8 @@
 // samples.csv: what a fit leaves for every sample, and the one struct that figures are made of.
 // Header, exactly:
 // scan,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,wavelength_nm,reference,sigma,model,residual,weight,
-// followed by start_model where the start values are known. Numbers are the shortest that read back
+// followed by start_model where the start values are known, and by irradiance (kIrradianceNames of
+// model/irradiance.h) where the samples are irradiances. Numbers are the shortest that read back
 // to the same double; residual is ln(model / reference), nan where one is not positive, and is not
 // read back.
 #pragma once
@@ -19,7 +20,8 @@ namespace skyfit::plot {
 
 // Angles in degrees, where the instrument truly points according to the fit; azimuth 0 looks toward
 // the sun's azimuth. `reference`, `sigma`, `model` and `start_model` share one unit (cd/m^2, that
-// of a relative reference, or W m^-2 sr^-1 nm^-1); both models carry the scale of the scan.
+// of a relative reference, W m^-2 sr^-1 nm^-1, lx or W/m^2); both models carry the scale of the
+// scan.
 struct Sample {
   int scan = 1;  // from 1
   double sun_zenith_deg = 0;
@@ -31,6 +33,7 @@ struct Sample {
   double model = 0;
   double weight = 1;                                              // >= 0; 0: shown, not counted
   double start_model = std::numeric_limits<double>::quiet_NaN();  // NaN: not known
+  std::string irradiance = {};  // which; empty: a radiance or luminance
 
   double residual() const { return std::log(model / reference); }
   bool operator==(const Sample&) const = default;

@@ -36,7 +36,9 @@ class BadInputTest : public ProgramTest {
 TEST_F(BadInputTest, CommandLine) {
   expect_refusal({}, {"expected a command"});
   expect_refusal({"fot"}, {"fot"});
-  expect_refusal({"fit"}, {"--reference is required"});
+  expect_refusal({"fit"}, {"--out is required"});
+  expect_refusal({"fit", "--out", "x"}, {"--reference or --irradiance is required"});
+  expect_refusal({"fit", "--out", "x", "--irradiance", "direct=800"}, {"direct=800", "no unit"});
   expect_refusal({"fit", "--reference", "cie:12"}, {"--out is required"});
   expect_refusal({"fit", "--reference", "cie:12", "--out", "x", "--lobes", "abc"},
                  {"--lobes", "abc", "whole number"});

@@ -104,6 +104,25 @@ TEST_F(MeasuredTest, JointFitLeavesReportsAndFigures) {
   EXPECT_EQ(json::parse(evaluated.out)["unknowns"].size(), 1u);
 }
 
+// From the command line to the samples, the report and the figure of irradiances.
+TEST_F(MeasuredTest, IrradiancesAreFitted) {
+  const Outcome fit = run({"fit", "--irradiance", "direct=96klx,diffuse=14klx", "--sun-zenith-deg",
+                           "32", "--scalar", "--out", "fitted", "--json"});
+  ASSERT_EQ(fit.status, 0) << fit.err;
+  const json report = json::parse(fit.out);
+  EXPECT_EQ(report["reference"]["quantity"], "illuminance_lx");
+  ASSERT_EQ(report["unknowns"].size(), 2u);
+  EXPECT_EQ(report["unknowns"][0]["name"], "mie.optical_depth");
+  for (const char* file : {"irradiances.png", "corner.png", "preset.json", "report.txt"})
+    EXPECT_TRUE(exists(std::string("fitted/") + file)) << file;
+  EXPECT_FALSE(exists("fitted/maps.png") || exists("fitted/residuals.png"));
+  EXPECT_THAT(read("fitted/samples.csv"), HasSubstr(",diffuse_horizontal\n"));
+  EXPECT_EQ(run({"report", "fitted"}).out, read("fitted/report.txt"));
+  EXPECT_EQ(run({"plot", "fitted", "--out", "i.png"}).status, 0);
+  EXPECT_THAT(run({"plot", "fitted", "--figure", "maps", "--out", "m.png"}).err,
+              HasSubstr("irradiances have no directions"));
+}
+
 TEST_F(MeasuredTest, ClassifyNamesTheType) {
   const Outcome found =
       run({"classify", "--reference", "cie:9", "--sun-zenith-deg", "40", "--json"});

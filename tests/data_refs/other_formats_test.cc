@@ -29,6 +29,8 @@ TEST(OtherFormats, TextsAreNamed) {
   EXPECT_THAT(*other_format("LOCATION,Somewhere,-,FRA\nDESIGN CONDITIONS,0\n"), HasSubstr("(EPW)"));
   EXPECT_THAT(*other_format("# gendaylit 6 21 12\nvoid light solar\n"), HasSubstr("Radiance"));
   EXPECT_THAT(*other_format("wavelength, irradiance\n400, 1\n"), HasSubstr("irradiances"));
+  EXPECT_THAT(*other_format("# a day\nsun_zenith_deg,direct_normal_lx\n40,80000\n"),
+              HasSubstr("fit --irradiance"));
   EXPECT_THAT(*other_format("{\"SkyAtmosphere\": {}}"), HasSubstr("JSON"));
   EXPECT_FALSE(other_format("sun_zenith_deg,view_zenith_deg,relative_azimuth_deg\n1,2,3\n"));
 }

@@ -52,6 +52,19 @@ TEST_F(PlotTest, SamplesReadBackToTheSameDoubles) {
   }
 }
 
+TEST(SamplesCsv, IrradiancesKeepTheirNames) {
+  std::vector<Sample> samples = awkward_samples(true);
+  for (Sample& sample : samples) sample.irradiance = "diffuse_horizontal";
+  const std::string text = samples_to_csv(samples);
+  EXPECT_EQ(parse_samples_csv(text, "samples.csv"), samples);
+  std::string wrong = text;
+  wrong.replace(wrong.find("diffuse_horizontal"), 18, "diffuse");
+  EXPECT_THAT([&] { parse_samples_csv(wrong, "samples.csv"); },
+              ThrowsMessage<std::invalid_argument>(
+                  StrEq("samples.csv:2: irradiance = \"diffuse\": expected one of direct_normal, "
+                        "direct_horizontal, diffuse_horizontal, global_horizontal")));
+}
+
 TEST(SamplesCsv, HeaderIsTheAgreedOne) {
   const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   EXPECT_EQ(first_line(samples_to_csv(awkward_samples(false))), kHeader);

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/radiance_sky.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "data_refs/csv.h"
+#include "data_refs/measured_sky.h"
+#include "model/numerics/angles.h"
+
+namespace skyfit::refs {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kLumenPerWatt = 179;  // Radiance's white efficacy (color.h)
+// Brightness of red, green and blue (Radiance, color.h).
+constexpr std::array<double, 3> kBrightness = {0.265, 0.670, 0.065};
+
+struct Word {
+  std::string text;
+  int line;
+};
+
+// `modifier type identifier`, then numbers of strings, of integers and of reals with these.
+struct Primitive {
+  std::string modifier, type, name;
+  std::vector<std::string> strings;
+  std::vector<double> reals;
+  int line = 0;
+};
+
+// Words outside comments; the comments one by one.
+struct Scene {
+  std::vector<Word> words;
+  std::vector<Word> comments;
+};
+
+Scene scene_of(std::string_view text) {
+  Scene scene;
+  std::istringstream in{std::string(text)};
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const std::size_t hash = line.find('#');
+    if (hash != std::string::npos) scene.comments.push_back({line.substr(hash), number});
+    std::istringstream words(line.substr(0, hash));
+    for (std::string word; words >> word;) scene.words.push_back({word, number});
+  }
+  return scene;
+}
+
+class Parser {
+ public:
+  Parser(const Scene& scene, std::string_view source) : words_(scene.words), source_(source) {}
+
+  std::vector<Primitive> primitives() {
+    std::vector<Primitive> result;
+    while (at_ < words_.size()) {
+      Primitive p;
+      p.line = words_[at_].line;
+      if (words_[at_].text.starts_with('!'))
+        fail_at(source_, p.line, "a command: expected the scene that it writes");
+      p.modifier = next("a modifier").text;
+      p.type = next("a type").text;
+      p.name = next("an identifier").text;
+      for (int i = count("strings"); i > 0; --i) p.strings.push_back(next("a string").text);
+      for (int i = count("integers"); i > 0; --i) number("an integer");
+      for (int i = count("numbers"); i > 0; --i) p.reals.push_back(number("a number"));
+      result.push_back(std::move(p));
+    }
+    return result;
+  }
+
+ private:
+  const Word& next(std::string_view expected) {
+    if (at_ == words_.size())
+      fail_at(source_, words_.empty() ? 1 : words_.back().line,
+              fmt::format("the scene ends: expected {}", expected));
+    return words_[at_++];
+  }
+
+  double number(std::string_view expected) {
+    const Word& word = next(expected);
+    const std::optional<double> value = csv_number(word.text);
+    if (!value || !std::isfinite(*value))
+      fail_at(source_, word.line, fmt::format("\"{}\": expected {}", word.text, expected));
+    return *value;
+  }
+
+  int count(std::string_view of) {
+    constexpr double kMost = 1000;
+    const Word& word = next(fmt::format("how many {}", of));
+    const std::optional<double> value = csv_number(word.text);
+    if (!value || !(*value >= 0 && *value <= kMost && *value == std::floor(*value)))
+      fail_at(source_, word.line, fmt::format("\"{}\": expected how many {}", word.text, of));
+    return static_cast<int>(*value);
+  }
+
+  const std::vector<Word>& words_;
+  std::string_view source_;
+  std::size_t at_ = 0;
+};
+
+struct Direction {
+  double zenith, azimuth;  // radians, azimuth clockwise from north
+};
+
+// East, north, up.
+Direction direction_of(const Primitive& p, std::size_t first, std::string_view source) {
+  const double x = p.reals[first], y = p.reals[first + 1], z = p.reals[first + 2];
+  const double length = std::hypot(x, y, z);
+  constexpr double kRounding = 0.05;  // of numbers written with few digits
+  if (!(std::abs(length - 1) <= kRounding)) {
+    fail_at(source, p.line,
+            fmt::format("{} {}: direction of the sun {:.6g} {:.6g} {:.6g}: expected a length of 1",
+                        p.type, p.name, x, y, z));
+  }
+  return {std::atan2(std::hypot(x, y), z), std::atan2(x, y)};
+}
+
+Direction sun_of(const RadianceSky& sky) { return {sky.sun_zenith, sky.sun_azimuth}; }
+
+double angle_between(const Direction& a, const Direction& b) {
+  Sample sample;
+  sample.sun_zenith = a.zenith;
+  sample.view_zenith = b.zenith;
+  sample.relative_azimuth = b.azimuth - a.azimuth;
+  return scattering_angle(sample);
+}
+
+std::string text_of(const Direction& d) {
+  return fmt::format("zenith {:.2f} deg, azimuth {:.2f} deg", d.zenith * kDegreesPerRadian,
+                     std::remainder(d.azimuth, 2 * kPi) * kDegreesPerRadian);
+}
+
+// Of `mu` the cosine of the view's zenith angle and `angle` that to the sun.
+double clear_sky(double mu, double angle) {
+  constexpr double kHorizon = 0.01;
+  const double nu = std::cos(angle);
+  return (0.91 + 10 * std::exp(-3 * angle) + 0.45 * nu * nu) *
+         (mu > kHorizon ? 1 - std::exp(-0.32 / mu) : 1);
+}
+
+double intermediate_sky(double zenith, double sun_zenith, double angle) {
+  return ((1.35 * std::sin(5.631 - 3.59 * zenith) + 3.12) * std::sin(4.396 - 2.6 * sun_zenith) +
+          6.37 - zenith) /
+         2.326 * std::exp(-0.563 * angle * ((2.629 - zenith) * (1.562 - sun_zenith) + 0.812));
+}
+
+double value_of(const RadianceSky& sky, double zenith, double angle) {
+  const std::vector<double>& a = sky.a;
+  const double mu = std::cos(zenith), nu = std::cos(angle);
+  switch (sky.formula) {
+    case RadianceFormula::kPerez: {
+      constexpr double kHorizon = 0.01;
+      return a[0] * (1 + a[2] * std::exp(a[3] / std::max(mu, kHorizon))) *
+             (1 + a[4] * std::exp(a[5] * angle) + a[6] * nu * nu);
+    }
+    case RadianceFormula::kClear:
+      return a[1] * clear_sky(mu, angle) / a[3];
+    case RadianceFormula::kIntermediate:
+      return a[1] * intermediate_sky(zenith, sky.sun_zenith, angle) / a[3];
+    case RadianceFormula::kOvercast:
+      return a[1] * (1 + 2 * mu) / 3;
+    case RadianceFormula::kUniform:
+      break;
+  }
+  return a[1];
+}
+
+std::string_view meaning_of(RadianceFormula formula) {
+  switch (formula) {
+    case RadianceFormula::kPerez:
+      return "all-weather sky of Perez, Seals & Michalsky 1993 (perezlum.cal)";
+    case RadianceFormula::kClear:
+      return "CIE clear sky (skybright.cal)";
+    case RadianceFormula::kOvercast:
+      return "CIE overcast sky (skybright.cal)";
+    case RadianceFormula::kIntermediate:
+      return "CIE intermediate sky (skybright.cal)";
+    case RadianceFormula::kUniform:
+      break;
+  }
+  return "uniform sky (skybright.cal)";
+}
+
+// The file of functions that a brightfunc names; empty: none of the two.
+std::string_view functions_of(const Primitive& p) {
+  if (p.type != "brightfunc" || p.strings.size() != 2) return "";
+  for (const std::string_view file : {"perezlum.cal", "skybright.cal"}) {
+    if (p.strings[1] == file) return file;
+  }
+  return "";
+}
+
+RadianceFormula formula_of(const Primitive& p, std::string_view source) {
+  if (functions_of(p) == "perezlum.cal") return RadianceFormula::kPerez;
+  const double kind = p.reals.at(0);
+  if (kind == 1) return RadianceFormula::kClear;
+  if (kind == 2) return RadianceFormula::kOvercast;
+  if (kind == 3) return RadianceFormula::kUniform;
+  if (kind == 4) return RadianceFormula::kIntermediate;
+  fail_at(source, p.line,
+          fmt::format("A1 = {:.9g}: expected 1 (clear), 2 (overcast), 3 (uniform) or 4 "
+                      "(intermediate)",
+                      kind));
+}
+
+const Primitive& sky_function(const std::vector<Primitive>& primitives, std::string_view source) {
+  const Primitive* found = nullptr;
+  for (const Primitive& p : primitives) {
+    if (functions_of(p).empty()) continue;
+    if (found != nullptr) fail_at(source, p.line, "a second sky: expected one");
+    found = &p;
+  }
+  if (found == nullptr)
+    throw std::invalid_argument(
+        fmt::format("{}: expected a brightfunc of perezlum.cal or skybright.cal", source));
+  const std::size_t wanted = functions_of(*found) == "perezlum.cal" ? 10 : 7;
+  if (found->reals.size() != wanted) {
+    fail_at(source, found->line,
+            fmt::format("{} numbers: expected the {} of {}", found->reals.size(), wanted,
+                        functions_of(*found)));
+  }
+  return *found;
+}
+
+// Of the comment with the command that wrote the scene: what its numbers are.
+double luminance_per_value(const Scene& scene, std::string_view source) {
+  static const std::regex output(R"(gendaylit\b.*\s-O\s*(\d+))");
+  for (const Word& comment : scene.comments) {
+    std::smatch match;
+    if (!std::regex_search(comment.text, match, output)) continue;
+    if (match[1] == "2") return 1;  // luminances
+    if (match[1] != "0") {
+      fail_at(source, comment.line,
+              fmt::format("gendaylit -O {}: radiances of all wavelengths: expected -O 0 or -O 2, "
+                          "whose numbers are luminances",
+                          match[1].str()));
+    }
+  }
+  return kLumenPerWatt;
+}
+
+// The brightness of what the function `name` modulates, 1 where the scene has no glow of it.
+double glow_of(const std::vector<Primitive>& primitives, const std::string& name,
+               std::string_view source) {
+  for (const Primitive& p : primitives) {
+    if (p.type != "glow" || p.modifier != name) continue;
+    if (p.reals.size() != 4 || std::ranges::any_of(p.reals, [](double v) { return v < 0; }))
+      fail_at(source, p.line, fmt::format("glow {}: expected 4 numbers >= 0", p.name));
+    double brightness = 0;
+    for (std::size_t c = 0; c < 3; ++c) brightness += kBrightness[c] * p.reals[c];
+    if (brightness > 0) return brightness;  // one that is black lights nothing
+  }
+  return 1;
+}
+
+// The suns of the light and of the comment must be that of the function.
+void check_sun(const std::vector<Primitive>& primitives, const Scene& scene, const RadianceSky& sky,
+               std::string_view source) {
+  const auto expect = [&](const Direction& other, int line, std::string_view what) {
+    const double apart = angle_between(sun_of(sky), other) * kDegreesPerRadian;
+    if (apart <= kSunAgreement_deg) return;
+    fail_at(source, line,
+            fmt::format("{}: {}, {:.3g} deg from the sky's sun ({}): expected within {:g} deg",
+                        what, text_of(other), apart, text_of(sun_of(sky)), kSunAgreement_deg));
+  };
+  constexpr double kWidest_deg = 1;  // a sky or a ground is a source of 180 deg
+  for (const Primitive& p : primitives) {
+    if (p.type != "source" || p.reals.size() != 4 || p.reals[3] > kWidest_deg) continue;
+    expect(direction_of(p, 0, source), p.line, "source " + p.name);
+  }
+  static const std::regex stated(R"(solar altitude and azimuth:\s*(-?[\d.]+)\s+(-?[\d.]+))",
+                                 std::regex::icase);
+  for (const Word& comment : scene.comments) {
+    std::smatch match;
+    if (!std::regex_search(comment.text, match, stated)) continue;
+    // Azimuths of Radiance's programs count from south to west.
+    expect({(90 - std::stod(match[1])) * kRadiansPerDegree,
+            (180 + std::stod(match[2])) * kRadiansPerDegree},
+           comment.line, "solar altitude and azimuth");
+  }
+}
+
+}  // namespace
+
+std::string RadianceSky::description() const {
+  return fmt::format("Radiance: {}, sun {}", meaning_of(formula),
+                     text_of({sun_zenith, sun_azimuth}));
+}
+
+bool is_radiance_sky(std::string_view text) {
+  const auto has = [&](std::string_view word) { return text.find(word) != text.npos; };
+  return has("brightfunc") && (has("perezlum.cal") || has("skybright.cal"));
+}
+
+bool is_radiance_sky_file(std::string_view name) {
+  constexpr std::size_t kMostBytes = 1 << 20;  // of a scene that holds a sky and little else
+  const std::filesystem::path file(name);
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none) ||
+      std::filesystem::file_size(file, none) > kMostBytes)
+    return false;
+  return is_radiance_sky(read_csv_file(file, "a scene of Radiance"));
+}
+
+RadianceSky parse_radiance_sky(std::string_view text, std::string_view source) {
+  const Scene scene = scene_of(text);
+  const std::vector<Primitive> primitives = Parser(scene, source).primitives();
+  const Primitive& function = sky_function(primitives, source);
+  const Direction sun = direction_of(function, function.reals.size() - 3, source);
+  if (!(sun.zenith < 0.5 * kPi)) {
+    fail_at(source, function.line,
+            fmt::format("sun {}: expected a sun above the horizon", text_of(sun)));
+  }
+  const RadianceSky sky{
+      formula_of(function, source), function.reals, sun.zenith,
+      sun.azimuth < 0 ? sun.azimuth + 2 * kPi : sun.azimuth,
+      luminance_per_value(scene, source) * glow_of(primitives, function.name, source)};
+  check_sun(primitives, scene, sky, source);
+  return sky;
+}
+
+double radiance_sky_luminance(const RadianceSky& sky, double view_zenith, double scattering_angle) {
+  return sky.luminance_per_value * value_of(sky, view_zenith, scattering_angle);
+}
+
+}  // namespace skyfit::refs
