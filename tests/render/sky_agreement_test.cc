@@ -23,7 +23,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTables = 0.01;  // what interpolation in the tables may cost
 // The limb beyond the terminator, darker than a thousandth of its brightest part, where the texels
 // of the sun are too coarse: twice as many halve the error.
-constexpr double kShadow = 0.03, kShadowed = 1e-3;
+constexpr double kShadow = 0.04, kShadowed = 1e-3;
 
 struct SkyPixels {
   std::vector<float> luminance;
