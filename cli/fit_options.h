@@ -16,7 +16,8 @@
 namespace skyfit::cli {
 
 struct FitArguments {
-  std::string reference, irradiance, sampling = "principal", sun_zenith = "0:80:10", model = "reference";
+  std::string reference, irradiance, sampling = "principal", sun_zenith = "0:80:10",
+                                     model = "reference";
   bool scalar = false, refraction = false;
   std::string free, preset, site_pressure, out, netcdf, exclude_sun = "3";
   std::string per_scan, link, scale, pointing, noise, loss, ground, hold_out;

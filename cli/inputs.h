@@ -67,8 +67,8 @@ refs::Reference load_references(const std::string& names, const std::string& sun
                                 const std::string& sampling, const ImportArguments& import,
                                 const CLI::App& command);
 
-// The irradiances of data_refs/irradiance.h; --sun-zenith-deg, one sun, is theirs where it is given.
-// Throws UsageError, and what irradiance_reference() throws.
+// The irradiances of data_refs/irradiance.h; --sun-zenith-deg, one sun, is theirs where it is
+// given. Throws UsageError, and what irradiance_reference() throws.
 refs::Reference load_irradiances(const std::string& text, const std::string& sun_zenith,
                                  const ImportArguments& import, const CLI::App& command);
 

@@ -92,7 +92,8 @@ std::map<std::string, int> samples_left_out(const Reference& reference);
 double scattering_angle(const Sample& sample);
 
 // What samples of one direction of a scan share while the sun moves: the scan, view zenith minus
-// sun zenith and relative azimuth, in 1e-9 radians; and which irradiance it is, -1 where it is none.
+// sun zenith and relative azimuth, in 1e-9 radians; and which irradiance it is, -1 where it is
+// none.
 using DirectionFromSun = std::tuple<int, long long, long long, int>;
 DirectionFromSun direction_from_sun(const Sample& sample);
 

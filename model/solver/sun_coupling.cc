@@ -63,7 +63,7 @@ Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t 
 
 void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalCoupling& c) {
   constexpr double kDusk = 92 * kRadiansPerDegree;  // above it, first order does as well
-  constexpr double kSmall = 1e-3;  // of a sun's light, as twilight decays
+  constexpr double kSmall = 1e-3;                   // of a sun's light, as twilight decays
   const std::size_t suns = c.suns.size();
   c.shifted.assign(suns, false);
   std::vector<double> decay(suns);
