@@ -226,15 +226,15 @@ std::string text_of(const json& summary) {
 
 void run_check(const std::string& file, const refs::ImportOptions& options, bool as_json) {
   const auto shipped = refs::shipped_preset_names();
-  const bool is_shipped = std::ranges::find(shipped, file) != shipped.end();
-  if (!is_shipped && !std::filesystem::exists(file)) {
+  const bool is_preset = file == "-" || std::ranges::find(shipped, file) != shipped.end();
+  if (!is_preset && !std::filesystem::exists(file)) {
     throw std::runtime_error(fmt::format(
         "{}: expected a preset (.json) or a measured sky, there is no such file", file));
   }
   json summary;
   if (file.ends_with(kSidecarEnd)) {
     summary = summary_of_sidecar(file);
-  } else if (is_shipped || (std::filesystem::is_regular_file(file) && looks_like_json(file))) {
+  } else if (is_preset || (std::filesystem::is_regular_file(file) && looks_like_json(file))) {
     summary = summary_of_preset(file);
   } else {
     summary = summary_of_samples(file, options);

@@ -13,6 +13,7 @@
 #include "cli/render_arguments.h"
 #include "model/base/input_file.h"
 #include "model/base/text.h"
+#include "model/base/whole_file.h"
 #include "model/registry.h"
 
 namespace skyfit::cli {
@@ -108,6 +109,8 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
                        "expected a sequence (--sequence, or --time FROM..TO)");
     if (options.out.empty())
       throw UsageError("--out", "", "expected name.png, name.exr or name.npy");
+    if (options.panels && std::ranges::any_of(options.out, is_stdout))
+      throw UsageError("--panels", "true", "expected files: panels are written beside --out");
     require_output_files(options.out, {".png", ".exr", ".npy"});
   }
   const auto is_linear = [](const std::string& name) {

@@ -25,7 +25,11 @@ struct ViewArguments {
 std::vector<PageSlider> sliders_of(const ViewArguments& arguments, const Preset& preset) {
   if (!arguments.parameters.empty()) {
     const auto parameters = parse_parameters("--parameters", arguments.parameters);
-    for (const Parameter& parameter : parameters) require_parameter(preset.atmosphere, parameter);
+    for (auto at = parameters.begin(); at != parameters.end(); ++at) {
+      require_parameter(preset.atmosphere, *at);
+      if (std::find(parameters.begin(), at, *at) != at)
+        throw UsageError("--parameters", arguments.parameters, "expected each parameter once");
+    }
     return page_sliders(preset.atmosphere, parameters);
   }
   if (arguments.with.empty()) return usual_sliders(preset, arguments.preset);
@@ -92,7 +96,8 @@ void add_view_command(CLI::App& app) {
       "Examples:\n"
       "  skyfit view earth-clear --out sky.html\n"
       "  skyfit view fitted/preset.json --out sky.html\n"
-      "  skyfit view earth-hazy --parameters mie.scattering,mie.scale_height --out haze.html");
+      "  skyfit view earth-hazy --parameters aerosol.optical_depth,aerosol.scale_height --out "
+      "haze.html");
   command.callback([arguments] { run_view(*arguments); });
 }
 

@@ -27,8 +27,8 @@ constexpr std::uintmax_t kTrimShare = 16;
 // An entry's file: this, the sizes of the parts, the parts. Byte order and layout are those of the
 // program that the key names.
 struct Head {
-  std::array<char, 8> format = {'s', 'k', 'y', 'c', 'a', 'c', 'h', '1'};
-  std::array<char, kNameDigits> checksum = {};  // of all that follows
+  std::array<char, 8> format = {'s', 'k', 'y', 'c', 'a', 'c', 'h', '2'};
+  std::array<char, kNameDigits> checksum = {};  // of its name and all that follows
   std::uint64_t parts = 0;
 };
 constexpr std::uint64_t kMostParts = 64;
@@ -50,7 +50,8 @@ bool is_entry_name(std::string_view name) {
 // An open file.
 class Descriptor {
  public:
-  explicit Descriptor(const fs::path& file) : number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  explicit Descriptor(const fs::path& file)
+      : number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~Descriptor() {
     if (number_ >= 0) ::close(number_);
   }
@@ -94,13 +95,14 @@ bool read_part(const Descriptor& file, std::span<std::byte> to, ContentHash& sum
   return true;
 }
 
-bool read_entry(const Descriptor& file, const ContentCache::Room& room) {
+bool read_entry(const Descriptor& file, std::string_view name, const ContentCache::Room& room) {
   const Head expected;
   Head head;
   const auto size = file.size();
   if (!size || !file.read(std::as_writable_bytes(std::span(&head, 1)))) return false;
   if (head.format != expected.format || head.parts > kMostParts) return false;
   ContentHash sum;
+  sum.add(name);
   std::vector<std::uint64_t> sizes(head.parts);
   if (!read_part(file, std::as_writable_bytes(std::span(sizes)), sum)) return false;
   std::uint64_t rest = *size - std::min<std::uint64_t>(*size, sizeof head + 8 * sizes.size());
@@ -191,7 +193,7 @@ bool ContentCache::find(const CacheKey& key, const Room& room) {
     if (!is_usable()) return false;
   }
   const Descriptor file(directory_ / key.name());
-  if (!file.opened() || !read_entry(file, room)) return false;
+  if (!file.opened() || !read_entry(file, key.name(), room)) return false;
   file.note_use();
   return true;
 }
@@ -213,6 +215,7 @@ void ContentCache::keep(const CacheKey& key, const std::vector<std::span<const s
   Head head;
   head.parts = parts.size();
   ContentHash sum;
+  sum.add(key.name());
   std::vector<std::string_view> texts = {view_of(std::as_bytes(std::span(&head, 1))),
                                          view_of(std::as_bytes(std::span(sizes)))};
   sum.add(texts.back());

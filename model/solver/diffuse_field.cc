@@ -95,21 +95,27 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
 // Steps of the iteration that couples the suns: where it does not converge, by day, and in deep
 // twilight, where light comes from a node of the sun grid further with each step or two.
 constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 12;
+// Nodes of the sun grid beyond 105 deg, and beyond 96, which few steps do not reach.
+constexpr int kDark = 2, kDarkByDay = 8;
+
+// With steps to first order in the place of shares, for atmospheres in which these do not converge.
+HorizontalCoupling to_first_order(const HorizontalCoupling& coupling) {
+  return {coupling.suns, coupling.coupled, coupling.step, {}, {}, coupling.converges};
+}
 
 // Whether the coupling's iteration has led to a twilight: the mean radiance on the ground is above
 // 0 and falls from sun to sun, no level's is far above those of the sun before, and the first
 // coupled suns, which know their light from few steps, have kept theirs. It diverges where much
-// light is scattered high above the ground.
+// light is scattered high above the ground. The last `dark` nodes of the suns are not looked at.
 bool has_converged(const DiffuseField& after_few, const DiffuseField& field,
-                   const HorizontalCoupling& coupling) {
+                   const HorizontalCoupling& coupling, int dark) {
   constexpr int kKept = 2;
-  constexpr int kDark = 2;  // nodes beyond 105 deg
   constexpr double kChange = 0.02, kRise = 2;
   const auto mean = [&](const DiffuseField& f, int level, int sun) {
     return f.moments[0][level * f.shape.level(0) + static_cast<std::size_t>(sun) * f.shape.slices];
   };
   double ground_before = std::numeric_limits<double>::infinity(), largest_before = ground_before;
-  for (int j = 0, checked = 0; j < field.shape.suns - kDark; ++j) {
+  for (int j = 0, checked = 0; j < field.shape.suns - dark; ++j) {
     if (!coupling.coupled[j]) continue;
     const double ground = mean(field, 0, j);
     double largest = 0;
@@ -188,12 +194,11 @@ std::vector<DiffuseField> solve_diffuse_fields(
         unpack_all(pack, p, std::span(fields).subspan(first, width));
       }
     });
-    const auto couple = [&](int steps, int first_modes) {
+    const auto couple = [&](const HorizontalCoupling& by, int steps, int first_modes) {
       const int active = std::min(count, (first_modes + at_once - 1) / at_once);
       for (int k = 0; k < steps; ++k) {
-        tbb::parallel_for(0, active, [&](int p) { packs[p]->prepare_coupling(coupling); });
-        tbb::parallel_for(0, active,
-                          [&](int p) { packs[p]->couple(coupling, packs, at_once, width); });
+        tbb::parallel_for(0, active, [&](int p) { packs[p]->prepare_coupling(by); });
+        tbb::parallel_for(0, active, [&](int p) { packs[p]->couple(by, packs, at_once, width); });
       }
       std::vector<DiffuseField> now(fields.begin() + first, fields.begin() + first + width);
       tbb::parallel_for(0, count, [&](int p) { unpack_all(*packs[p], p, now); });
@@ -201,11 +206,26 @@ std::vector<DiffuseField> solve_diffuse_fields(
     };
     if (!coupled) continue;
     std::vector<DiffuseField> result =
-        couple(coupling.converges ? kCouplings : kFewCouplings, modes);
-    if (options.deep_twilight && coupling.converges) {
-      std::vector<DiffuseField> more = couple(kTwilightCouplings - kCouplings, kShiftedModes);
-      for (int w = 0; w < width; ++w) {
-        if (has_converged(result[w], more[w], coupling)) result[w] = std::move(more[w]);
+        couple(coupling, coupling.converges ? kCouplings : kFewCouplings, modes);
+    if (!coupling.shifted.empty()) {
+      std::vector<DiffuseField> more;
+      if (options.deep_twilight)
+        more = couple(coupling, kTwilightCouplings - kCouplings, kShiftedModes);
+      const auto found = [&](std::size_t w) {
+        return more.empty() ? has_converged(result[w], result[w], coupling, kDarkByDay)
+                            : has_converged(result[w], more[w], coupling, kDark);
+      };
+      std::vector<DiffuseField> first_order;
+      for (std::size_t w = 0; w < result.size(); ++w) {
+        if (found(w)) {
+          if (!more.empty()) result[w] = std::move(more[w]);
+          continue;
+        }
+        if (first_order.empty()) {
+          tbb::parallel_for(0, count, [&](int p) { packs[p].emplace(pack_of(p)).solve(); });
+          first_order = couple(to_first_order(coupling), kCouplings, modes);
+        }
+        result[w] = std::move(first_order[w]);
       }
     }
     std::ranges::move(result, fields.begin() + first);

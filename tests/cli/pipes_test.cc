@@ -59,6 +59,7 @@ TEST_F(PipesTest, APresetComesFromTheStandardInput) {
                 named = run(with(kSky, {"--preset", "earth-hazy"}));
   ASSERT_EQ(piped.status, 0) << piped.err;
   EXPECT_EQ(piped.out, named.out);
+  EXPECT_THAT(run({"check", "-"}, {}, {}, file).out, StartsWith("-: valid preset"));
 }
 
 TEST_F(PipesTest, AnEmptyStandardInputIsNoPreset) {
@@ -81,6 +82,8 @@ TEST_F(PipesTest, AFileGoesToTheStandardOutputAndTheRestToStderr) {
 TEST_F(PipesTest, OnlyOneFileFitsOnTheStandardOutput) {
   expect_refusal({"export", "earth-clear", "--to", "mitsuba", "--out", "-.xml"},
                  {"--out", "\"-.xml\"", "expected a file"});
+  expect_refusal({"render", "--preset", "earth-clear", "--panels", "--out", "-.png"},
+                 {"--panels", "expected files"});
 }
 
 TEST_F(PipesTest, AMapIsAnArray) {

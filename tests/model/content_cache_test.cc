@@ -121,6 +121,14 @@ TEST_F(ContentCacheTest, ADamagedEntryIsNoneAndIsReplaced) {
   EXPECT_THAT(find(cache, "a"), Optional(parts));
 }
 
+TEST_F(ContentCacheTest, AnEntryUnderAnothersNameIsNone) {
+  ContentCache cache(directory_);
+  keep(cache, "a", kParts);
+  keep(cache, "b", {"b"});
+  fs::rename(file_of("a"), file_of("b"));
+  EXPECT_FALSE(find(cache, "b"));
+}
+
 TEST_F(ContentCacheTest, WhatWasUsedLongestAgoMakesRoom) {
   constexpr std::uintmax_t kLimit = 10000;
   const Parts parts = {std::string(2000, 'x')};  // five would be too many
