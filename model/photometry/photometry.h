@@ -53,7 +53,7 @@ struct LuminanceRule {
   std::vector<double> weight;  // lm/W * W/m^2 = lx
 };
 
-// 4 nodes, within 0.12 % of the 5 nm sum for every sky of the reference model with suns to 92 deg,
+// 4 nodes, within 0.15 % of the 5 nm sum for every sky of the reference model with suns to 92 deg,
 // views to 90 deg, ozone to 500 DU, aerosol depth to 0.9, from the ground and from 10 km
 // (tests/model/rule_accuracy_test.cc). Exact for cubic polynomials in wavelength; all weights are
 // positive.
