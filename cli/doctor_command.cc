@@ -2,7 +2,9 @@
 // `skyfit doctor`: what of an installation works.
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <stdexcept>
 
 #include "cli/commands.h"
@@ -46,7 +48,10 @@ std::string cache_line() {
   const auto directory = user_cache_directory();
   if (!directory) return fmt::format("none    cache of frames: {}\n", kNoCachePlace);
   constexpr double kMegabyte = 1e6;
-  const ContentCache cache(*directory);
+  ContentCache cache(*directory);
+  cache.find(CacheKey("doctor"), [](std::size_t, std::uint64_t) { return std::span<std::byte>(); });
+  if (const auto trouble = cache.trouble())
+    return fmt::format("none    cache of frames: {}\n", printable(*trouble));
   const ContentCache::Usage usage = cache.usage();
   return fmt::format("ok      cache of frames: {}, {} entries, {:.1f} MB of at most {:.0f} MB\n",
                      printable(directory->string()), usage.entries,
