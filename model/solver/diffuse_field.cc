@@ -92,9 +92,16 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
   if (m == 0) pack.append_ground_irradiance(lane, field.ground_irradiance);
 }
 
-// Steps of the iteration that couples the suns: where it does not converge, by day, and in deep
-// twilight, where light comes from a node of the sun grid further with each step or two.
-constexpr int kFewCouplings = 2, kCouplings = 4, kTwilightCouplings = 12;
+// Steps of the iteration that couples the suns: where it does not converge, and by day.
+constexpr int kFewCouplings = 2, kCouplings = 4;
+
+// In deep twilight, where light comes from a node of the sun grid further, and through one layer
+// more, with each step or two.
+int twilight_couplings(int levels) {
+  constexpr int kCouplingsOfDefault = 12, kDefaultLevels = 28;
+  return kCouplingsOfDefault + 2 * std::max(levels - kDefaultLevels, 0) / 3;
+}
+
 // Nodes of the sun grid beyond 105 deg, and beyond 96, which few steps do not reach.
 constexpr int kDark = 2, kDarkByDay = 8;
 
@@ -210,7 +217,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
     if (!coupling.shifted.empty()) {
       std::vector<DiffuseField> more;
       if (options.deep_twilight)
-        more = couple(coupling, kTwilightCouplings - kCouplings, kShiftedModes);
+        more = couple(coupling, twilight_couplings(shape.levels) - kCouplings, kShiftedModes);
       const auto found = [&](std::size_t w) {
         return more.empty() ? has_converged(result[w], result[w], coupling, kDarkByDay)
                             : has_converged(result[w], more[w], coupling, kDark);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/solver/fourier_modes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 namespace skyfit {
 
@@ -270,8 +273,9 @@ StreamColumns FourierModes::source_of_polarised(StreamLight::Kind kind, std::siz
 
 // From the sources that the layers have now and the light that the ground sends up.
 void FourierModes::solve_light(StreamLight::Kind kind, const Batch& ground, std::size_t columns) {
-  // Of the moments of Q and U from step to step, as a share of the largest of I.
-  constexpr double kChange = 1e-5;
+  // Of the moments of Q and U from step to step, as a share of the largest of I: when they are
+  // found, and what is too much to leave.
+  constexpr double kChange = 1e-5, kUnsettled = 1e-3;
   constexpr int kMostSteps = 50;
   StreamColumns& light = light_.light(kind);
   light = substitute(ground, columns);
@@ -283,9 +287,10 @@ void FourierModes::solve_light(StreamLight::Kind kind, const Batch& ground, std:
       own = {light_.down_source, light_.up_source};
       polarised_->begin_steps(kind);
     }
+    double change = 0;
     for (int step = 0; step < (in_steps ? kMostSteps : 1); ++step) {
       if (in_steps) moments = analyse(light);
-      const double change = polarised_->solve(kind, light, moments, step > 0);
+      change = polarised_->solve(kind, light, moments, step > 0);
       if (step > 0) {
         light_.down_source = own[0];
         light_.up_source = own[1];
@@ -293,6 +298,12 @@ void FourierModes::solve_light(StreamLight::Kind kind, const Batch& ground, std:
       light_.add_diffuse_sources(source_of_polarised(kind, columns));
       light = substitute(ground, columns);
       if (change < kChange) break;
+    }
+    if (!(change < kUnsettled)) {
+      throw std::runtime_error(fmt::format(
+          "reference model: what particles make of polarised light still changes by {:.2g} of the "
+          "radiance after {} steps: this atmosphere is more than the solver can do",
+          change, kMostSteps));
     }
   }
   moments = analyse(light);

@@ -34,7 +34,7 @@ struct Shift {
   std::vector<std::array<OfModes, kModes>> cosine, sine;
 };
 Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t suns,
-               double sun_zenith, double psi) {
+               double sun_zenith, double psi, double highest_mu) {
   constexpr int kAzimuths = 16;
   Shift shift{std::vector<std::array<OfModes, kModes>>(suns),
               std::vector<std::array<OfModes, kModes>>(suns)};
@@ -44,7 +44,8 @@ Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t 
     const Waves here = waves(phi),
                 far = waves(std::atan2(s * std::sin(phi),
                                        s * std::cos(phi) * std::cos(psi) - mu * std::sin(psi)));
-    const SunStencil stencil = grid.stencil(mu * std::cos(psi) + s * std::sin(psi) * std::cos(phi));
+    const SunStencil stencil =
+        grid.stencil(std::min(mu * std::cos(psi) + s * std::sin(psi) * std::cos(phi), highest_mu));
     for (std::size_t q = 0; q < stencil.index.size(); ++q) {
       const auto sun = static_cast<std::size_t>(solved[static_cast<std::size_t>(stencil.index[q])]);
       for (std::size_t from = 0; from < kModes; ++from) {
@@ -67,6 +68,12 @@ void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalC
   const std::size_t suns = c.suns.size();
   c.shifted.assign(suns, false);
   std::vector<double> decay(suns);
+  // The highest sun whose neighbours are solved: that before the first coupled one. Few levels have
+  // layers in which a ray goes beyond it; light there hardly changes with the sun.
+  constexpr double kPast = 1e-9;
+  int first = 0;
+  while (solved[first] < 0 || !c.coupled[solved[first]]) ++first;
+  const double highest_mu = std::cos(grid.zenith(first - 1) + kPast);
   for (int i = 0; i < grid.size(); ++i) {
     if (solved[i] < 0) continue;
     c.shifted[solved[i]] = c.coupled[solved[i]] && grid.zenith(i) > kDusk;
@@ -79,7 +86,7 @@ void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalC
     for (int i = 0; i < grid.size(); ++i) {
       if (solved[i] < 0 || !c.shifted[solved[i]]) continue;
       const auto sun = static_cast<std::size_t>(solved[i]);
-      const Shift shift = shift_of(grid, solved, suns, grid.zenith(i), c.step[at]);
+      const Shift shift = shift_of(grid, solved, suns, grid.zenith(i), c.step[at], highest_mu);
       for (std::size_t m = 0; m < kModes; ++m) {
         for (std::size_t from_sun = 0; from_sun < suns; ++from_sun) {
           for (std::size_t from = 0; from < kModes; ++from) {
@@ -135,7 +142,7 @@ HorizontalCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& sol
                                             : 0.0);
     }
   }
-  if (c.converges) set_shares(grid, solved, c);
+  if (c.converges && std::ranges::count(c.coupled, 1) > 0) set_shares(grid, solved, c);
   return c;
 }
 

@@ -213,13 +213,15 @@ TEST_F(ContentCacheTest, ManyMayUseADirectoryAtOnce) {
 }
 
 TEST(UserCacheDirectory, FollowsTheEnvironment) {
-  ::setenv("HOME", "/home/someone", 1);
-  ::setenv("XDG_CACHE_HOME", "/caches", 1);
-  EXPECT_EQ(user_cache_directory(), "/caches/skyfit");
+  const TemporaryDirectory folder;
+  const fs::path home = folder.path() / "home", caches = folder.path() / "caches";
+  ::setenv("HOME", home.c_str(), 1);
+  ::setenv("XDG_CACHE_HOME", caches.c_str(), 1);
+  EXPECT_EQ(user_cache_directory(), caches / "skyfit");
   ::setenv("XDG_CACHE_HOME", "relative", 1);  // is to be ignored
-  EXPECT_EQ(user_cache_directory(), "/home/someone/.cache/skyfit");
+  EXPECT_EQ(user_cache_directory(), home / ".cache" / "skyfit");
   ::unsetenv("XDG_CACHE_HOME");
-  EXPECT_EQ(user_cache_directory(), "/home/someone/.cache/skyfit");
+  EXPECT_EQ(user_cache_directory(), home / ".cache" / "skyfit");
   ::unsetenv("HOME");
   EXPECT_EQ(user_cache_directory(), std::nullopt);
 }

@@ -53,6 +53,20 @@ TEST(DeepTwilight, FallsWithTheSunsDepression) {
   }
 }
 
+// With few levels a ray's way through a layer turns the zenith by more than the twilight spans.
+TEST(DeepTwilight, OfFewLevelsIsOfTheSameSize) {
+  ReferenceOptions options;
+  options.levels = 4;
+  const WavelengthNode node{550, 0};
+  const Atmosphere<double> a = truth::monte_carlo_case("twilight-clear").atmosphere;
+  for (const double sun : {88.0, 95.0}) {
+    const SkyPoint p{0, sun * kDegree, 85 * kDegree, 0};
+    const double few = ReferenceModel(options).radiance(a, {&node, 1}, {&p, 1}, {}).value[0],
+                 all = ReferenceModel({}).radiance(a, {&node, 1}, {&p, 1}, {}).value[0];
+    EXPECT_LT(std::abs(std::log2(few / all)), 1) << sun;  // four levels know no more
+  }
+}
+
 // Within 10 % of Monte Carlo and three times its noise, and without more bias than is stated.
 TEST(DeepTwilight, AgreesWithMonteCarlo) {
   std::map<double, std::vector<truth::Row>> by_sun;
