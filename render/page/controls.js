@@ -5,12 +5,12 @@ const element = (id) => document.getElementById(id);
 const data = JSON.parse(element('data').textContent);
 element('data').remove();
 
-// What is shown. Heights in m, angles in radians; `look` is above the horizon that the observer
+// What is shown. Heights in m, angles in radians; `pitch` is above the horizon that the observer
 // sees.
 const state = {
   sunElevation: 25 * kDegree,
   sunAzimuth: 180 * kDegree,
-  look: 13 * kDegree,
+  pitch: 13 * kDegree,
   azimuth: 180 * kDegree,
   altitude_m: 2,
   field: 75 * kDegree,
@@ -25,7 +25,7 @@ let resolution = 0.5;  // share of the sides' pixels that is drawn while somethi
 
 const radius = data.planet.radius_m;
 const dip = () => Math.acos(radius / (radius + state.altitude_m));
-const elevation = () => state.look - dip();
+const elevation = () => state.pitch - dip();
 
 // Half the field of view along the picture's longer side.
 function tangent() {
@@ -241,7 +241,7 @@ function show() {
 const kAddress = {
   sun: ['sunElevation', kDegree],
   sunaz: ['sunAzimuth', kDegree],
-  look: ['look', kDegree],
+  pitch: ['pitch', kDegree],
   az: ['azimuth', kDegree],
   alt: ['altitude_m', 1],
   fov: ['field', kDegree],

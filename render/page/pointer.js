@@ -18,8 +18,8 @@ function listenToView(canvas) {
         (state.azimuth - (event.clientX - held[0]) * across / Math.max(Math.cos(elevation()), 0.3) +
          4 * Math.PI) %
         (2 * Math.PI);
-    state.look = clamp(
-        state.look + (event.clientY - held[1]) * along, dip() - Math.PI / 2, dip() + Math.PI / 2);
+    state.pitch = clamp(
+        state.pitch + (event.clientY - held[1]) * along, dip() - Math.PI / 2, dip() + Math.PI / 2);
     held = [...pointer];
     show();
   });
@@ -39,8 +39,8 @@ function listenToView(canvas) {
     if (!step) return;
     event.preventDefault();
     state.azimuth = (state.azimuth + 3 * kDegree * step[0] + 2 * Math.PI) % (2 * Math.PI);
-    state.look =
-        clamp(state.look + 3 * kDegree * step[1], dip() - Math.PI / 2, dip() + Math.PI / 2);
+    state.pitch =
+        clamp(state.pitch + 3 * kDegree * step[1], dip() - Math.PI / 2, dip() + Math.PI / 2);
     show();
   });
 }
@@ -70,9 +70,9 @@ function listen() {
       set(Number(event.target.value));
       show();
     });
-  element('look').addEventListener('click', () => {
+  element('to-sun').addEventListener('click', () => {
     state.azimuth = state.sunAzimuth;
-    state.look = Math.max(state.sunElevation + dip(), 0);
+    state.pitch = Math.max(state.sunElevation + dip(), 0);
     show();
   });
   element('toggle').addEventListener('click', () => {
