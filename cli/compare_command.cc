@@ -11,6 +11,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/compare_options.h"
+#include "cli/figure_options.h"
 #include "cli/inputs.h"
 #include "cli/light_check.h"
 #include "cli/output.h"
@@ -29,8 +30,22 @@ namespace {
 
 constexpr const char *kTextFile = "comparison.txt", *kCsvFile = "comparison.csv",
                      *kJsonFile = "comparison.json";
-constexpr const char* kFigureFiles[] = {"comparison.svg", "comparison.png"};
-constexpr const char* kFisheyeFile = "fisheye.png";
+constexpr const char *kFigure = "comparison", *kFisheye = "fisheye";
+
+std::vector<std::filesystem::path> figure_files(const std::filesystem::path& directory,
+                                                const std::string& name) {
+  std::vector<std::filesystem::path> files;
+  for (const char* const extension : {".svg", ".png", ".pdf"})
+    files.push_back(directory / (name + extension));
+  return files;
+}
+
+std::vector<std::string> result_files() {
+  std::vector<std::string> files = {kTextFile, kCsvFile, kJsonFile};
+  for (const char* const figure : {kFigure, kFisheye})
+    for (const auto& file : figure_files({}, figure)) files.push_back(file.string());
+  return files;
+}
 
 std::string variant_lines() {
   std::string text;
@@ -118,10 +133,10 @@ plot::FisheyeFigure fisheye_of(const refs::Reference& reference,
   return figure;
 }
 
-void run_compare(const CompareOptions& options, const CLI::App& command) {
-  const WholeDirectory out(
-      options.out, {kTextFile, kCsvFile, kJsonFile, kFigureFiles[0], kFigureFiles[1], kFisheyeFile},
-      options.force);
+void run_compare(const CompareOptions& options, const FigureOptions& page,
+                 const CLI::App& command) {
+  const plot::Sheet sheet = parse_sheet(page);
+  const WholeDirectory out(options.out, result_files(), options.force);
   require_netcdf(options.netcdf);
   const CompareRequest request = compare_request(options);
   const auto& [preset, reference, names] = request;
@@ -143,6 +158,7 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
   check_light(rows);
   const std::string text = fit::comparison_text(reference, rows);
   const nlohmann::json json = fit::comparison_json(reference, rows);
+  Figures figures;
   out.publish([&](const std::filesystem::path& staging) {
     write_file(staging / kTextFile, text);
     write_file(staging / kCsvFile, fit::comparison_csv(reference, rows));
@@ -150,37 +166,53 @@ void run_compare(const CompareOptions& options, const CLI::App& command) {
     const plot::Comparison figure =
         figure_of(reference, rows, parse_number("--exclude-sun-deg", options.exclude_sun));
     if (figure.curves.empty()) return;
-    plot::write_comparison(figure, {staging / kFigureFiles[0], staging / kFigureFiles[1]});
-    plot::write_fisheye(fisheye_of(reference, rows, preset, transfer_for(reference, options.scalar),
-                                   options.threads),
-                        {staging / kFisheyeFile});
+    figures.draw(staging, kFigure,
+                 [&] { plot::write_comparison(figure, figure_files(staging, kFigure), sheet); });
+    figures.draw(staging, kFisheye, [&] {
+      plot::Sheet all_suns = sheet;  // those of the other figure are chosen
+      all_suns.panels.clear();
+      const Transfer transfer = transfer_for(reference, options.scalar);
+      plot::write_figure(
+          plot::fisheye_figure(fisheye_of(reference, rows, preset, transfer, options.threads),
+                               all_suns),
+          figure_files(staging, kFisheye));
+    });
   });
   if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
   print(options.json ? json_text(json) : text);
+  figures.expect_all(options.out);
 }
 
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
   const auto options = std::make_shared<CompareOptions>();
+  const auto page = std::make_shared<FigureOptions>();
   CLI::App* const command =
       app.add_subcommand("compare", "Compares sky models with a reference, side by side.");
   add_compare_options(*command, *options);
   add_result_options(*command, options->out, options->force, options->json, "comparison.json");
   add_netcdf_option(*command, options->netcdf, "Write the values of all models");
+  add_figure_options(*command, *page);
   command->footer(
-      "Leaves comparison.txt, comparison.csv, comparison.json, comparison.svg, comparison.png and\n"
-      "fisheye.png in the directory. Agreement with a CIE sky says little about a model: single\n"
-      "scattering alone, fitted, reaches it as well. Compare with truth and measurements "
-      "first.\n\n"
+      "Leaves comparison.txt, .csv and .json, and the figures comparison and fisheye as .svg, .png "
+      "and\n"
+      ".pdf in the directory. --panels are those of the figure comparison, one per sun.\n"
+      "\n"
+      "Agreement with a CIE sky says little about a model: single scattering alone, fitted, "
+      "reaches "
+      "it as\n"
+      "well. Compare with truth and measurements first.\n"
+      "\n"
       "Models:\n" +
       named_lines(sky_models()) + variant_lines() +
+      "Styles of a page, in which the panels are arranged anew:\n" + style_lines() +
       "\nExamples:\n"
       "  skyfit compare --reference truth:earth-550nm-ground --out compared\n"
       "  skyfit compare --reference cie:12 --models reference,bodare,oneil --fitted --out "
       "compared\n"
       "  skyfit compare --reference model:reference --preset earth-clear --out compared");
-  command->callback([options, command] { run_compare(*options, *command); });
+  command->callback([options, page, command] { run_compare(*options, *page, *command); });
 }
 
 }  // namespace skyfit::cli

@@ -10,6 +10,7 @@
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/figure_options.h"
 #include "cli/fit_files.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
@@ -34,9 +35,11 @@ struct PlotOptions {
   std::string model;  // of the maps; empty: that of each fit
   int scan = 1;
   int threads = default_threads();
+  FigureOptions page;
 };
 
-void draw_measured(const PlotOptions& options, const std::vector<std::filesystem::path>& files) {
+void draw_measured(const PlotOptions& options, const plot::Sheet& sheet,
+                   const std::vector<std::filesystem::path>& files) {
   std::vector<plot::MeasuredOutcome> fits;
   for (const std::string& directory : options.directories)
     fits.push_back(read_measured_outcome(directory));
@@ -44,11 +47,11 @@ void draw_measured(const PlotOptions& options, const std::vector<std::filesystem
       plot::measured_figures(), [&](const auto& figure) { return figure.can_draw(fits.front()); });
   const plot::MeasuredFigure& figure =
       options.figure.empty() ? *by_default : plot::measured_figure(options.figure);
-  plot::write_figure(plot::draw(figure, fits, options.scan), files);
+  plot::write_figure(plot::draw(figure, fits, options.scan, sheet), files);
 }
 
 // Of a preset, or of the one that a fit left.
-void draw_polarisation(const PlotOptions& options,
+void draw_polarisation(const PlotOptions& options, const plot::Sheet& sheet,
                        const std::vector<std::filesystem::path>& files) {
   constexpr double kHighest_m = 1e9;
   if (options.directories.size() != 1) {
@@ -72,16 +75,27 @@ void draw_polarisation(const PlotOptions& options,
                                     options.threads, Transfer::kVector);
   const plot::PolarisedSky sky = plot::polarised_sky(
       *model, preset.atmosphere, spectral_nodes(spectra, {nm}).front(), altitude_m, sun);
-  plot::write_figure(plot::polarisation_figure(
-                         "Polarisation of the sky of " + preset.name, sky,
-                         options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise),
-                     files);
+  plot::write_figure(
+      plot::polarisation_figure(
+          "Polarisation of the sky of " + preset.name, sky,
+          options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise, sheet),
+      files);
+}
+
+void require_figure(const std::string& name) {
+  if (name.empty()) return;
+  std::vector<std::string_view> names = {kComparison, kPolarisation};
+  for (const plot::MeasuredFigure& figure : plot::measured_figures()) names.push_back(figure.name);
+  if (std::ranges::count(names, name) == 0)
+    throw UsageError("--figure", name, fmt::format("expected one of {}", fmt::join(names, ", ")));
 }
 
 void run_plot(const PlotOptions& options) {
   require_output_files(options.out, {".svg", ".png", ".pdf"});
   const std::vector<std::filesystem::path> files(options.out.begin(), options.out.end());
-  if (options.figure == kPolarisation) return draw_polarisation(options, files);
+  require_figure(options.figure);
+  const plot::Sheet sheet = parse_sheet(options.page);
+  if (options.figure == kPolarisation) return draw_polarisation(options, sheet, files);
   if (!options.sun_zenith.empty())
     throw UsageError("--sun-zenith-deg", options.sun_zenith, "expected with --figure polarisation");
   const bool comparison = options.figure == kComparison;
@@ -89,7 +103,7 @@ void run_plot(const PlotOptions& options) {
     return has_absolute_values(read_fit(d).result);
   });
   if (!comparison && absolute == static_cast<std::ptrdiff_t>(options.directories.size()))
-    return draw_measured(options, files);
+    return draw_measured(options, sheet, files);
   if (!comparison && (absolute > 0 || !options.figure.empty())) {
     throw UsageError(options.figure.empty() ? "directories" : "--figure",
                      options.figure.empty() ? options.directories.front() : options.figure,
@@ -106,7 +120,7 @@ void run_plot(const PlotOptions& options) {
     if (!model) model = make_sky_model(name, spectra, options.threads, transfer);
     return *model;
   };
-  plot::write_comparison(plot::comparison_of(fits, spectra, model_named), files);
+  plot::write_comparison(plot::comparison_of(fits, spectra, model_named), files, sheet);
 }
 
 }  // namespace
@@ -151,6 +165,7 @@ void add_plot_command(CLI::App& app) {
       ->needs(sun)
       ->capture_default_str();
   add_iau_option(*command, options->iau, sun);
+  add_figure_options(*command, options->page);
   add_threads_option(*command, options->threads);
   command->footer(
       "Reference, fit and start in the principal plane, one panel per sun position, "
@@ -169,10 +184,16 @@ void add_plot_command(CLI::App& app) {
       "changes its sign along the sun's vertical circle. Its conventions are those of skyfit sky "
       "--stokes.\n"
       "\n"
+      "Styles of a page, in which the panels are arranged anew:\n" +
+      style_lines() +
+      "Panels are suns in comparison, scans in maps, directions in spectra, kinds in irradiances,\n"
+      "unknowns in corner and series.\n"
+      "\n"
       "Examples:\n"
       "  skyfit plot earth-clear --figure polarisation --sun-zenith-deg 70 --out polarisation.pdf\n"
       "  skyfit plot one-lobe two-lobes --out comparison.pdf\n"
-      "  skyfit plot measured --figure spectra --scan 2 --out spectra.png");
+      "  skyfit plot measured --figure spectra --scan 2 --out spectra.png\n"
+      "  skyfit plot one-lobe --style paper --width-mm 85 --panels 1,5,9 --out figure.pdf");
   command->callback([options] { run_plot(*options); });
 }
 

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/plot/color_scale.h"
 
+#include <algorithm>
+
 namespace skyfit::plot {
+
+double scale_title_px(const Box& box, const Script& script) {
+  const double centre = box.left + box.width / 2;
+  return script.sheet().on_page()
+             ? std::min(1.25 * box.width, 2 * std::min(centre, script.width() - centre))
+             : script.width();
+}
 
 void draw_color_scale(Script& script, const Box& box, const std::vector<Tick>& ticks,
                       std::string_view title, const std::function<std::string(double)>& color_at) {
@@ -22,7 +31,9 @@ void draw_color_scale(Script& script, const Box& box, const std::vector<Tick>& t
     tics += fmt::format("{}'{}' {:.6g}", tics.empty() ? "" : ", ", tick.label, tick.position);
   }
   script.line("set xtics ({}) scale 0.5 nomirror textcolor rgb '#202020' offset 0,0.3", tics);
-  script.text_label(box.left + box.width / 2, box.bottom - 36, title, "center font ',12'");
+  const Sheet& sheet = script.sheet();
+  script.text_lines(box.left + box.width / 2, box.bottom - (sheet.on_page() ? 28 : 36),
+                    scale_title_px(box, script), title, "center font text_font");
   script.line("plot NaN notitle");
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "data_refs/samples.h"
+#include "render/plot/figure_file.h"
 #include "render/plot/samples_csv.h"
 
 namespace skyfit::plot {
@@ -54,10 +55,12 @@ std::vector<Sample> plane_samples(const Curve& curve);  // those of `plane` that
 // many, no samples, a value that is not positive.
 void validate(const Comparison& comparison);
 
+// The panels are the sun's positions. Throws as validate() and Sheet::chosen() do.
+Figure comparison_figure(const Comparison& comparison, const Sheet& sheet = {});
+
 // Writes the same figure to every file; the extension (.svg, .png, .pdf) chooses the format. All
-// files appear whole, or none does. Throws std::invalid_argument (extension, data) or
-// std::runtime_error (cannot write; gnuplot) with one line.
-void write_comparison(const Comparison& comparison,
-                      const std::vector<std::filesystem::path>& files);
+// files appear whole, or none does. Throws as comparison_figure() and write_figure() do.
+void write_comparison(const Comparison& comparison, const std::vector<std::filesystem::path>& files,
+                      const Sheet& sheet = {});
 
 }  // namespace skyfit::plot

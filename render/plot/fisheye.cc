@@ -8,14 +8,14 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "render/plot/figure_file.h"
+#include "render/plot/header.h"
 #include "render/plot/script.h"
 
 namespace skyfit::plot {
 namespace {
 
 constexpr int kPixels = 96;  // of a sky's side
-constexpr double kTile = 128, kLabel = 170, kHeader = 84, kFooter = 34;
+constexpr double kTile = 128, kLabel = 170, kFooter = 34;
 constexpr double kPi = std::numbers::pi;
 using Rgb = std::array<double, 3>;
 
@@ -78,6 +78,13 @@ void write_pixels(Script& script, const std::string& name, const FisheyeSky& sky
   script.line("EOD");
 }
 
+std::vector<std::size_t> chosen_suns(const FisheyeFigure& figure, const Sheet& sheet) {
+  std::vector<std::string> names;
+  for (const double sun : figure.sun_zenith_deg)
+    names.push_back(fmt::format("sun zenith {:.4g}°", sun));
+  return sheet.chosen(names);
+}
+
 }  // namespace
 
 FisheyeSky fisheye_sky(const SkyModel& model, const Atmosphere<double>& atmosphere,
@@ -107,50 +114,61 @@ FisheyeSky fisheye_sky(const SkyModel& model, const Atmosphere<double>& atmosphe
   return picture;
 }
 
-void write_fisheye(const FisheyeFigure& figure, const std::vector<std::filesystem::path>& files) {
+Figure fisheye_figure(const FisheyeFigure& figure, const Sheet& sheet) {
   if (figure.rows.empty())
     throw std::invalid_argument("figure: expected at least one row of skies");
   const double exposure = exposure_of(figure.rows.front());
-  const double columns = static_cast<double>(figure.sun_zenith_deg.size()),
-               rows = static_cast<double>(figure.rows.size());
-  Script script(std::max(kLabel + kTile * columns + 20, 620.0), kHeader + kTile * rows + kFooter);
+  const std::vector<std::size_t> suns = chosen_suns(figure, sheet);
+  const auto columns = static_cast<double>(suns.size()),
+             rows = static_cast<double>(figure.rows.size());
+  const double width = sheet.width_px(std::max(kLabel + kTile * columns + 20, 620.0));
+  // On a page the names of the models stand above their rows.
+  const double left = sheet.on_page() ? 4 : kLabel, above = sheet.on_page() ? sheet.line_px() : 0;
+  const double tile = sheet.on_page() ? std::min((width - 2 * left) / columns, kTile) : kTile;
+  const Header header(sheet, width, figure.title,
+                      "centre zenith, rim horizon, sun's side right; one exposure for all");
+  const double angles = sheet.line_px();  // the row of the suns
+  const double footer = sheet.on_page() ? 4 : kFooter;
+  Script script(width, header.height_px() + angles + (tile + above) * rows + footer, sheet);
+  const auto bottom_of = [&](std::size_t row) {
+    return footer + (tile + above) * (rows - 1 - static_cast<double>(row));
+  };
   script.line("set multiplot");
   for (std::size_t r = 0; r < figure.rows.size(); ++r) {
-    const FisheyeRow& row = figure.rows[r];
-    const double bottom = kFooter + kTile * (rows - 1 - static_cast<double>(r));
-    for (std::size_t s = 0; s < row.skies.size(); ++s) {
-      if (!row.skies[s]) continue;
+    for (std::size_t s = 0; s < suns.size(); ++s) {
+      const std::optional<FisheyeSky>& sky = figure.rows[r].skies[suns[s]];
+      if (!sky) continue;
       const std::string name = fmt::format("r{}s{}", r, s);
-      write_pixels(script, name, *row.skies[s], exposure);
+      write_pixels(script, name, *sky, exposure);
       script.begin_axes(
-          {kLabel + kTile * static_cast<double>(s) + 4, bottom + 4, kTile - 8, kTile - 8});
+          {left + tile * static_cast<double>(s) + 4, bottom_of(r) + 4, tile - 8, tile - 8});
       script.line("unset border; set xrange [-0.5:{0}.5]; set yrange [-0.5:{0}.5]", kPixels - 1);
       script.line("plot ${} using 1:2:3:4:5 with rgbimage notitle", name);
     }
   }
   script.begin_axes({0, 0, script.width(), script.height()});
   script.line("unset border");
-  script.text_label(16, script.height() - 24, figure.title, "left font ',16'");
-  script.text_label(16, script.height() - 46,
-                    "centre zenith, rim horizon, sun's side right; one exposure for all",
-                    "left font ',11' textcolor rgb '#404040'");
-  for (std::size_t s = 0; s < figure.sun_zenith_deg.size(); ++s) {
-    script.text_label(kLabel + kTile * (static_cast<double>(s) + 0.5),
-                      script.height() - kHeader + 12,
-                      fmt::format("☉ {:.4g}°", figure.sun_zenith_deg[s]), "center font ',12'");
+  header.draw(script);
+  for (std::size_t s = 0; s < suns.size(); ++s) {
+    script.text_label(left + tile * (static_cast<double>(s) + 0.5),
+                      script.height() - header.height_px() - angles / 2 + 2,
+                      fmt::format("☉ {:.4g}°", figure.sun_zenith_deg[suns[s]]),
+                      "center font text_font");
   }
   for (std::size_t r = 0; r < figure.rows.size(); ++r) {
-    const double middle = kFooter + kTile * (rows - 0.5 - static_cast<double>(r));
-    script.text_label(16, middle, figure.rows[r].label, "left font ',12'");
-    for (std::size_t s = 0; s < figure.rows[r].skies.size(); ++s) {
-      if (!figure.rows[r].skies[s])
-        script.text_label(kLabel + kTile * (static_cast<double>(s) + 0.5), middle, "–",
-                          "center font ',12'");
+    const double middle = bottom_of(r) + tile / 2;
+    script.text_label(sheet.on_page() ? left : 16,
+                      middle + (sheet.on_page() ? (tile + above) / 2 : 0), figure.rows[r].label,
+                      "left font text_font");
+    for (std::size_t s = 0; s < suns.size(); ++s) {
+      if (!figure.rows[r].skies[suns[s]])
+        script.text_label(left + tile * (static_cast<double>(s) + 0.5), middle, "–",
+                          "center font text_font");
     }
   }
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
   script.line("unset multiplot");
-  write_figure({script.width(), script.height(), script.text()}, files);
+  return figure_of(script);
 }
 
 }  // namespace skyfit::plot

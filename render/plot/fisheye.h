@@ -3,13 +3,13 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "model/photometry/photometry.h"
 #include "model/sky_model.h"
+#include "render/plot/figure_file.h"
 
 namespace skyfit::plot {
 
@@ -32,8 +32,8 @@ struct FisheyeFigure {
   std::vector<double> sun_zenith_deg;
   std::vector<FisheyeRow> rows;  // the first one sets the exposure
 };
-// As write_comparison(): .svg, .png or .pdf. Throws std::invalid_argument for a figure without a
-// sky.
-void write_fisheye(const FisheyeFigure& figure, const std::vector<std::filesystem::path>& files);
+// The panels are the suns. Throws std::invalid_argument for a figure without a sky, and what
+// Sheet::chosen() throws.
+Figure fisheye_figure(const FisheyeFigure& figure, const Sheet& sheet = {});
 
 }  // namespace skyfit::plot

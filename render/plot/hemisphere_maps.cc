@@ -5,14 +5,15 @@
 #include <cmath>
 #include <map>
 
+#include "model/base/misfit.h"
 #include "model/numerics/angles.h"
+#include "render/plot/color_scale.h"
 
 namespace skyfit::plot {
 namespace {
 
 constexpr double kTitleStrip = 26;  // as in the panels, so that both grids' titles line up
 constexpr double kMargin = 8;       // around a map
-constexpr int kScaleSteps = 80;     // colours of the scale
 
 // Samples of one view zenith, by azimuth in 0..360.
 using Ring = std::map<double, const Sample*>;
@@ -63,12 +64,12 @@ void draw_frame(Script& script, double sun_zenith_deg, bool named) {
         zenith / 90);
   script.line("set object circle at 0,0 size 1 front fs empty border lc rgb '{}' lw 1",
               kFrameColor);
-  script.line("set label '☉' at {} center front font ',15' textcolor rgb '#000000'",
+  script.line("set label '☉' at {} center front font sun_font textcolor rgb '#000000'",
               polar_point(sun_zenith_deg, 0));
   if (!named) return;
   for (const double zenith : {30.0, 60.0, 90.0})
-    script.line("set label '{:.0f}°' at {} center front font ',9' textcolor rgb '#303030'", zenith,
-                polar_point(zenith - 7, 90));
+    script.line("set label '{:.0f}°' at {} center front font small_font textcolor rgb '#303030'",
+                zenith, polar_point(zenith - 7, 90));
 }
 
 void draw_map(Script& script, const SunSamples& sun, std::size_t curve, const Box& cell,
@@ -83,33 +84,23 @@ void draw_map(Script& script, const SunSamples& sun, std::size_t curve, const Bo
   const double rms = rms_log_percent(sun.hemisphere[curve]);
   const bool wide = cell.width > 170;
   const std::string error =
-      std::isnan(rms) ? "no samples" : fmt::format("{}{:.1f} %", wide ? "RMS " : "", rms);
+      std::isnan(rms) ? "no samples"
+                      : fmt::format("{}{}", wide ? "RMS " : "", log_misfit_with_unit(rms, 1));
   script.text_label(centre, box.top() + kTitleStrip / 2 - 1,
                     fmt::format("☉ {:.4g}°   {}", sun.sun_zenith_deg, error),
-                    wide ? "center font ',12'" : "center font ',10'");
+                    wide ? "center font text_font" : "center font small_font");
   script.line("plot NaN notitle");
 }
 
 void draw_scale(Script& script, const Box& box, double limit_percent) {
-  script.begin_axes(box);
-  script.line("set border 15 lc rgb '{}' lw 0.8", kFrameColor);
-  script.line("set xrange [{:.9g}:{:.9g}]; set yrange [0:1]", -limit_percent, limit_percent);
-  for (int i = 0; i < kScaleSteps; ++i) {
-    const double step = 2 * limit_percent / kScaleSteps, left = -limit_percent + i * step;
-    const std::string color = diverging_color(left + step / 2, limit_percent);
-    script.line(
-        "set object rectangle from {:.9g},0 to {:.9g},1 behind fs solid border lc rgb '{}' fc rgb "
-        "'{}'",
-        left, left + step, color, color);
+  std::vector<Tick> ticks;
+  for (const double at : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const double percent = limit_percent * (2 * at - 1);
+    ticks.push_back({at, is_factor(limit_percent) ? fmt::format("×{:.2g}", std::exp(percent / 100))
+                                                  : fmt::format("{:g}", percent)});
   }
-  script.line(
-      "set xtics {:.9g} scale 0.5 nomirror format '%g' textcolor rgb '#202020' offset 0,0.3",
-      limit_percent / 2);
-  script.text_label(
-      box.left + box.width / 2, box.bottom - 40,
-      "100 ln(model / reference), %   blue: too dark, red: too bright, grey: left out",
-      "center font ',12'");
-  script.line("plot NaN notitle");
+  draw_color_scale(script, box, ticks, residual_scale_title(limit_percent),
+                   [](double at) { return diverging_color(2 * at - 1, 1); });
 }
 
 Grid grid_of(std::size_t columns, std::size_t count, const Box& area) {
@@ -150,7 +141,7 @@ void draw_block_label(Script& script, const Box& block, const std::string& label
                       std::size_t curve) {
   script.begin_axes(block);
   script.text_label(block.left, block.top() - kTitleStrip / 2, label,
-                    fmt::format("left font ',12' textcolor rgb '{}'", kCurveColors[curve]));
+                    fmt::format("left font text_font textcolor rgb '{}'", kCurveColors[curve]));
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
 }
 
@@ -206,23 +197,28 @@ double residual_limit_percent(const Suns& suns) {
   return round_up(std::max(sizes[static_cast<std::size_t>(rank)], 0.01));
 }
 
+std::string residual_scale_title(double limit_percent) {
+  return fmt::format(
+      "{}   blue: too dark, red: too bright, grey: left out",
+      is_factor(limit_percent) ? "model / reference" : "100 ln(model / reference), %");
+}
+
 void draw_hemisphere_maps(Script& script, const Comparison& comparison, const Suns& suns,
-                          const Box& area, double scale_strip_px) {
+                          const Box& area, const Box& scale) {
   const std::size_t curves = comparison.curves.size(), count = suns.shown.size();
   const double limit = residual_limit_percent(suns);
   const Grid blocks = best_blocks(curves, count, area);
   for (std::size_t curve = 0; curve < curves; ++curve) {
     const Box block = blocks.cell(curve);
     if (curves > 1) draw_block_label(script, block, comparison.curves[curve].label, curve);
-    const Grid grid = curves > 1 ? best_grid(count, below_label(block))
-                                 : grid_of(panel_columns(count), count, area);
+    // On a screen one curve's maps stand beside the panels of their suns.
+    const bool aligned = curves == 1 && !script.sheet().on_page();
+    const Grid grid = aligned ? grid_of(panel_columns(count), count, area)
+                              : best_grid(count, curves > 1 ? below_label(block) : block);
     for (std::size_t i = 0; i < count; ++i)
       draw_map(script, suns.shown[i], curve, grid.cell(i), limit, curve == 0 && i == 0);
   }
-  const double width = std::min(area.width * 0.8, 520.0);
-  draw_scale(script,
-             {area.left + (area.width - width) / 2, area.bottom - scale_strip_px + 52, width, 14},
-             limit);
+  draw_scale(script, scale, limit);
 }
 
 }  // namespace skyfit::plot

@@ -33,9 +33,11 @@ std::vector<Patch> patches_of(const std::vector<Sample>& samples);
 // Half the width of the colour scale, percent: 98 % of the counted residuals lie within.
 double residual_limit_percent(const Suns& suns);
 
-// One map per sun position and curve, one block of the area per curve, and the colour scale below
-// them.
+// What stands below the colour scale.
+std::string residual_scale_title(double limit_percent);
+
+// One map per sun position and curve, one block of the area per curve, and the colour scale.
 void draw_hemisphere_maps(Script& script, const Comparison& comparison, const Suns& suns,
-                          const Box& area, double scale_strip_px);
+                          const Box& area, const Box& scale);
 
 }  // namespace skyfit::plot

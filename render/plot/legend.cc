@@ -7,12 +7,9 @@ namespace skyfit::plot {
 namespace {
 
 constexpr double kMarkWidth = 30, kMarkGap = 6, kEntryGap = 24;
-constexpr double kCharacterWidth = 8.2;  // mean of DejaVu Sans at this size, with some air
 
-double width_of(const LegendEntry& entry) {
-  const auto characters =
-      std::ranges::count_if(entry.text, [](char c) { return (c & 0xc0) != 0x80; });
-  return kMarkWidth + kMarkGap + kCharacterWidth * static_cast<double>(characters);
+double width_of(const LegendEntry& entry, const Sheet& sheet) {
+  return kMarkWidth + kMarkGap + text_width_px(entry.text, sheet);
 }
 
 bool is_line(Mark mark) { return mark == Mark::kSolidLine || mark == Mark::kDashedLine; }
@@ -33,24 +30,40 @@ std::string mark_style(Mark mark, std::string_view color) {
   return {};
 }
 
-double legend_width_px(const std::vector<LegendEntry>& entries) {
+double legend_width_px(const std::vector<LegendEntry>& entries, const Sheet& sheet) {
   double width = -kEntryGap;
-  for (const auto& entry : entries) width += width_of(entry) + kEntryGap;
+  for (const auto& entry : entries) width += width_of(entry, sheet) + kEntryGap;
   return width;
 }
 
-void draw_legend(Script& script, const std::vector<LegendEntry>& entries, double centre_x_px,
-                 double y_px) {
-  double x = centre_x_px - legend_width_px(entries) / 2;
-  for (const auto& entry : entries) {
-    const std::string style = mark_style(entry.mark, entry.color);
-    if (is_line(entry.mark))
-      script.line("set arrow from {} to {} nohead {}", script.at(x, y_px),
-                  script.at(x + kMarkWidth, y_px), style);
-    else
-      script.line("set label '' at {} point {}", script.at(x + kMarkWidth - 6, y_px), style);
-    script.text_label(x + kMarkWidth + kMarkGap, y_px, entry.text, "left font ',12'");
-    x += width_of(entry) + kEntryGap;
+LegendRows legend_rows(const std::vector<LegendEntry>& entries, double width_px,
+                       const Sheet& sheet) {
+  LegendRows rows;
+  for (LegendEntry entry : entries) {
+    const double most = width_px - kMarkWidth - kMarkGap;
+    if (text_width_px(entry.text, sheet) > most) entry.text = shortened(entry.text, most, sheet);
+    if (rows.empty() ||
+        legend_width_px(rows.back(), sheet) + kEntryGap + width_of(entry, sheet) > width_px)
+      rows.emplace_back();
+    rows.back().push_back(std::move(entry));
+  }
+  return rows;
+}
+
+void draw_legend(Script& script, const LegendRows& rows, double centre_x_px, double y_px) {
+  for (const std::vector<LegendEntry>& row : rows) {
+    double x = centre_x_px - legend_width_px(row, script.sheet()) / 2;
+    for (const LegendEntry& entry : row) {
+      const std::string style = mark_style(entry.mark, entry.color);
+      if (is_line(entry.mark))
+        script.line("set arrow from {} to {} nohead {}", script.at(x, y_px),
+                    script.at(x + kMarkWidth, y_px), style);
+      else
+        script.line("set label '' at {} point {}", script.at(x + kMarkWidth - 6, y_px), style);
+      script.text_label(x + kMarkWidth + kMarkGap, y_px, entry.text, "left font text_font");
+      x += width_of(entry, script.sheet()) + kEntryGap;
+    }
+    y_px -= script.sheet().line_px();
   }
 }
 

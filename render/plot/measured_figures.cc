@@ -26,19 +26,24 @@ using Outcomes = std::span<const MeasuredOutcome>;
 
 constexpr std::array<MeasuredFigure, 6> kFigures = {{
     {"maps", "measured, model and their ratio over the sky, a row per scan (at most 6)", false,
-     has_directions, [](Outcomes fits, int) { return maps_figure(fits[0]); }},
+     has_directions,
+     [](Outcomes fits, int, const Sheet& sheet) { return maps_figure(fits[0], sheet); }},
     {"spectra", "six directions of one scan with what a sample scatters by; spectral scans only",
      false, [](const MeasuredOutcome& outcome) { return outcome.spectral; },
-     [](Outcomes fits, int scan) { return spectra_figure(fits[0], scan); }},
+     [](Outcomes fits, int scan, const Sheet& sheet) {
+       return spectra_figure(fits[0], scan, sheet);
+     }},
     {"residuals", "model / measured - 1 against scattering angle, view zenith and wavelength",
-     false, has_directions, [](Outcomes fits, int) { return residuals_figure(fits[0]); }},
+     false, has_directions,
+     [](Outcomes fits, int, const Sheet& sheet) { return residuals_figure(fits[0], sheet); }},
     {"irradiances", "irradiances against the sun's zenith angle; fits of irradiances only", false,
-     has_irradiances, [](Outcomes fits, int) { return irradiances_figure(fits[0]); }},
+     has_irradiances,
+     [](Outcomes fits, int, const Sheet& sheet) { return irradiances_figure(fits[0], sheet); }},
     {"corner", "the covariance: densities, and pairs with ellipses of 1 and 2 sigma", false,
      [](const MeasuredOutcome& outcome) { return outcome.covariance.size() >= 2; },
-     [](Outcomes fits, int) { return corner_figure(fits[0]); }},
+     [](Outcomes fits, int, const Sheet& sheet) { return corner_figure(fits[0], sheet); }},
     {"series", "unknowns over the time of their scans with one sigma; takes several fits", true,
-     has_series, [](Outcomes fits, int) { return series_figure(fits); }},
+     has_series, [](Outcomes fits, int, const Sheet& sheet) { return series_figure(fits, sheet); }},
 }};
 
 }  // namespace
@@ -55,7 +60,8 @@ const MeasuredFigure& measured_figure(std::string_view name) {
       fmt::format("figure \"{}\": expected one of {}", name, fmt::join(names, ", ")));
 }
 
-Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits, int scan) {
+Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits, int scan,
+            const Sheet& sheet) {
   if (fits.size() != 1 && !figure.takes_several)
     throw std::invalid_argument(
         fmt::format("figure: {} fits of measured skies: expected 1 for this figure", fits.size()));
@@ -64,7 +70,7 @@ Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits,
     throw std::invalid_argument(fmt::format(
         "figure {}: irradiances have no directions: expected the figure irradiances", figure.name));
   }
-  return figure.draw(fits, scan);
+  return figure.draw(fits, scan, sheet);
 }
 
 std::string short_name(const std::string& name) { return name.substr(name.rfind('/') + 1); }
@@ -72,6 +78,16 @@ std::string short_name(const std::string& name) { return name.substr(name.rfind(
 std::string scan_label(const MeasuredOutcome& outcome, int scan) {
   const MeasuredScan& info = outcome.scans.at(static_cast<std::size_t>(scan - 1));
   return info.name.empty() ? fmt::format("scan {}", scan) : short_name(info.name);
+}
+
+int wavelength_step(const MeasuredOutcome& outcome, double width_px) {
+  constexpr double kNumber_px = 36;
+  const auto [first, last] =
+      std::ranges::minmax_element(outcome.samples, {}, &Sample::wavelength_nm);
+  const double span = last->wavelength_nm - first->wavelength_nm;
+  for (const int step : {100, 200, 500})
+    if (span / step * kNumber_px <= width_px) return step;
+  return 1000;
 }
 
 std::string wavelength_range(const MeasuredOutcome& outcome) {

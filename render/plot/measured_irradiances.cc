@@ -5,15 +5,14 @@
 #include <stdexcept>
 
 #include "model/irradiance.h"
-#include "render/plot/legend.h"
+#include "render/plot/header.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/script.h"
 
 namespace skyfit::plot {
 namespace {
 
-constexpr double kHeader = 92, kFooter = 62, kColumn = 330, kValues = 260, kRatios = 170,
-                 kLeft = 92, kGap = 62;
+constexpr double kColumn = 330, kValues = 260, kRatios = 170;
 
 // "direct normal"
 std::string words_of(std::string_view name) {
@@ -62,56 +61,77 @@ void begin_panel(Script& script, const Box& box, bool with_suns) {
   script.line("set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set xrange [0:90]", kFrameColor,
               kGridColor);
   script.line(
-      "set xtics 15 nomirror textcolor rgb '#202020' format '{}'; set ytics nomirror textcolor rgb "
+      "set xtics {} nomirror textcolor rgb '#202020' format '{}'; set ytics nomirror textcolor rgb "
       "'#202020'",
-      with_suns ? "%g" : "");
+      script.sheet().on_page() ? 30 : 15, with_suns ? "%g" : "");
+}
+
+void draw_kind(Script& script, const Box& values, const Box& ratios, std::string_view kind,
+               std::size_t index, double limit) {
+  begin_panel(script, values, false);
+  script.text_label(values.left + 6, values.top() + 15, words_of(kind), "left font text_font");
+  script.line("set yrange [0:*]");
+  script.line(
+      "plot $kind{0} using 1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '{1}' notitle, $kind{0} "
+      "using 1:4 with points pt 6 ps 1.3 lw 1.8 lc rgb '{2}' notitle",
+      index, kReferenceColor, kCurveColors[0]);
+  begin_panel(script, ratios, true);
+  script.line("set yrange [{:.6g}:{:.6g}]", -limit, limit);
+  script.line(
+      "plot 0 lc rgb '#404040' lw 1 notitle, $kind{0} using 1:5:6 with yerrorbars pt 6 ps 1.3 lw "
+      "1.4 lc rgb '{1}' notitle",
+      index, kCurveColors[0]);
 }
 
 }  // namespace
 
-Figure irradiances_figure(const MeasuredOutcome& outcome) {
-  const std::vector<std::string_view> kinds = kinds_of(outcome);
-  if (kinds.empty())
-    throw std::invalid_argument("figure irradiances: expected a fit of irradiances");
-  const double width = kLeft + kColumn * std::max(2.0, static_cast<double>(kinds.size())),
-               height = kHeader + kValues + kRatios + kFooter;
+Figure irradiances_figure(const MeasuredOutcome& outcome, const Sheet& sheet) {
+  const std::vector<std::string_view> all = kinds_of(outcome);
+  if (all.empty()) throw std::invalid_argument("figure irradiances: expected a fit of irradiances");
+  std::vector<std::string> names;
+  for (const std::string_view kind : all) names.push_back(words_of(kind));
+  std::vector<std::string_view> kinds;
+  for (const std::size_t place : sheet.chosen(names)) kinds.push_back(all[place]);
+
+  const double left = sheet.on_page() ? 74 : 92, footer = sheet.on_page() ? 44 : 62,
+               gap = sheet.on_page() ? 46 : 62;
+  const double width =
+      sheet.width_px(left + kColumn * std::max(2.0, static_cast<double>(kinds.size())));
+  const std::size_t columns =
+      sheet.on_page()
+          ? std::clamp<std::size_t>(static_cast<std::size_t>((width - left) / 170), 1, kinds.size())
+          : kinds.size();
+  const std::size_t rows = (kinds.size() + columns - 1) / columns;
+  const double column = sheet.on_page() ? (width - left) / static_cast<double>(columns) : kColumn;
+  const double values = sheet.on_page() ? 170 : kValues, ratios = sheet.on_page() ? 120 : kRatios;
+  const double row = values + ratios + footer;
+  const Header header(sheet, width, "Irradiances, " + short_name(outcome.title), "",
+                      {{Mark::kPoint, kReferenceColor, "measured, one sigma"},
+                       {Mark::kHollowPoint, kCurveColors[0], "fitted"}});
+  const double height = header.height_px() + row * static_cast<double>(rows);
   const double limit = limit_percent(outcome);
-  Script script(width, height);
+  Script script(width, height, sheet);
   script.line("set multiplot");
   for (std::size_t k = 0; k < kinds.size(); ++k) write_samples(script, outcome, kinds[k], k);
   script.begin_axes({0, 0, width, height});
-  script.text_label(16, height - 24, "Irradiances, " + short_name(outcome.title),
-                    "left font ',18'");
-  script.text_label(16, kFooter + kRatios + kValues / 2, outcome.irradiance_unit,
-                    "center rotate by 90 font ',13'");
-  script.text_label(16, kFooter + kRatios / 2 - kGap / 4, "model / measured − 1, %",
-                    "center rotate by 90 font ',13'");
-  script.text_label(width / 2, 18, "sun zenith, °", "center font ',13'");
-  draw_legend(script,
-              {{Mark::kPoint, kReferenceColor, "measured, one sigma"},
-               {Mark::kHollowPoint, kCurveColors[0], "fitted"}},
-              width / 2, height - 54);
+  header.draw(script);
+  for (std::size_t r = 0; r < rows; ++r) {
+    const double bottom = row * static_cast<double>(r) + footer;
+    script.upright_lines(sheet.on_page() ? 8 : 16, bottom + ratios + values / 2 - gap / 4, values,
+                         outcome.irradiance_unit, "font axis_font");
+    script.upright_lines(sheet.on_page() ? 8 : 16, bottom + ratios / 2 - gap / 4, ratios,
+                         "model / measured − 1, %", "font axis_font");
+  }
+  script.text_label(width / 2, sheet.on_page() ? 10 : 18, "sun zenith, °", "center font axis_font");
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const double left = kLeft + kColumn * static_cast<double>(k);
-    begin_panel(script, {left, kFooter + kRatios, kColumn - kGap, kValues - kGap / 2}, false);
-    script.text_label(left + 6, kFooter + kRatios + kValues - kGap / 4, words_of(kinds[k]),
-                      "left font ',12'");
-    script.line("set yrange [0:*]");
-    script.line(
-        "plot $kind{0} using 1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '{1}' notitle, "
-        "$kind{0} "
-        "using 1:4 with points pt 6 ps 1.3 lw 1.8 lc rgb '{2}' notitle",
-        k, kReferenceColor, kCurveColors[0]);
-    begin_panel(script, {left, kFooter, kColumn - kGap, kRatios - kGap / 2}, true);
-    script.line("set yrange [{:.6g}:{:.6g}]", -limit, limit);
-    script.line(
-        "plot 0 lc rgb '#404040' lw 1 notitle, $kind{0} using 1:5:6 with yerrorbars pt 6 ps 1.3 lw "
-        "1.4 lc rgb '{1}' notitle",
-        k, kCurveColors[0]);
+    const double x = left + column * static_cast<double>(k % columns),
+                 y = row * static_cast<double>(rows - 1 - k / columns) + footer;
+    draw_kind(script, {x, y + ratios, column - gap, values - gap / 2},
+              {x, y, column - gap, ratios - gap / 2}, kinds[k], k, limit);
   }
   script.line("unset multiplot");
-  return {width, height, script.text()};
+  return figure_of(script);
 }
 
 }  // namespace skyfit::plot

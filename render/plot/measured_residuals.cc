@@ -4,14 +4,16 @@
 #include <cmath>
 #include <map>
 
-#include "render/plot/legend.h"
+#include "model/base/misfit.h"
+#include "render/plot/header.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/script.h"
 
 namespace skyfit::plot {
 namespace {
 
-constexpr double kWidth = 1200, kHeader = 92, kFooter = 62, kPanel = 330, kLeft = 74, kGap = 62;
+constexpr double kWidth = 1200, kPanel = 330;
+constexpr double kBeside = 20;        // a title may be wider than its panel
 constexpr std::size_t kMaxScans = 4;  // colours that stay apart; further scans repeat them
 
 std::string_view color_of(int scan) {
@@ -71,67 +73,124 @@ double limit_percent(const MeasuredOutcome& outcome) {
   return round_up(std::max(sizes[static_cast<std::size_t>(rank)], kLeast));
 }
 
-void begin_panel(Script& script, const Box& box, std::string_view title, double limit) {
+// Percents around 0, or factors around 1 on a logarithmic axis where percents are large.
+struct Axis {
+  double limit_percent;
+  bool is_factor;
+  double upper() const { return is_factor ? round_up(1 + limit_percent / 100) : limit_percent; }
+  double lower() const { return is_factor ? 1 / upper() : -limit_percent; }
+  // gnuplot's expression of a value that is in percent.
+  std::string shown(std::string_view percent) const {
+    return is_factor ? fmt::format("(1+({})/100.0)", percent) : fmt::format("({})", percent);
+  }
+};
+
+Axis axis_of(const MeasuredOutcome& outcome) {
+  const double limit = limit_percent(outcome);
+  return {limit, is_factor(limit)};
+}
+
+void begin_panel(Script& script, const Box& box, std::string_view title, const Axis& axis) {
   script.begin_axes(box);
-  script.text_label(box.left + box.width / 2, box.bottom - 40, title, "center font ',12'");
+  script.text_lines(box.left + box.width / 2, box.bottom - (script.sheet().on_page() ? 30 : 40),
+                    box.width + kBeside, title, "center font text_font");
   script.line(
       "set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set autoscale x; set yrange "
       "[{:.6g}:{:.6g}]",
-      kFrameColor, kGridColor, -limit, limit);
+      kFrameColor, kGridColor, axis.lower(), axis.upper());
+  if (axis.is_factor) script.line("set logscale y");
   script.line(
       "set xtics autofreq nomirror textcolor rgb '#202020'; set ytics nomirror textcolor rgb "
-      "'#202020'; set arrow from graph 0, first 0 to graph 1, first 0 nohead lc rgb "
-      "'#404040' lw 1 back");
+      "'#202020'; set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb "
+      "'#404040' lw 1 back",
+      axis.is_factor ? 1 : 0);
 }
 
-void draw_scans(Script& script, const MeasuredOutcome& outcome, int column) {
+void draw_scans(Script& script, const MeasuredOutcome& outcome, int column, const Axis& axis) {
   std::string plots;
   for (std::size_t s = 0; s < outcome.scans.size(); ++s) {
-    plots += fmt::format("{}$scan{} using {}:3 with points pt 7 ps 0.5 lc rgb '{}' notitle",
-                         s == 0 ? "" : ", ", s + 1, column, color_of(static_cast<int>(s) + 1));
+    plots += fmt::format("{}$scan{} using {}:{} with points pt 7 ps 0.5 lc rgb '{}' notitle",
+                         s == 0 ? "" : ", ", s + 1, column, axis.shown("$3"),
+                         color_of(static_cast<int>(s) + 1));
   }
   script.line("plot {}", plots);
 }
 
+// What stands at the axis of each panel, which is also its name.
+std::vector<std::string> panel_titles(const MeasuredOutcome& outcome) {
+  std::vector<std::string> titles = {"luminance: scattering angle, °", "luminance: view zenith, °"};
+  if (outcome.spectral) titles.emplace_back("radiance: wavelength, nm (mean ± scatter)");
+  return titles;
+}
+
+void draw_panel(Script& script, const MeasuredOutcome& outcome, const Box& box, std::size_t panel,
+                const Axis& axis) {
+  begin_panel(script, box, panel_titles(outcome)[panel], axis);
+  if (panel == 0) {
+    if (script.sheet().on_page()) script.line("set xtics {}", box.width < 200 ? 60 : 30);
+    return draw_scans(script, outcome, 1, axis);
+  }
+  if (panel == 1) {
+    script.line("set xrange [-3:93]; set xtics 30");  // the zenith does not lie on the axis
+    return draw_scans(script, outcome, 2, axis);
+  }
+  script.line("{}", wavelength_range(outcome));
+  script.line("set xtics {}", wavelength_step(outcome, box.width));
+  // gnuplot fills beyond the panel what leaves it.
+  script.line("inside(y) = y < {0:.9g} ? {0:.9g} : y > {1:.9g} ? {1:.9g} : y", axis.lower(),
+              axis.upper());
+  script.line(
+      "plot $wavelengths using 1:(inside({})):(inside({})) with filledcurves fc rgb '#d8d8d8' "
+      "notitle, $wavelengths using 1:{} with linespoints lw 2 pt 7 ps 0.5 lc rgb '{}' notitle",
+      axis.shown("$2-$3"), axis.shown("$2+$3"), axis.shown("$2"), kReferenceColor);
+}
+
 }  // namespace
 
-Figure residuals_figure(const MeasuredOutcome& outcome) {
-  const double height = kHeader + kPanel + kFooter, limit = limit_percent(outcome);
-  Script script(kWidth, height);
-  script.line("set multiplot");
-  write_directions(script, outcome);
-  if (outcome.spectral) write_wavelengths(script, outcome);
-  script.begin_axes({0, 0, kWidth, height});
-  script.text_label(16, height - 24, "Residuals, " + short_name(outcome.title), "left font ',18'");
-  script.text_label(20, kFooter + kPanel / 2, "model / measured − 1, %",
-                    "center rotate by 90 font ',13'");
+Figure residuals_figure(const MeasuredOutcome& outcome, const Sheet& sheet) {
+  const std::vector<std::size_t> panels = sheet.chosen(panel_titles(outcome));
+  const Axis axis = axis_of(outcome);
+  const double width = sheet.width_px(kWidth);
+  const double left = sheet.on_page() ? 62 : 74;
+  // The title of the third is 41 characters long.
+  const std::size_t columns =
+      sheet.on_page() ? std::clamp<std::size_t>(static_cast<std::size_t>((width - left) / 290), 1,
+                                                panels.size())
+                      : panels.size();
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
+  // Beside a panel the numbers of the next.
+  const double gap = !sheet.on_page() ? 31 : columns > 1 ? 52 : 14;
+  const double panel_width = (width - left - 10) / static_cast<double>(columns) - gap;
+  std::size_t lines = 1;
+  for (const std::string& title : panel_titles(outcome))
+    lines = std::max(lines, wrapped(title, panel_width + kBeside, sheet).size());
+  const double footer =
+      (sheet.on_page() ? 46 : 62) + sheet.line_px() * static_cast<double>(lines - 1);
   std::vector<LegendEntry> legend;
   for (std::size_t s = 0; s < std::min(kMaxScans, outcome.scans.size()); ++s)
     legend.push_back({Mark::kPoint, color_of(static_cast<int>(s) + 1),
                       scan_label(outcome, static_cast<int>(s) + 1)});
-  draw_legend(script, legend, kWidth / 2, height - 54);
+  const Header header(sheet, width, "Residuals, " + short_name(outcome.title), "", legend);
+  const double panel = sheet.on_page() ? 170 : kPanel, row = panel + footer;
+  const double height = header.height_px() + row * static_cast<double>(rows);
+  Script script(width, height, sheet);
+  script.line("set multiplot");
+  write_directions(script, outcome);
+  if (outcome.spectral) write_wavelengths(script, outcome);
+  script.begin_axes({0, 0, width, height});
+  header.draw(script);
+  script.upright_lines(sheet.on_page() ? 10 : 20, (height - header.height_px() + footer) / 2,
+                       height, axis.is_factor ? "model / measured" : "model / measured − 1, %",
+                       "font axis_font");
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
-  const Grid grid{outcome.spectral ? 3u : 2u, 1, {kLeft, kFooter, kWidth - kLeft - 10, kPanel}};
-  const auto box = [&](std::size_t k) {
+  const Grid grid{columns, rows, {left, 0, width - left - 10, row * static_cast<double>(rows)}};
+  for (std::size_t k = 0; k < panels.size(); ++k) {
     const Box cell = grid.cell(k);
-    return Box{cell.left, cell.bottom, cell.width - kGap / 2, cell.height};
-  };
-  begin_panel(script, box(0), "luminance: scattering angle, °", limit);
-  draw_scans(script, outcome, 1);
-  begin_panel(script, box(1), "luminance: view zenith, °", limit);
-  script.line("set xrange [-3:93]; set xtics 30");  // the zenith does not lie on the axis
-  draw_scans(script, outcome, 2);
-  if (outcome.spectral) {
-    begin_panel(script, box(2), "radiance: wavelength, nm (mean ± scatter)", limit);
-    script.line("{}", wavelength_range(outcome));
-    script.line(
-        "plot $wavelengths using 1:($2-$3):($2+$3) with filledcurves fc rgb '#d8d8d8' "
-        "notitle, $wavelengths using 1:2 with linespoints lw 2 pt 7 ps 0.5 lc rgb '{}' "
-        "notitle",
-        kReferenceColor);
+    draw_panel(script, outcome, {cell.left, cell.bottom + footer, panel_width, panel}, panels[k],
+               axis);
   }
   script.line("unset multiplot");
-  return {kWidth, height, script.text()};
+  return figure_of(script);
 }
 
 }  // namespace skyfit::plot

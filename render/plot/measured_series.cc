@@ -5,14 +5,15 @@
 #include <map>
 #include <stdexcept>
 
+#include "render/plot/header.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/script.h"
 
 namespace skyfit::plot {
 namespace {
 
-constexpr double kWidth = 1080, kHeader = 76, kFooter = 62, kRow = 170, kLeft = 96, kRight = 48,
-                 kGap = 46;
+constexpr double kNarrow = 420;  // of a panel: times and dates would touch each other
+constexpr double kWidth = 1080, kRow = 170, kRight = 48, kGap = 46;
 
 struct Point {
   std::string time_utc;
@@ -61,16 +62,17 @@ void draw_panel(Script& script, const Box& box, const std::string& name, const S
   script.line("EOD");
   script.begin_axes(box);
   script.text_label(box.left, box.top() + 12,
-                    series.unit == "1" ? name : fmt::format("{}, {}", name, series.unit),
-                    "left font ',12'");
+                    shortened(series.unit == "1" ? name : fmt::format("{}, {}", name, series.unit),
+                              box.width, script.sheet()),
+                    "left font text_font");
   script.line(
       "set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set xdata time; set timefmt "
       "'%Y-%m-%dT%H:%M:%SZ'",
       kFrameColor, kGridColor);
   script.line(
-      "set xtics format '{}' nomirror textcolor rgb '#202020'; set ytics nomirror "
+      "set xtics format '{}' {} nomirror textcolor rgb '#202020'; set ytics nomirror "
       "textcolor rgb '#202020'",
-      last ? time_format : "");
+      last ? time_format : "", box.width < kNarrow ? "rotate by 35 right" : "norotate");
   script.line(
       "set format y '%g'; set autoscale; set offsets graph 0.03, graph 0.03, graph 0.1, graph 0.1");
   constexpr std::size_t kMostJoined = 100;
@@ -88,12 +90,11 @@ void draw_panel(Script& script, const Box& box, const std::string& name, const S
 
 }  // namespace
 
-Figure series_figure(std::span<const MeasuredOutcome> fits) {
-  const std::map<std::string, Series> all = series_of(fits);
-  const double height = kHeader + kRow * static_cast<double>(all.size()) + kFooter;
-  Script script(kWidth, height);
-  script.line("set multiplot");
-  script.begin_axes({0, 0, kWidth, height});
+Figure series_figure(std::span<const MeasuredOutcome> fits, const Sheet& sheet) {
+  std::map<std::string, Series> all = series_of(fits);
+  std::vector<std::string> names;
+  for (const auto& [name, series] : all) names.push_back(name);
+  const std::vector<std::size_t> rows = sheet.chosen(names);
   std::string first = all.begin()->second.points.front().time_utc, last = first;
   for (const auto& [name, series] : all) {
     first = std::min(first, series.points.front().time_utc);
@@ -102,23 +103,31 @@ Figure series_figure(std::span<const MeasuredOutcome> fits) {
   constexpr std::size_t kDate = 10;  // characters
   const std::string first_day = first.substr(0, kDate), last_day = last.substr(0, kDate);
   const bool one_day = first_day == last_day;
-  script.text_label(16, height - 24,
-                    one_day ? fmt::format("Unknowns over {}", first_day)
-                            : fmt::format("Unknowns, {} to {}", first_day, last_day),
-                    "left font ',18'");
-  script.text_label(16, height - 48, "error bars: one sigma",
-                    "left font ',12' textcolor rgb '#404040'");
-  script.text_label((kLeft + kWidth - kRight) / 2, 18, "time, UTC", "center font ',13'");
+  const double width = sheet.width_px(kWidth), left = sheet.on_page() ? 62 : 96,
+               right = sheet.on_page() ? 18 : kRight;
+  const double plot_width = width - left - right;
+  const double footer = (sheet.on_page() ? 44 : 62) + (plot_width < kNarrow ? 30 : 0);
+  const Header header(sheet, width,
+                      one_day ? fmt::format("Unknowns over {}", first_day)
+                              : fmt::format("Unknowns, {} to {}", first_day, last_day),
+                      "error bars: one sigma");
+  const double row_px = sheet.on_page() ? std::clamp(0.35 * width, 110.0, kRow) : kRow;
+  const double height = header.height_px() + row_px * static_cast<double>(rows.size()) + footer;
+  Script script(width, height, sheet);
+  script.line("set multiplot");
+  script.begin_axes({0, 0, width, height});
+  header.draw(script);
+  script.text_label(left + plot_width / 2, sheet.on_page() ? 10 : 18, "time, UTC",
+                    "center font axis_font");
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
-  std::size_t row = 0;
-  for (const auto& [name, series] : all) {
-    const double top = height - kHeader - kRow * static_cast<double>(row);
-    draw_panel(script, {kLeft, top - kRow + kGap / 2, kWidth - kLeft - kRight, kRow - kGap}, name,
-               series, row, one_day ? "%H:%M" : "%Y-%m-%d", row + 1 == all.size());
-    ++row;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const double top = height - header.height_px() - row_px * static_cast<double>(row);
+    const std::string& name = names[rows[row]];
+    draw_panel(script, {left, top - row_px + kGap / 2, plot_width, row_px - kGap}, name,
+               all.at(name), row, one_day ? "%H:%M" : "%Y-%m-%d", row + 1 == rows.size());
   }
   script.line("unset multiplot");
-  return {kWidth, height, script.text()};
+  return figure_of(script);
 }
 
 }  // namespace skyfit::plot

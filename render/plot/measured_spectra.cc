@@ -5,14 +5,16 @@
 #include <map>
 #include <stdexcept>
 
-#include "render/plot/legend.h"
+#include "render/plot/header.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/script.h"
 
 namespace skyfit::plot {
 namespace {
 
-constexpr double kWidth = 1200, kHeader = 64, kFooter = 60, kRow = 320, kLeft = 84, kGap = 70;
+constexpr double kWidth = 1200, kRow = 250;
+constexpr double kLeastColumn = 148;  // on a page
+constexpr double kGap = 18;           // above a panel and its names, and beside it
 
 struct Chosen {
   std::string meaning;
@@ -73,23 +75,30 @@ void write_data(Script& script, const MeasuredOutcome& outcome, const MeasuredDi
   script.line("EOD");
 }
 
-void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_t index,
-                const std::string& x_range) {
-  script.begin_axes(box);
-  const MeasuredDirection& d = chosen.direction;
-  script.text_label(box.left + box.width / 2, box.top() + 26, chosen.meaning, "center font ',12'");
+std::string place_of(const MeasuredDirection& d) {
   const std::string azimuth =
-      d.view_zenith_deg > 0 ? fmt::format("azimuth {:.0f}°, ", d.relative_azimuth_deg) : "";
-  script.text_label(box.left + box.width / 2, box.top() + 10,
-                    fmt::format("zenith {:.0f}°, {}{:.0f}° from the sun", d.view_zenith_deg,
-                                azimuth, d.scattering_angle_deg),
-                    "center font ',10' textcolor rgb '#404040'");
+      d.view_zenith_deg > 0 ? fmt::format("azimuth {:.0f}°, ", d.relative_azimuth_deg) : "";
+  return fmt::format("zenith {:.0f}°, {}{:.0f}° from the sun", d.view_zenith_deg, azimuth,
+                     d.scattering_angle_deg);
+}
+
+void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_t index,
+                const MeasuredOutcome& outcome, double names_width) {
+  script.begin_axes(box);
+  const double middle = box.left + box.width / 2, line = script.sheet().on_page() ? 15 : 16;
+  const std::vector<std::string> place =
+      wrapped(place_of(chosen.direction), names_width, script.sheet());
+  for (std::size_t i = 0; i < place.size(); ++i)
+    script.text_label(middle, box.top() + 10 + line * static_cast<double>(place.size() - 1 - i),
+                      place[i], "center font small_font textcolor rgb '#404040'");
+  script.text_label(middle, box.top() + 10 + line * static_cast<double>(place.size()),
+                    chosen.meaning, "center font text_font");
   script.line("set border 3 lc rgb '{}'; set grid lc rgb '{}' lt 1; set yrange [0:*]", kFrameColor,
               kGridColor);
   script.line(
-      "{}; set xtics 100 nomirror textcolor rgb '#202020'; set ytics nomirror "
+      "{}; set xtics {} nomirror textcolor rgb '#202020'; set ytics nomirror "
       "textcolor rgb '#202020'",
-      x_range);
+      wavelength_range(outcome), wavelength_step(outcome, box.width));
   const std::string data = fmt::format("$spectrum{}", index);
   script.line(
       "plot {0} using 1:($5>0?$2-$3:NaN):($5>0?$2+$3:NaN) with filledcurves fc rgb '#d8d8d8' "
@@ -102,40 +111,58 @@ void draw_panel(Script& script, const Chosen& chosen, const Box& box, std::size_
 
 }  // namespace
 
-Figure spectra_figure(const MeasuredOutcome& outcome, int scan) {
+Figure spectra_figure(const MeasuredOutcome& outcome, int scan, const Sheet& sheet) {
   if (!outcome.spectral)
     throw std::invalid_argument("figure spectra: the fit is of luminances, expected spectra");
-  const std::vector<Chosen> chosen = chosen_directions(outcome, scan);
-  const double height = kHeader + 2 * kRow + kFooter;
-  Script script(kWidth, height);
+  const std::vector<Chosen> all = chosen_directions(outcome, scan);
+  std::vector<std::string> names;
+  for (const Chosen& direction : all) names.push_back(direction.meaning);
+  std::vector<Chosen> chosen;
+  for (const std::size_t place : sheet.chosen(names)) chosen.push_back(all[place]);
+
+  const double width = sheet.width_px(kWidth);
+  const double left = sheet.on_page() ? 62 : 84, footer = sheet.on_page() ? 40 : 60;
+  const std::size_t columns =
+      sheet.on_page()
+          ? std::clamp<std::size_t>(static_cast<std::size_t>((width - left) / kLeastColumn), 1, 3)
+          : 3;
+  Grid grid{std::min(columns, chosen.size()), 1, {left, footer, width - left - 10, 0}};
+  grid.rows = (chosen.size() + grid.columns - 1) / grid.columns;
+  // What the cell of a column holds beside the panel: the tick labels of the next.
+  const double panel_width =
+      grid.area.width / static_cast<double>(grid.columns) - (sheet.on_page() ? 44 : 35);
+  const double names_width = sheet.on_page() ? panel_width + 36 : panel_width;
+  std::size_t lines = 1;
+  for (const Chosen& direction : chosen)
+    lines = std::max(lines, wrapped(place_of(direction.direction), names_width, sheet).size());
+  const double names_px = 16 * static_cast<double>(lines + 1) + kGap;
+  const double panel_height = sheet.on_page() ? std::clamp(0.8 * panel_width, 110.0, kRow) : kRow;
+  const double row = panel_height + names_px + kGap;
+  grid.area.height = row * static_cast<double>(grid.rows);
+  const Header header(
+      sheet, width, fmt::format("Spectra, {}", scan_label(outcome, scan)),
+      "band: one standard deviation of a single sample, as the residuals of the whole fit show it",
+      {{Mark::kPoint, kReferenceColor, "measured"},
+       {Mark::kHollowPoint, kLeftOutColor, "not fitted (absorption bands)"},
+       {Mark::kSolidLine, kCurveColors[0], "model"}});
+  Script script(width, footer + grid.area.height + header.height_px(), sheet);
   script.line("set multiplot");
   for (std::size_t i = 0; i < chosen.size(); ++i)
     write_data(script, outcome, chosen[i].direction, i);
-  script.begin_axes({0, 0, kWidth, height});
-  script.text_label(16, height - 24, fmt::format("Spectra, {}", scan_label(outcome, scan)),
-                    "left font ',18'");
-  script.text_label(
-      16, height - 48,
-      "band: one standard deviation of a single sample, as the residuals of the whole "
-      "fit show it",
-      "left font ',12' textcolor rgb '#404040'");
-  script.text_label(20, kFooter + kRow, "spectral radiance, mW m⁻² sr⁻¹ nm⁻¹",
-                    "center rotate by 90 font ',13'");
-  script.text_label(kWidth / 2, 16, "wavelength, nm", "center font ',13'");
-  draw_legend(script,
-              {{Mark::kPoint, kReferenceColor, "measured"},
-               {Mark::kHollowPoint, kLeftOutColor, "not fitted (absorption bands)"},
-               {Mark::kSolidLine, kCurveColors[0], "model"}},
-              kWidth - 330, height - 24);
+  script.begin_axes({0, 0, width, script.height()});
+  header.draw(script);
+  script.upright_lines(sheet.on_page() ? 10 : 20, footer + grid.area.height / 2, grid.area.height,
+                       "spectral radiance, mW m⁻² sr⁻¹ nm⁻¹", "font axis_font");
+  script.text_label(width / 2, sheet.on_page() ? 10 : 16, "wavelength, nm",
+                    "center font axis_font");
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
-  const Grid grid{3, 2, {kLeft, kFooter, kWidth - kLeft - 10, 2 * kRow}};
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    Box box = grid.cell(i);
-    draw_panel(script, chosen[i], {box.left, box.bottom, box.width - kGap / 2, box.height - kGap},
-               i, wavelength_range(outcome));
+    const Box cell = grid.cell(i);
+    draw_panel(script, chosen[i], {cell.left, cell.bottom + kGap, panel_width, panel_height}, i,
+               outcome, names_width);
   }
   script.line("unset multiplot");
-  return {kWidth, height, script.text()};
+  return figure_of(script);
 }
 
 }  // namespace skyfit::plot

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/base/misfit.h"
 #include "render/plot/legend.h"
 
 namespace skyfit::plot {
@@ -13,6 +14,39 @@ namespace {
 constexpr double kTitleStrip = 26;  // above a panel: sun zenith and RMS
 constexpr double kGap = 14;         // right of a panel
 constexpr double kNarrow = 230;     // of a panel: less room for words
+
+std::string sun_label(const SunSamples& sun, bool short_one) {
+  return fmt::format("{} {:.4g}°", short_one ? "☉" : "sun zenith", sun.sun_zenith_deg);
+}
+
+// The RMS of each curve above a panel: beside the sun's angle where all find a place, else in rows
+// below it.
+struct RmsPlaces {
+  RmsPlaces(const Sheet& sheet, double panel_width, const Suns& suns) {
+    const std::size_t curves = suns.shown.front().plane.size();
+    many = curves > kMapCurves && !sheet.on_page();
+    number_px = sheet.on_page() ? 38 : many ? 34 : 42;
+    percent_px = sheet.on_page() ? 14 : 20;
+    if (!sheet.on_page()) return;
+    double beside = panel_width;
+    for (const SunSamples& sun : suns.shown)
+      beside = std::min(beside, panel_width - text_width_px(sun_label(sun, true), sheet));
+    const double needed = static_cast<double>(curves) * number_px + percent_px;
+    named = needed + text_width_px("RMS ", sheet) <= beside;
+    one_row = needed <= beside;
+    if (one_row) return;
+    in_row = static_cast<std::size_t>(std::max(1.0, (panel_width - percent_px) / number_px));
+    rows = (curves + in_row - 1) / in_row;
+  }
+  bool many = false;
+  double number_px = 0, percent_px = 0;
+  bool one_row = true, named = true;
+  std::size_t in_row = kMaxCurves, rows = 0;  // below the angle
+};
+
+double strip_height(const Sheet& sheet, const RmsPlaces& places) {
+  return kTitleStrip + sheet.line_px() * static_cast<double>(places.rows);
+}
 
 struct Range {
   double lower = std::numeric_limits<double>::infinity(), upper = 0;
@@ -95,11 +129,13 @@ class Panels {
 
   void draw(std::size_t index) {
     const Box cell = grid_.cell(index);
-    const Box box{cell.left, cell.bottom, cell.width - kGap, cell.height - kTitleStrip};
+    const RmsPlaces places(script_.sheet(), cell.width - kGap, suns_);
+    const Box box{cell.left, cell.bottom, cell.width - kGap,
+                  cell.height - strip_height(script_.sheet(), places)};
     script_.begin_axes(box);
     draw_axes(index);
     draw_sun(suns_.shown[index]);
-    draw_titles(suns_.shown[index], box);
+    draw_titles(suns_.shown[index], box, places);
     draw_curves(suns_.shown[index], fmt::format("s{}", index));
   }
 
@@ -131,31 +167,42 @@ class Panels {
     script_.line(
         "set arrow from {:.9g}, graph 0 to {:.9g}, graph 0.9 nohead back lw 1 dt 3 lc rgb '{}'",
         zenith, zenith, kSunColor);
-    script_.line("set label '☉' at {:.9g}, graph 0.945 center front font ',14' textcolor rgb '{}'",
-                 zenith, kSunColor);
+    script_.line(
+        "set label '☉' at {:.9g}, graph 0.945 center front font sun_font textcolor rgb '{}'",
+        zenith, kSunColor);
   }
 
-  void draw_titles(const SunSamples& sun, const Box& box) {
-    const double y = box.top() + kTitleStrip / 2 - 1;
+  void draw_titles(const SunSamples& sun, const Box& box, const RmsPlaces& places) {
+    const double line = script_.sheet().line_px();
+    const double y = box.top() + line * static_cast<double>(places.rows) + kTitleStrip / 2 - 1;
     const bool several = sun.plane.size() > 1;
-    script_.text_label(
-        box.left, y,
-        fmt::format("{} {:.4g}°", several || box.width < kNarrow ? "☉" : "sun zenith",
-                    sun.sun_zenith_deg),
-        "left font ',12'");
-    script_.text_label(box.right(), y, "%", "right font ',12'");
-    const bool many = sun.plane.size() > kMapCurves;
-    double right = box.right() - 20;
-    for (std::size_t i = sun.plane.size(); i-- > 0;) {
-      const double rms = rms_log_percent(sun.plane[i]);
+    script_.text_label(box.left, y, sun_label(sun, several || box.width < kNarrow),
+                       "left font text_font");
+    bool percent = false;
+    const auto number_at = [&](std::size_t curve, double right, double at_y) {
+      const double rms = rms_log_percent(sun.plane[curve]);
+      percent |= !std::isnan(rms) && !is_factor(rms);
       script_.text_label(
-          right, y,
-          std::isnan(rms) ? "–" : fmt::format("{:.{}f}", rms, many && rms >= 99.95 ? 0 : 1),
-          fmt::format("right font ',{}' textcolor rgb '{}'", many ? 10 : 12,
-                      several ? kCurveColors[i] : "#000000"));
-      right -= many ? 34 : 42;
+          right, at_y, std::isnan(rms) ? "–" : log_misfit(rms, 1),
+          fmt::format("right font {} textcolor rgb '{}'", places.many ? "small_font" : "text_font",
+                      several ? kCurveColors[curve] : "#000000"));
+    };
+    double right = box.right() - places.percent_px;
+    for (std::size_t i = sun.plane.size(); i-- > 0;) {
+      const std::size_t behind = places.in_row - 1 - i % places.in_row;
+      const auto row = static_cast<double>(i / places.in_row);
+      if (places.one_row) {
+        number_at(i, right, y);
+        right -= places.number_px;
+      } else {
+        number_at(i,
+                  box.right() - places.percent_px - places.number_px * static_cast<double>(behind),
+                  y - line * (row + 1));
+      }
     }
-    script_.text_label(right + 4, y, "RMS", "right font ',12'");
+    if (percent)
+      script_.text_label(box.right(), places.one_row ? y : y - line, "%", "right font text_font");
+    if (places.named) script_.text_label(right + 4, y, "RMS", "right font text_font");
   }
 
   void draw_curves(const SunSamples& sun, const std::string& name) {
@@ -212,6 +259,10 @@ std::vector<LegendEntry> plane_legend(const Comparison& comparison, const Suns& 
   if (any_sample(suns, one ? 1 : count, [](const Sample& s) { return s.weight == 0; }))
     legend.push_back({Mark::kHollowPoint, kLeftOutColor, "left out of the fit"});
   return legend;
+}
+
+double plane_strip_px(const Sheet& sheet, double cell_width_px, const Suns& suns) {
+  return strip_height(sheet, RmsPlaces(sheet, cell_width_px - kGap, suns));
 }
 
 void draw_plane_panels(Script& script, const Comparison& comparison, const Suns& suns,

@@ -12,6 +12,9 @@ namespace skyfit::plot {
 
 std::vector<LegendEntry> plane_legend(const Comparison& comparison, const Suns& suns);
 
+// What of a cell's height stands above its panel.
+double plane_strip_px(const Sheet& sheet, double cell_width_px, const Suns& suns);
+
 void draw_plane_panels(Script& script, const Comparison& comparison, const Suns& suns,
                        const Grid& grid);
 

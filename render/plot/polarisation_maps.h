@@ -28,8 +28,8 @@ PolarisedSky polarised_sky(const SkyModel& model, const Atmosphere<double>& atmo
 std::array<double, 2> polarisation_of(const PolarisedSky& sky, double view_zenith,
                                       double relative_azimuth);
 
-// `angle`: the sense in which the angle counts in the right map.
+// `angle`: the sense in which the angle counts in the second map. The panels are the two maps.
 Figure polarisation_figure(const std::string& title, const PolarisedSky& sky,
-                           PolarisationAngle angle);
+                           PolarisationAngle angle, const Sheet& sheet = {});
 
 }  // namespace skyfit::plot

@@ -10,6 +10,7 @@
 #include "data_refs/perez_sky.h"
 #include "data_refs/references.h"
 #include "model/atmosphere/derived.h"
+#include "model/base/misfit.h"
 #include "model/base/preset_reader.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
@@ -106,10 +107,9 @@ std::string subtitle_of(const Comparison& comparison, const FitRecord& record,
   if (comparison.curves.size() > 1) return std::string(scale);
   const Curve& curve = comparison.curves.front();
   return fmt::format(
-      "fitted with the model \"{}\": RMS log error {:.2f} % in the panels, {:.2f} % over the whole "
-      "sky; {}",
-      record.model, rms_log_percent(plane_samples(curve)), rms_log_percent(curve.hemisphere),
-      scale);
+      "fitted with the model \"{}\": RMS log error {} in the panels, {} over the whole sky; {}",
+      record.model, log_misfit_with_unit(rms_log_percent(plane_samples(curve)), 2),
+      log_misfit_with_unit(rms_log_percent(curve.hemisphere), 2), scale);
 }
 
 }  // namespace

@@ -23,4 +23,21 @@ void Script::text_label(double x_px, double y_px, std::string_view text, std::st
   line("set label {} at {} noenhanced {}", gnuplot_quoted(text), at(x_px, y_px), style);
 }
 
+std::size_t Script::text_lines(double x_px, double y_px, double width_px, std::string_view text,
+                               std::string_view style) {
+  const std::vector<std::string> lines = wrapped(text, width_px, sheet_);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    text_label(x_px, y_px - sheet_.line_px() * static_cast<double>(i), lines[i], style);
+  return lines.size();
+}
+
+std::size_t Script::upright_lines(double x_px, double y_px, double length_px, std::string_view text,
+                                  std::string_view style) {
+  const std::vector<std::string> lines = wrapped(text, length_px, sheet_);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    text_label(x_px + sheet_.line_px() * static_cast<double>(i), y_px, lines[i],
+               fmt::format("center rotate by 90 {}", style));
+  return lines.size();
+}
+
 }  // namespace skyfit::plot

@@ -242,6 +242,14 @@ TEST_F(BadInputTest, ADirectoryWithOtherFilesIsNotTouched) {
 TEST_F(BadInputTest, OutputsOfAnotherKind) {
   expect_refusal({"render", "--preset", "earth-clear", "--out", "frame.jpg"},
                  {"--out", "frame.jpg", ".png, .exr or .npy"});
+  expect_refusal({"plot", "x", "--out", "f.svg", "--figure", "pie"},
+                 {"--figure", "pie", "expected one of comparison, polarisation, maps"});
+  expect_refusal({"plot", "x", "--out", "f.svg", "--style", "poster"},
+                 {"--style", "poster", "expected one of paper, slides"});
+  expect_refusal({"plot", "x", "--out", "f.svg", "--width-mm", "60", "--font-size", "12"},
+                 {"--width-mm", "60", "84.67 mm for 12 pt"});
+  expect_refusal({"plot", "x", "--out", "f.svg", "--panels", "1,0"}, {"--panels", "1,0"});
+  expect_refusal({"plot", "x", "--out", "f.svg", "--panels", "3-1"}, {"--panels", "3-1"});
   expect_refusal({"plot", "x", "--out", "figure.gif"},
                  {"--out", "figure.gif", ".svg, .png or .pdf"});
 }

@@ -97,9 +97,10 @@ TEST_F(CommandsTest, CompareLeavesTablesAndFigures) {
               "oneil,nielsen,hoffman-preetham", "--fitted", "--out", "compared"});
   EXPECT_THAT(text, HasSubstr("oneil"));
   EXPECT_THAT(files(),
-              ::testing::IsSupersetOf({"compared/comparison.txt", "compared/comparison.csv",
-                                       "compared/comparison.json", "compared/comparison.svg",
-                                       "compared/comparison.png", "compared/fisheye.png"}));
+              ::testing::IsSupersetOf(
+                  {"compared/comparison.txt", "compared/comparison.csv", "compared/comparison.json",
+                   "compared/comparison.svg", "compared/comparison.png", "compared/comparison.pdf",
+                   "compared/fisheye.svg", "compared/fisheye.png", "compared/fisheye.pdf"}));
   const json models = json::parse(read("compared/comparison.json")).at("models");
   ASSERT_EQ(models.size(), 6u);  // three models, unfitted and fitted
   for (std::size_t i = 0; i < 6; i += 2) {
@@ -310,6 +311,11 @@ TEST_F(CommandsTest, FitLeavesItsFilesAndNothingElse) {
   output({"plot", "a/fitted", "--out", "figure.svg", "--out", "figure.pdf"});
   EXPECT_THAT(read("figure.svg"), HasSubstr("<svg"));
   EXPECT_THAT(read("figure.pdf"), ::testing::StartsWith("%PDF"));
+  output({"plot", "a/fitted", "--style", "paper", "--width-mm", "85", "--panels", "2", "--out",
+          "page.svg"});
+  EXPECT_THAT(read("page.svg"), HasSubstr("width=\"85mm\""));
+  EXPECT_THAT(run({"plot", "a/fitted", "--panels", "3", "--out", "page.svg"}).err,
+              HasSubstr("panel 3: expected one of 1 (sun zenith 20°), 2 (sun zenith 60°)"));
 }
 
 // RMS of the residuals of samples.csv, weighted, is the RMS of the report.

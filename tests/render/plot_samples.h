@@ -13,6 +13,7 @@
 
 #include "model/base/temporary_directory.h"
 #include "render/plot/comparison.h"
+#include "render/plot/measured_result.h"
 
 namespace skyfit::plot {
 
@@ -68,6 +69,31 @@ inline Comparison comparison_at(const std::vector<double>& suns_deg, double resi
   comparison.reference_label = "reference";
   comparison.curves = {curve_at(suns_deg, residual)};
   return comparison;
+}
+
+// Two scans of a day with all that the figures of measured skies show.
+inline MeasuredOutcome outcome(bool spectral) {
+  MeasuredOutcome result;
+  result.title = "folder/scans.csv";
+  result.spectral = spectral;
+  for (const int scan : {1, 2}) {
+    for (int k = 0; k < 24; ++k) {
+      for (const double nm : spectral ? std::vector{450.0, 550.0, 650.0} : std::vector{0.0}) {
+        const double value = 0.1 + 0.01 * k / scan;
+        result.samples.push_back({scan, 30.0 * scan, 20.0 + 30 * (k / 8), 45.0 * (k % 8) + 7, nm,
+                                  value, 0.05 * value, value * (1 + 0.05 * std::sin(k)),
+                                  k == 3 ? 0.0 : 1.0});
+      }
+    }
+    result.scans.push_back({"folder/scan" + std::to_string(scan) + ".csv",
+                            scan == 1 ? "2020-06-01T09:00:00Z" : "2020-06-01T10:00:00Z", 5, 6});
+    result.unknowns.push_back(
+        {"instrument.azimuth_offset[" + std::to_string(scan) + "]", "deg", scan, 5.0 + scan, 0.5});
+  }
+  result.unknowns.push_back({"ground.albedo", "1", 0, 0.2, 0.02});
+  result.covariance_unknowns = {"instrument.azimuth_offset[1]", "ground.albedo"};
+  result.covariance = {{0.25, 0.005}, {0.005, 0.0004}};
+  return result;
 }
 
 }  // namespace skyfit::plot
