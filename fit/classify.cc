@@ -11,6 +11,7 @@
 
 #include "fit/problem/likelihood.h"
 #include "fit/solve/least_squares.h"
+#include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -248,24 +249,25 @@ Classification classify(const refs::Reference& reference, const SpectralData& sp
 }
 
 std::string classification_text(const Classification& classification) {
-  std::string text =
-      fmt::format("{} directions of {} scans; RMS of log(formula / measured), percent\n",
-                  classification.directions, classification.scans.size());
+  std::string text = fmt::format(
+      "{} directions of {} scans; RMS of log(formula / measured), percent, above {:g} a factor\n",
+      classification.directions, classification.scans.size(), kMostPercent);
   for (const SkyMatch& match : classification.types) {
-    text += fmt::format("type {:>2} {:>7.3g}  {}{}\n", match.sky.type, match.rms_log_percent,
-                        match.sky.description,
+    text += fmt::format("type {:>2} {:>7}  {}{}\n", match.sky.type,
+                        log_misfit_digits(match.rms_log_percent, 3), match.sky.description,
                         &match == &classification.nearest() ? "  <- nearest" : "");
   }
   const refs::CieSky& free = classification.free.sky;
-  text +=
-      fmt::format("free    {:>7.3g}  a = {:.4g}, b = {:.4g}, c = {:.4g}, d = {:.4g}, e = {:.4g}\n",
-                  classification.free.rms_log_percent, free.a, free.b, free.c, free.d, free.e);
+  text += fmt::format("free    {:>7}  a = {:.4g}, b = {:.4g}, c = {:.4g}, d = {:.4g}, e = {:.4g}\n",
+                      log_misfit_digits(classification.free.rms_log_percent, 3), free.a, free.b,
+                      free.c, free.d, free.e);
   for (std::size_t s = 0; s < classification.scans.size(); ++s) {
     const int nearest = classification.nearest_of_scan(s);
     const SkyMatch& match = classification.types[static_cast<std::size_t>(nearest - 1)];
-    text += fmt::format("{}: nearest type {}, {:.3g} %; azimuth offset {:.3g} deg\n",
-                        classification.scans[s], nearest, match.rms_of_scan[s],
-                        match.azimuth_offset[s] * kDegreesPerRadian);
+    text +=
+        fmt::format("{}: nearest type {}, {}; azimuth offset {:.3g} deg\n", classification.scans[s],
+                    nearest, log_misfit_digits_with_unit(match.rms_of_scan[s], 3),
+                    match.azimuth_offset[s] * kDegreesPerRadian);
   }
   return text;
 }

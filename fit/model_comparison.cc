@@ -16,6 +16,7 @@
 #include "fit/problem/starts.h"
 #include "fit/result/errors.h"
 #include "fit/result/record.h"
+#include "model/base/misfit.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
 
@@ -270,9 +271,10 @@ std::string comparison_text(const refs::Reference& reference,
   const auto padded = [&](std::string_view model) { return fmt::format("{:<{}}", model, width); };
   std::string text = fmt::format(
       "Reference {}: {}\n"
-      "RMS of log(model/reference) with a free scale per sun position; worst direction as sun "
-      "zenith/view zenith/azimuth.\n{}\n",
-      reference.name, reference.description,
+      "RMS of log(model/reference) with a free scale per sun position, above {:g} % as a factor; "
+      "worst "
+      "direction as sun zenith/view zenith/azimuth.\n{}\n",
+      reference.name, reference.description, kMostPercent,
       reference.transfer == Transfer::kScalar
           ? "The reference was computed without polarisation; so are the models.\n"
           : "");
@@ -286,15 +288,15 @@ std::string comparison_text(const refs::Reference& reference,
         return fmt::format(fmt::runtime(format), line[name].get<double>());
       };
       const bool relative = reference.quantity == refs::Quantity::kRelativeLuminance;
-      text +=
-          fmt::format(kRow, padded(model), state, line["samples"].get<int>(),
-                      number("rms_log_percent", "{:.2f}"),
-                      relative ? "-" : number("scale", "{:.4g}"), number("worst_percent", "{:.1f}"),
-                      fmt::format("{}/{}/{}", number("worst_sun_zenith_deg", "{:.4g}"),
-                                  number("worst_view_zenith_deg", "{:.4g}"),
-                                  number("worst_relative_azimuth_deg", "{:.4g}")),
-                      number("precompute_s", "{:.3g}"), number("time_per_direction_us", "{:.3g}"),
-                      number("tables_mb", "{:.4g}"));
+      text += fmt::format(kRow, padded(model), state, line["samples"].get<int>(),
+                          log_misfit(line["rms_log_percent"].get<double>(), 2),
+                          relative ? "-" : number("scale", "{:.4g}"),
+                          log_misfit(line["worst_percent"].get<double>(), 1),
+                          fmt::format("{}/{}/{}", number("worst_sun_zenith_deg", "{:.4g}"),
+                                      number("worst_view_zenith_deg", "{:.4g}"),
+                                      number("worst_relative_azimuth_deg", "{:.4g}")),
+                          number("precompute_s", "{:.3g}"),
+                          number("time_per_direction_us", "{:.3g}"), number("tables_mb", "{:.4g}"));
     } else {
       text += fmt::format("{}{:<9}no figures\n", padded(model), state);
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "fit/result/report.h"
+#include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -39,16 +40,18 @@ std::string unknowns_list(const Result& result) {
 
 std::string table_text(const std::vector<StandardSkyFit>& fits) {
   std::string text = fmt::format(
-      "RMS of log ratio, percent, of one joint fit for all suns; suns by zenith angle, "
+      "RMS of log ratio, percent, above {:g} a factor, of one joint fit for all suns; suns by "
+      "zenith angle, "
       "deg\n{:<5}{:<18}{:>7}",
-      "type", "fitted with", "joint");
+      kMostPercent, "type", "fitted with", "joint");
   for (const ScanOutcome& scan : fits.front().result.scans)
     text += fmt::format("{:>7}", fmt::format("{:.4g}", sun_deg(scan)));
   text += "  plausible\n";
   for (const StandardSkyFit& fit : fits) {
-    text += fmt::format("{:<5}{:<18}{:>7.3g}", fit.type, fit.kind, fit.result.errors.rms_log);
+    text += fmt::format("{:<5}{:<18}{:>7}", fit.type, fit.kind,
+                        log_misfit_digits(fit.result.errors.rms_log, 3));
     for (const ScanOutcome& scan : fit.result.scans)
-      text += fmt::format("{:>7.3g}", scan.errors.rms_log);
+      text += fmt::format("{:>7}", log_misfit_digits(scan.errors.rms_log, 3));
     text += implausible_findings(fit.result).empty() ? "  yes" : "  no";
     text += fit.result.converged ? "\n" : ", NOT CONVERGED\n";
   }
@@ -92,9 +95,11 @@ std::string words(const std::vector<StandardSkyFit>& fits) {
     }
     const ScanOutcome& worst = *std::ranges::max_element(
         fit.result.scans, {}, [](const ScanOutcome& scan) { return scan.errors.rms_log; });
-    cannot += fmt::format("  {}: {:.3g} % with {}; worst {:.3g} % under a sun at {:.4g} deg, {}\n",
-                          description_of(fit), fit.result.errors.rms_log, fit.kind,
-                          worst.errors.rms_log, sun_deg(worst), suns_within(fit.result));
+    cannot +=
+        fmt::format("  {}: {} with {}; worst {} under a sun at {:.4g} deg, {}\n",
+                    description_of(fit), log_misfit_digits_with_unit(fit.result.errors.rms_log, 3),
+                    fit.kind, log_misfit_digits_with_unit(worst.errors.rms_log, 3), sun_deg(worst),
+                    suns_within(fit.result));
   }
   std::string text = fmt::format(
       "One horizontally uniform atmosphere for all suns can be {} of the {} standard skies within "

@@ -9,6 +9,7 @@
 
 #include "data_refs/references.h"
 #include "fit/fit.h"
+#include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -165,9 +166,9 @@ std::string loss_text(const SkyLoss& loss, std::string_view directions) {
           ? fmt::format("{:.2g} times too {}", factor, loss.worst_percent > 0 ? "bright" : "dark")
           : fmt::format("{:+.1f} %", 100 * std::expm1(loss.worst_percent / 100));
   return fmt::format(
-      "luminance RMS {:.2f} %, worst {} (sun {:.0f}, view {:.0f}, azimuth {:.0f} deg); colour "
+      "luminance RMS {}, worst {} (sun {:.0f}, view {:.0f}, azimuth {:.0f} deg); colour "
       "u'v' {:.4f} in the mean, {:.4f} at worst; {}",
-      loss.rms_percent, worst, loss.worst.sun_zenith * kDegreesPerRadian,
+      log_misfit_with_unit(loss.rms_percent, 2), worst, loss.worst.sun_zenith * kDegreesPerRadian,
       loss.worst.view_zenith * kDegreesPerRadian,
       std::remainder(loss.worst.relative_azimuth * kDegreesPerRadian, 360), loss.mean_uv,
       loss.worst_uv, directions);

@@ -14,6 +14,7 @@
 #include "fit/result/findings.h"
 #include "fit/result/report.h"
 #include "fit/result/report_words.h"
+#include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -185,7 +186,7 @@ void add_errors(xml_node body, const Result& result) {
   xml_node table = add_table(
       body, {"", "RMS of log, %", value_name(result) + ", %", "spectral, %", "mean bias, %"});
   const auto row = [&](std::string_view name, const Errors& e) {
-    add_row(table, {std::string(name), number_text(e.rms_log, 4), number_text(e.luminance, 4),
+    add_row(table, {std::string(name), log_misfit_digits(e.rms_log, 4), number_text(e.luminance, 4),
                     number_text(e.spectral, 4), number_text(e.mean_bias, 3)});
   };
   row("all scans, at the start", result.start_errors);
@@ -325,11 +326,12 @@ void add_checks(xml_node body, const Result& result, const Checks& checks) {
     xml_node table = add_table(body, {"", "RMS of log, %", "luminance, %", "spectral, %",
                                       "own: RMS of log, %", "luminance, %", "spectral, %"});
     for (const HoldOut& held : checks.hold_outs) {
-      add_row(table,
-              {held.name.substr(held.name.rfind('/') + 1), number_text(held.predicted.rms_log, 4),
-               number_text(held.predicted.luminance, 4), number_text(held.predicted.spectral, 4),
-               number_text(held.pointed.rms_log, 4), number_text(held.pointed.luminance, 4),
-               number_text(held.pointed.spectral, 4)});
+      add_row(
+          table,
+          {held.name.substr(held.name.rfind('/') + 1), log_misfit_digits(held.predicted.rms_log, 4),
+           number_text(held.predicted.luminance, 4), number_text(held.predicted.spectral, 4),
+           log_misfit_digits(held.pointed.rms_log, 4), number_text(held.pointed.luminance, 4),
+           number_text(held.pointed.spectral, 4)});
     }
     add(body, "p", hold_outs_meaning(), "small");
   }

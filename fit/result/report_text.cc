@@ -8,6 +8,7 @@
 #include "fit/result/record.h"
 #include "fit/result/report.h"
 #include "fit/result/report_words.h"
+#include "model/base/misfit.h"
 
 namespace skyfit::fit {
 namespace {
@@ -51,8 +52,9 @@ std::string reference_remarks(const Result& result) {
 std::string errors_text(const Result& result) {
   constexpr std::string_view kRow = "{:<44}{:>12}{:>12}{:>12}{:>12}\n";
   const auto row = [&](std::string_view name, const Errors& errors) {
-    return fmt::format(kRow, name, number_text(errors.rms_log, 4), number_text(errors.luminance, 4),
-                       number_text(errors.spectral, 4), number_text(errors.mean_bias, 3));
+    return fmt::format(kRow, name, log_misfit_digits(errors.rms_log, 4),
+                       number_text(errors.luminance, 4), number_text(errors.spectral, 4),
+                       number_text(errors.mean_bias, 3));
   };
   std::string text = fmt::format(kRow, "Errors, percent", "RMS of log", value_name(result),
                                  "spectral", "mean bias");
@@ -79,7 +81,8 @@ std::string polarisation_text(const Result& result) {
 std::string rms_text(const Result& result) {
   if (refs::is_irradiance(result.reference.quantity)) return "";  // the errors say it all
   const auto row = [](std::string_view name, double start, double fitted) {
-    return fmt::format("{:<52}{:>12}{:>12}\n", name, number_text(start), number_text(fitted));
+    return fmt::format("{:<52}{:>12}{:>12}\n", name, log_misfit_digits(start, 5),
+                       log_misfit_digits(fitted, 5));
   };
   const RmsSummary &start = result.start_rms, &fitted = result.rms;
   return fmt::format("{:<52}{:>12}{:>12}\n", "RMS of log ratio, percent", "start", "fitted") +
@@ -97,10 +100,10 @@ std::string scales_text(const Result& result) {
                   "RMS start", "RMS fitted", "scale");
   for (std::size_t s = 0; s < result.scans.size(); ++s) {
     const ScanOutcome& scan = result.scans[s];
-    text +=
-        fmt::format("{:<44}{:>14}{:>14}{:>18}\n", scan_name(result, s),
-                    number_text(scan.start_errors.rms_log, 4), number_text(scan.errors.rms_log, 4),
-                    number_text(scan.instrument[static_cast<std::size_t>(Instrument::kScale)]));
+    text += fmt::format("{:<44}{:>14}{:>14}{:>18}\n", scan_name(result, s),
+                        log_misfit_digits(scan.start_errors.rms_log, 4),
+                        log_misfit_digits(scan.errors.rms_log, 4),
+                        number_text(scan.instrument[static_cast<std::size_t>(Instrument::kScale)]));
   }
   return text + "\n";
 }
@@ -226,9 +229,9 @@ std::string hold_out_text(const std::vector<HoldOut>& hold_outs) {
   std::string text = fmt::format(kRow, "Errors of what was left out, percent", "RMS log",
                                  "luminance", "spectral", "own: RMS", "luminance", "spectral");
   const auto row = [&](std::string_view name, const Errors& predicted, const Errors& pointed) {
-    return fmt::format(kRow, name, number_text(predicted.rms_log, 4),
+    return fmt::format(kRow, name, log_misfit_digits(predicted.rms_log, 4),
                        number_text(predicted.luminance, 4), number_text(predicted.spectral, 4),
-                       number_text(pointed.rms_log, 4), number_text(pointed.luminance, 4),
+                       log_misfit_digits(pointed.rms_log, 4), number_text(pointed.luminance, 4),
                        number_text(pointed.spectral, 4));
   };
   Errors predicted, pointed;
@@ -258,8 +261,9 @@ std::string downweighted_text(const Result& result) {
 std::string brief_report(const Result& result) {
   const auto open = std::ranges::count_if(result.unknowns,
                                           [](const UnknownRow& row) { return !row.identifiable; });
-  std::string errors = fmt::format("{:.3g} % RMS log error ({:.3g} % at the start)",
-                                   result.errors.rms_log, result.start_errors.rms_log);
+  std::string errors = fmt::format("{} RMS log error ({} at the start)",
+                                   log_misfit_digits_with_unit(result.errors.rms_log, 3),
+                                   log_misfit_digits_with_unit(result.start_errors.rms_log, 3));
   if (!relative(result)) {
     errors = fmt::format("{} error {:.3g} %", value_name(result), result.errors.luminance);
     if (std::isfinite(result.errors.spectral))

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "data_refs/units.h"
+#include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -66,10 +67,10 @@ std::string value_name(const Result& result) {
 
 std::string errors_meaning(const Result& result) {
   return fmt::format(
-      "RMS of log: root mean square of ln(model / value) with a free scale per scan; {}: of\n"
-      "model / value - 1 over the {}; spectral: |model - value| over |value|, 2-norms over all\n"
-      "samples of 400 to 700 nm.\n",
-      value_name(result),
+      "RMS of log: root mean square of ln(model / value) with a free scale per scan, above {:g} %\n"
+      "its exponential as a factor; {}: of model / value - 1 over the {}; spectral:\n"
+      "|model - value| over |value|, 2-norms over all samples of 400 to 700 nm.\n",
+      kMostPercent, value_name(result),
       refs::is_irradiance(result.reference.quantity) ? "samples" : "directions");
 }
 

@@ -13,9 +13,13 @@ inline constexpr double kMostPercent = 50;
 // `percent` is 100 ln(model / reference), or a root mean square of that. NaN and infinity are "nan"
 // and "inf".
 bool is_factor(double percent);
-// Without a unit, where a heading or a label behind it says percent: "4.0", or "×1.8".
+// Without a unit, where a heading or a label behind it says percent: "4.0", or "×1.8", which has
+// one significant digit more than the percent has decimals.
 std::string log_misfit(double percent, int decimals);
+// The same with so many significant digits in the place of decimals; "-" where it is not known.
+std::string log_misfit_digits(double percent, int digits);
 // "4.0 %", or "×1.8".
 std::string log_misfit_with_unit(double percent, int decimals);
+std::string log_misfit_digits_with_unit(double percent, int digits);
 
 }  // namespace skyfit

@@ -18,8 +18,15 @@ TEST(Misfit, IsPercentUpToFifty) {
 
 TEST(Misfit, IsAFactorAbove) {
   EXPECT_EQ(log_misfit_with_unit(60, 2), "×1.82");  // exp(0.6) = 1.822
-  EXPECT_EQ(log_misfit(-110, 2), "×0.33");          // exp(-1.1) = 0.333
-  EXPECT_EQ(log_misfit_with_unit(250, 1), "×12.2");
+  EXPECT_EQ(log_misfit(-110, 2), "×0.333");         // exp(-1.1) = 0.3329
+  EXPECT_EQ(log_misfit_with_unit(250, 1), "×12");   // exp(2.5) = 12.18
+}
+
+TEST(Misfit, HasSignificantDigitsWhereTheyAreAsked) {
+  EXPECT_EQ(log_misfit_digits(3.96412, 4), "3.964");
+  EXPECT_EQ(log_misfit_digits_with_unit(27.734, 3), "27.7 %");
+  EXPECT_EQ(log_misfit_digits_with_unit(60, 3), "×1.82");
+  EXPECT_EQ(log_misfit_digits(std::numeric_limits<double>::quiet_NaN(), 3), "-");
 }
 
 TEST(Misfit, WhatIsNotFiniteStays) {
