@@ -72,6 +72,14 @@ void render_strip(const RenderRequest& request) {
   Frame whole = side_by_side(frames, kGap);
   whole.metadata.emplace_back(
       "skyfit:strip", fmt::format("{} [{}]: {}", info.name, info.unit, fmt::join(values, ", ")));
+  int left = 0;
+  for (int i = 0; i < count; ++i) {
+    whole.captions.push_back(
+        {left, frames[i].width, std::string(info.name),
+         fmt::format("{:.4g}{}{}", strip.values[i], info.unit == "1" ? "" : " ",
+                     info.unit == "1" ? "" : info.unit)});
+    left += frames[i].width + kGap;
+  }
   write_frame_files(whole, paths(request.out), request.tone, false);
   time.done("files");
   print(fmt::format("from left to right, {} [{}]:\n", info.name, info.unit));

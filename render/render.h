@@ -192,6 +192,12 @@ struct FrameStatistics {
   std::vector<PassTime> steps = {};
 };
 
+// What a part of a picture shows, "mie.scattering" and "1e-05 1/m"; columns left .. left + width.
+struct Caption {
+  int left = 0, width = 0;
+  std::string name, value;
+};
+
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
 struct Frame {
   int width = 0, height = 0;
@@ -210,7 +216,8 @@ struct Frame {
   std::optional<FrameLayers> layers;
   FrameStatistics statistics;
   std::vector<std::pair<std::string, std::string>>
-      metadata;  // preset, sun, camera, version; written with the image
+      metadata;                   // preset, sun, camera, version; written with the image
+  std::vector<Caption> captions;  // below the picture in a PNG; other files hold the picture alone
 };
 
 // What draws: OSMesa's software or, by EGL, a GPU (or Mesa's software where there is none).

@@ -12,6 +12,7 @@
 
 #include "model/base/npy_file.h"
 #include "model/base/whole_file.h"
+#include "render/image/caption.h"
 #include "render/image/gamut.h"
 #include "render/image/tone.h"
 
@@ -158,12 +159,14 @@ void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file
 }
 
 void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
-  OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
+  const CaptionBand band = caption_band(frame.captions, frame.width, frame.height);
+  OIIO::ImageSpec spec(frame.width, frame.height + band.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("png:compressionLevel",
                  3);  // noise hardly shrinks: half the time of 6, 5 % larger
   for (const auto& [name, value] : frame.metadata) spec.attribute(name, value);
-  const std::vector<std::uint8_t> bytes = tone_mapped(frame, tone);
+  std::vector<std::uint8_t> bytes = tone_mapped(frame, tone);
+  bytes.insert(bytes.end(), band.rgb.begin(), band.rgb.end());
   write_whole(file, spec, OIIO::TypeDesc::UINT8, bytes.data());
 }
 

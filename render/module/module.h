@@ -25,7 +25,7 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 9;
+  static constexpr int kRevision = 10;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);

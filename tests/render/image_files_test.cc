@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -144,6 +145,30 @@ TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
   expect_equal(layers.transmittance, "transmittance.", "RGB");
   expect_equal(layers.normal, "normal.", "XYZ");
   expect_equal(layers.albedo, "albedo.", "RGB");
+}
+
+// The picture is that without captions, and below each part there is text, in it and not beside it.
+TEST_F(ImageFiles, CaptionsStandBelowTheirParts) {
+  Frame frame = gradient(400, 60);
+  const std::vector<std::uint8_t> picture = tone_mapped(frame, exposed(frame));
+  frame.captions = {{0, 150, "ground.albedo", "0.1"}, {250, 150, "ground.albedo", "0.25"}};
+  const fs::path file = directory_ / "strip.png";
+  write_png_file(frame, file, exposed(frame));
+  const auto input = OIIO::ImageInput::open(file.string());
+  ASSERT_TRUE(input);
+  ASSERT_GT(input->spec().height, 60);
+  std::vector<std::uint8_t> bytes(3u * 400 * static_cast<std::size_t>(input->spec().height));
+  ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data()));
+  EXPECT_TRUE(std::equal(picture.begin(), picture.end(), bytes.begin()));
+  std::set<int> columns;
+  for (std::size_t i = picture.size(); i < bytes.size(); i += 3)
+    if (bytes[i] > 128) columns.insert(static_cast<int>(i / 3 % 400));
+  EXPECT_TRUE(std::ranges::any_of(columns, [](int x) { return x < 150; }));
+  EXPECT_TRUE(std::ranges::any_of(columns, [](int x) { return x >= 250; }));
+  EXPECT_TRUE(std::ranges::none_of(columns, [](int x) { return x >= 150 && x < 250; }));
+  frame.captions = {{0, 20, "ground.albedo", "0.1"}};
+  write_png_file(frame, file, exposed(frame));
+  EXPECT_EQ(OIIO::ImageInput::open(file.string())->spec().height, 60) << "too narrow for text";
 }
 
 TEST_F(ImageFiles, PngIsEightBitWithoutBands) {
