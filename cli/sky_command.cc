@@ -31,11 +31,13 @@ constexpr double kMaxAltitude = 1e12;  // metres, beyond any atmosphere
 
 struct SkyOptions {
   std::string preset, site_pressure, model = "reference";
-  std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength, netcdf;
+  std::string altitude = "0", sun_zenith, view_zenith, azimuth = "0", wavelength, netcdf, npz;
   bool luminance = false, color = false, irradiance = false, sigma = false;
   bool stokes = false, iau = false, scalar = false, refraction = false, apparent_sun = false;
   int orders = 0;
   int threads = default_threads();
+
+  bool prints_csv() const { return netcdf.empty() && npz.empty(); }
 };
 
 struct SkyGrid {
@@ -168,6 +170,11 @@ std::string place(double altitude, double sun, double view, double azimuth) {
   return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},", altitude, sun, view, azimuth);
 }
 
+void leave_arrays(const SkyOptions& options, const fit::NetcdfFile& sky) {
+  if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, sky);
+  if (!options.npz.empty()) write_sky_npz(options.npz, sky);
+}
+
 void leave_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, const SkyGrid& grid,
                   const SkyTable& table, const SkyOptions& options) {
   const PolarisationAngle angle =
@@ -176,7 +183,7 @@ void leave_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, c
   const std::vector<SkyPoint> points = points_of(grid, kParameters);
   const StokesValues stokes = model.stokes(atmosphere, table.nodes, points, {});
   check_light(stokes.i, table.nodes, points);
-  if (!options.netcdf.empty()) {
+  if (!options.prints_csv()) {
     std::vector<double> all;
     for (int p = 0; p < stokes.i.points; ++p) {
       for (int w = 0; w < stokes.i.wavelengths; ++w) {
@@ -184,8 +191,8 @@ void leave_stokes(const SkyModel& model, const Atmosphere<double>& atmosphere, c
         all.insert(all.end(), row.begin(), row.end());
       }
     }
-    fit::write_netcdf(options.netcdf, sky_netcdf("Polarised sky of " + options.preset,
-                                                 grid.axes(true), stokes_columns(), all));
+    leave_arrays(options, sky_netcdf("Polarised sky of " + options.preset, grid.axes(true),
+                                     stokes_columns(), all));
     return;
   }
   print(stokes_header(place_columns(grid)));
@@ -205,14 +212,14 @@ void leave_sky(const SkyModel& model, const Atmosphere<double>& atmosphere, cons
   check_light(sky, table.nodes, points);
   const std::vector<SkyValues> orders =
       orders_of(atmosphere, table, points, reference_options(options));
-  if (!options.netcdf.empty()) {
+  if (!options.prints_csv()) {
     std::vector<double> all;
     for (int p = 0; p < sky.points; ++p) {
       const std::vector<double> values = place_values(table, sky, orders, p, 1);
       all.insert(all.end(), values.begin(), values.end());
     }
-    fit::write_netcdf(options.netcdf, sky_netcdf("Sky of " + options.preset, grid.axes(true),
-                                                 table.all_columns(), all));
+    leave_arrays(options,
+                 sky_netcdf("Sky of " + options.preset, grid.axes(true), table.all_columns(), all));
     return;
   }
   print(header(table, place_columns(grid)));
@@ -241,9 +248,9 @@ void leave_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
       all.insert(all.end(), values.begin(), values.end());
     }
   }
-  if (!options.netcdf.empty()) {
-    fit::write_netcdf(options.netcdf, sky_netcdf("Irradiance under " + options.preset,
-                                                 grid.axes(false), table.all_columns(), all));
+  if (!options.prints_csv()) {
+    leave_arrays(options, sky_netcdf("Irradiance under " + options.preset, grid.axes(false),
+                                     table.all_columns(), all));
     return;
   }
   print(header(table, fmt::format("altitude_m,{}_deg,", grid.sun_column())));
@@ -252,6 +259,7 @@ void leave_irradiance(const SkyModel& model, const Atmosphere<double>& atmospher
 
 void run_sky(const SkyOptions& options) {
   require_netcdf(options.netcdf);
+  if (!options.npz.empty()) require_output_files({options.npz}, {".npz"}, "--npz");
   SkyGrid grid = parse_grid(options);
   Preset preset = preset_named(options.preset);
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
@@ -356,6 +364,12 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
       ->excludes(sigma)
       ->excludes(stokes);
   add_netcdf_option(command, options.netcdf, "Write, in place of the CSV, the table");
+  command
+      .add_option(
+          "--npz", options.npz,
+          "Write, in place of the CSV, the table for numpy.load(): each list and each column "
+          "by its name")
+      ->type_name("FILE.npz");
   add_threads_option(command, options.threads);
 }
 

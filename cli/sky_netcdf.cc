@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/sky_netcdf.h"
 
+#include <map>
+#include <utility>
+#include <variant>
+
+#include "model/base/npz_file.h"
+
 namespace skyfit::cli {
 
 fit::NetcdfFile sky_netcdf(const std::string& title, const std::vector<GridAxis>& axes,
@@ -20,6 +26,18 @@ fit::NetcdfFile sky_netcdf(const std::string& title, const std::vector<GridAxis>
         {columns[c].name, names, std::move(own), columns[c].name, columns[c].units});
   }
   return file;
+}
+
+void write_sky_npz(const std::string& file, const fit::NetcdfFile& sky) {
+  const std::map<std::string, std::size_t> size(sky.dimensions.begin(), sky.dimensions.end());
+  std::vector<NamedArray> arrays;
+  for (const fit::NetcdfVariable& variable : sky.variables) {
+    NamedArray array{variable.name, {}, std::get<std::vector<double>>(variable.values)};
+    for (const std::string& dimension : variable.dimensions)
+      array.shape.push_back(size.at(dimension));
+    arrays.push_back(std::move(array));
+  }
+  write_npz(file, arrays);
 }
 
 }  // namespace skyfit::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The NetCDF of `skyfit sky`: every column a variable over the lists that were given.
+// The NetCDF and the .npz of `skyfit sky`: every column a variable over the lists that were given.
 #pragma once
 
 #include <string>
@@ -19,5 +19,8 @@ struct GridAxis {
 fit::NetcdfFile sky_netcdf(const std::string& title, const std::vector<GridAxis>& axes,
                            const std::vector<SkyColumn>& columns,
                            const std::vector<double>& values);
+
+// The arrays of that file as .npz: each axis, and each column over the axes.
+void write_sky_npz(const std::string& file, const fit::NetcdfFile& sky);
 
 }  // namespace skyfit::cli

@@ -9,24 +9,26 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "model/base/whole_file.h"
 
 namespace skyfit {
+namespace {
 
 // Magic bytes, length of the header, and the header: a Python dictionary, padded so that the
 // numbers begin at a multiple of 64 bytes.
-void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
-               std::span<const float> values) {
+template <class Number>
+std::string bytes_of(std::string_view type, const std::vector<std::size_t>& shape,
+                     std::span<const Number> values) {
   static_assert(std::endian::native == std::endian::little);
   if (std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) !=
       values.size())
-    throw std::invalid_argument(
-        fmt::format("{}: {} values do not fill the shape", file.string(), values.size()));
+    throw std::invalid_argument(fmt::format("{} values do not fill the shape", values.size()));
   std::string dimensions;
   for (const std::size_t size : shape) dimensions += fmt::format("{}, ", size);
   std::string header =
-      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", dimensions);
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, dimensions);
   constexpr std::size_t kPrefix = 10, kAlignment = 64;
   header.append(kAlignment - 1 - (kPrefix + header.size()) % kAlignment, ' ');
   header += '\n';
@@ -36,7 +38,18 @@ void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>
   bytes += static_cast<char>(length >> 8);
   bytes += header;
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-  write_whole_file(file, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
+               std::span<const float> values) {
+  write_whole_file(file, bytes_of("<f4", shape, values));
+}
+
+std::string npy_bytes(const std::vector<std::size_t>& shape, std::span<const double> values) {
+  return bytes_of("<f8", shape, values);
 }
 
 }  // namespace skyfit

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace skyfit {
@@ -14,5 +15,8 @@ namespace skyfit {
 // as many values as the shape has.
 void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
                std::span<const float> values);
+
+// The bytes of such a file, of float64. Throws std::invalid_argument as write_npy().
+std::string npy_bytes(const std::vector<std::size_t>& shape, std::span<const double> values);
 
 }  // namespace skyfit

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The NetCDF files of skyfit open in xarray and hold the numbers of the CSV. Usage: xarray_test.py SKYFIT"""
+"""The NetCDF files of skyfit open in xarray, its .npz in NumPy, and both hold the numbers of the CSV. Usage: xarray_test.py SKYFIT"""
 import csv
 import io
 import pathlib
@@ -41,7 +41,17 @@ for options, column, axes in [
     for row in table:
         place = {axis: float(row[names.get(axis, axis + "_deg")]) for axis in axes}
         numpy.testing.assert_allclose(float(data[column].sel(place)), float(row[column]), rtol=1e-8)
+    assert run(*options, "--npz", str(here / "sky.npz")) == ""
+    with numpy.load(here / "sky.npz") as arrays:
+        assert set(arrays) == set(data.variables), set(arrays)
+        for name in arrays:
+            assert arrays[name].dtype == numpy.float64
+            numpy.testing.assert_array_equal(arrays[name], data[name].values)
     data.close()
+
+piped = subprocess.run([skyfit, *sky, "--npz", "-.npz"], check=True, capture_output=True).stdout
+with numpy.load(io.BytesIO(piped)) as arrays:
+    assert arrays["luminance_cd_m2"].shape == (1, 2, 3, 3)
 
 run("fit", "--reference", "cie:12", "--sun-zenith-deg", "30,60", "--starts", "1", "--lobes", "1", "--free",
     "mie.scattering,mie.phase.g", "--out", str(here / "fitted"), "--netcdf", str(here / "fit.nc"))
