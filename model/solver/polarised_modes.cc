@@ -355,7 +355,7 @@ void PolarisedModes::advance(const StreamColumns& light, const LevelMoments& int
                                              sweep(components_[1].light, suns));
 }
 
-void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling,
+void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling, double share,
                                       const LevelMoments& intensity,
                                       const LevelMoments& intensity_tangents) {
   const std::size_t tangents = columns(Kind::kTangents);
@@ -384,7 +384,7 @@ void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling,
   const State& state = state_[Kind::kValues];
   const std::array<StreamSources, 2> of = sources(state.all, intensity, state.spin);
   for (std::size_t c = 0; c < components_.size(); ++c)
-    components_[c].light.prepare_coupling(coupling, of[c], tangent[c]);
+    components_[c].light.prepare_coupling(coupling, share, of[c], tangent[c]);
 }
 
 void PolarisedModes::add_coupling(const HorizontalCoupling& coupling, const ModesOf& modes_of,
