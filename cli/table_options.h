@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,14 @@
 #include "model/tables/table_precision.h"
 
 namespace skyfit::cli {
+
+// "full|medium", as a help text shows choices.
+template <class Row>
+std::string names_of(std::span<const Row> rows) {
+  std::string names;
+  for (const Row& row : rows) names += (names.empty() ? "" : "|") + std::string(row.name);
+  return names;
+}
 
 // The row of a registry by its name.
 template <class Row>

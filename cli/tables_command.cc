@@ -125,12 +125,13 @@ void add_tables_command(CLI::App& app) {
   option("preset", arguments->preset, "Shipped preset or preset file", "PRESET")->required();
   option("--out", arguments->out, "Directory of the tables, tables.json, sky.glsl and sky.hlsl",
          "DIR");
-  option("--format", arguments->format, "Of the tables, see below", "NAME");
-  option("--precision", arguments->precision, "Of the tables of scattered light: float or half",
-         "NAME");
-  option("--size", arguments->size, "Texels of the tables, see below", "NAME");
+  option("--format", arguments->format, "Of the tables, see below",
+         names_of(table_formats()).c_str());
+  option("--precision", arguments->precision, "Of the tables of scattered light", "float|half");
+  option("--size", arguments->size, "Texels of the tables, see below",
+         names_of(table_sizes()).c_str());
   option("--primaries", arguments->primaries,
-         "In which the shaders return light: rec709, rec2020 or xyz", "NAME");
+         "In which the shaders return light", "rec709|rec2020|xyz");
   command.add_flag("--measure", arguments->measure,
                    "Print memory and error of every size and precision; writes nothing");
   command.add_flag("--force", arguments->force, "Write into a directory that has other files");

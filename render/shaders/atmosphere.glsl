@@ -89,7 +89,7 @@ float disc_brightness(float distance) {
 }
 
 #ifdef EXACT_FILTER
-// GPUs interpolate in steps of 1/256 of a texel, too coarse where neighbouring points are subtracted.
+// GPUs interpolate in steps of 1/256 of a texel, too coarse where neighbouring points are subtracted; others round the result.
 vec4 look_up(sampler2D table, vec2 at) {
   ivec2 size = textureSize(table, 0);
   vec2 place = clamp(at * vec2(size) - 0.5, vec2(0.0), vec2(size) - 1.0);

@@ -169,6 +169,8 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables,
        fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
        fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)});
   if (codes.precision != TablePrecision::kFloat) defined.emplace_back("ENCODED");
+  // Mesa rounds what it interpolates between texels of 8 bits to 8 bits again.
+  if (codes.precision == TablePrecision::k8Bit) defined.emplace_back("EXACT_FILTER");
   if (tables.sky_rays.mapping == SkyRayMapping::kHillaire) {
     using Hillaire = literature::HillaireSizes;
     defined.insert(defined.end(),
