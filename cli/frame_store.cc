@@ -36,10 +36,18 @@ std::string hash_of_file(const fs::path& file) {
 
 ordered_json json_of(const TableSizes& sizes) {
   const RayTexels rays = sizes.scattering(), outside = sizes.outside();
-  return {sizes.optical_depth_mu,  sizes.optical_depth_r, sizes.irradiance_mu_s,
-          sizes.irradiance_r,      sizes.scattering_r,    rays.ground,
-          rays.sky,                rays.mu_s,             rays.azimuth,
-          outside.sky,             outside.mu_s,          outside.azimuth};
+  return {sizes.optical_depth_mu,
+          sizes.optical_depth_r,
+          sizes.irradiance_mu_s,
+          sizes.irradiance_r,
+          sizes.scattering_r,
+          rays.ground,
+          rays.sky,
+          rays.mu_s,
+          rays.azimuth,
+          outside.sky,
+          outside.mu_s,
+          outside.azimuth};
 }
 
 ordered_json json_of(const Scene& scene) {

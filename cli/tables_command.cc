@@ -21,8 +21,7 @@ namespace skyfit::cli {
 namespace {
 
 struct TablesArguments {
-  std::string preset, out, format = "dds", precision = "half", size = "small",
-                           primaries = "rec709";
+  std::string preset, out, format = "dds", precision = "half", size = "small", primaries = "rec709";
   bool force = false, measure = false;
   int threads = default_threads();
 };
@@ -30,7 +29,7 @@ struct TablesArguments {
 constexpr double kPercent = 100, kMegabyte = 1e-6;
 
 std::string error_text(const LuminanceError& error) {
-  return fmt::format("{:.2g} % rms, {:.2g} % at worst", kPercent * error.rms,
+  return fmt::format("{:.2f} % rms, {:.2f} % at worst", kPercent * error.rms,
                      kPercent * error.worst);
 }
 
@@ -51,9 +50,8 @@ void write(const TablesArguments& arguments, const Preset& preset, const Spectra
   const WholeDirectory directory(arguments.out, engine_file_names(format), arguments.force);
   const AtmosphereTables tables = tables_of(preset, spectra, sizes, arguments.threads);
   const EngineTables engine = engine_tables(preset, tables, precision, primaries);
-  directory.publish([&](const std::filesystem::path& staging) {
-    write_engine_tables(engine, format, staging);
-  });
+  directory.publish(
+      [&](const std::filesystem::path& staging) { write_engine_tables(engine, format, staging); });
   std::size_t bytes = 0;
   for (const EngineTable& table : engine.tables) {
     const EncodedTable& texels = table.texels;
@@ -63,32 +61,30 @@ void write(const TablesArguments& arguments, const Preset& preset, const Spectra
     bytes += texels.texels.size();
   }
   print(fmt::format("{0}/tables.json, {0}/sky.glsl, {0}/sky.hlsl\n", arguments.out));
-  const TableErrors errors = errors_against_reference(in_precision(tables, precision), spectra,
-                                                      arguments.threads);
-  print(
-      fmt::format("memory of the textures: {:.3g} MB\n"
-                  "error of the luminance of the sky from the ground, against `skyfit sky`:\n"
-                  "  suns 0 to 88 deg: {}\n"
-                  "  suns 90 to 96 deg: {}\n",
-                  kMegabyte * static_cast<double>(bytes), error_text(errors.day),
-                  error_text(errors.twilight)));
+  const TableErrors errors =
+      errors_against_reference(in_precision(tables, precision), spectra, arguments.threads);
+  print(fmt::format(
+      "memory of the textures: {:.3g} MB\n"
+      "error of the luminance of the sky from the ground, against `skyfit sky`:\n"
+      "  suns 0 to 88 deg: {}\n"
+      "  suns 90 to 96 deg: {}\n",
+      kMegabyte * static_cast<double>(bytes), error_text(errors.day), error_text(errors.twilight)));
 }
 
 void measure(const TablesArguments& arguments, const Preset& preset, const SpectralData& spectra) {
-  print(fmt::format("Tables of the preset {} against those of full size in float: memory, and "
-                    "errors of luminance in percent,\nrms and worst, of the sky by day (suns 0 to "
-                    "88 deg), of the sky in twilight (90 to 96 deg), and of the light\nof 2 and 20 "
-                    "km of air before the ground.\n\n"
-                    "{:<8} {:<9} {:>9}   {:>7} {:>7}   {:>8} {:>7}   {:>7} {:>7}\n",
-                    preset.name, "size", "precision", "MB", "day", "worst", "twilight", "worst",
-                    "air", "worst"));
+  print(fmt::format(
+      "Tables of the preset {} against those of full size in float: memory, and "
+      "errors of luminance in percent,\nrms and worst, of the sky by day (suns 0 to "
+      "88 deg), of the sky in twilight (90 to 96 deg), and of the light\nof 2 and 20 "
+      "km of air before the ground.\n\n"
+      "{:<8} {:<9} {:>9}   {:>7} {:>7}   {:>8} {:>7}   {:>7} {:>7}\n",
+      preset.name, "size", "precision", "MB", "day", "worst", "twilight", "worst", "air", "worst"));
   const AtmosphereTables full =
       tables_of(preset, spectra, table_sizes().front().sizes, arguments.threads);
   for (const TableSizesEntry& size : table_sizes()) {
-    const AtmosphereTables tables =
-        &size == &table_sizes().front()
-            ? full
-            : tables_of(preset, spectra, size.sizes, arguments.threads);
+    const AtmosphereTables tables = &size == &table_sizes().front()
+                                        ? full
+                                        : tables_of(preset, spectra, size.sizes, arguments.threads);
     for (const TablePrecisionEntry& precision : table_precisions()) {
       const TableErrors errors =
           errors_against_tables(in_precision(tables, precision.precision), full);
@@ -130,8 +126,8 @@ void add_tables_command(CLI::App& app) {
   option("--precision", arguments->precision, "Of the tables of scattered light", "float|half");
   option("--size", arguments->size, "Texels of the tables, see below",
          names_of(table_sizes()).c_str());
-  option("--primaries", arguments->primaries,
-         "In which the shaders return light", "rec709|rec2020|xyz");
+  option("--primaries", arguments->primaries, "In which the shaders return light",
+         "rec709|rec2020|xyz");
   command.add_flag("--measure", arguments->measure,
                    "Print memory and error of every size and precision; writes nothing");
   command.add_flag("--force", arguments->force, "Write into a directory that has other files");

@@ -155,10 +155,11 @@ precisions 5-4 65 --view valley "${small[@]}"
 figure "5-4: tables of 16 and of 8 bits, midday and afternoon" "Hardly different." \
   "bruneton, 16 bits, midday" "8 bits, midday" "16 bits, afternoon" "8 bits, afternoon"
 begin
-precisions 5-5 86 --view sunset "${small[@]}"
 precisions 5-5 89 --view sunset "${small[@]}"
-figure "5-5: tables of 16 and of 8 bits toward a low sun" "8 bits show bands, the more the lower the sun." \
-  "bruneton, 16 bits, 86 deg" "8 bits, 86 deg" "16 bits, 89 deg" "8 bits, 89 deg"
+precisions 5-5 93 --view sunset "${small[@]}"
+figure "5-5: tables of 16 and of 8 bits toward a low sun" \
+  "8 bits show bands, the more the lower the sun. Here, where 255 steps reach just as far as each table's light, they come after sunset." \
+  "bruneton, 16 bits, 89 deg" "8 bits, 89 deg" "16 bits, 93 deg" "8 bits, 93 deg"
 text "5.2.2: memory and error of tables" \
   "Of the reference's tables, against those of full size in single precision. His 8 bits hold light, these its logarithm." \
   tables earth-clear --measure

@@ -77,9 +77,8 @@ std::size_t bytes_of_texel(TablePrecision precision) {
 }
 
 EncodedTable encoded(const Table& table, TableHolds holds, TablePrecision precision) {
-  EncodedTable result{table.width, table.height,
-                      table.depth, precision,
-                      code_of(table, holds, precision), {}};
+  EncodedTable result{
+      table.width, table.height, table.depth, precision, code_of(table, holds, precision), {}};
   const double scale = result.code.scale, offset = result.code.offset;
   switch (precision) {
     case TablePrecision::kFloat:
@@ -139,52 +138,51 @@ AtmosphereTables in_precision(const AtmosphereTables& tables, TablePrecision pre
 
 std::size_t table_bytes(const AtmosphereTables& tables, TablePrecision precision) {
   std::size_t encoded = texels(tables.rayleigh_like) + texels(tables.single),
-              single = texels(tables.optical_depth) + texels(tables.irradiance) +
-                       texels(tables.phase);
+              single =
+                  texels(tables.optical_depth) + texels(tables.irradiance) + texels(tables.phase);
   (sky_rays_encoded(tables.sky_rays.mapping) ? encoded : single) +=
       texels(tables.sky_rays.air) + texels(tables.sky_rays.aerosol);
   return encoded * bytes_of_texel(precision) + single * bytes_of_texel(TablePrecision::kFloat);
 }
 
 std::span<const TableSizesEntry> table_sizes() {
-  static constexpr std::array kSizes = {
-      TableSizesEntry{"full", {}, "what skyfit render takes"},
-      TableSizesEntry{"medium",
-                      {.scattering_ground = 14,
-                       .scattering_sky = 50,
-                       .scattering_azimuth = 16,
-                       .outside_sky = 70,
-                       .outside_mu_s = 96,
-                       .outside_azimuth = 32},
-                      "half of the texels"},
-      TableSizesEntry{"small",
-                      {.optical_depth_mu = 128,
-                       .optical_depth_r = 64,
-                       .irradiance_mu_s = 48,
-                       .irradiance_r = 12,
-                       .scattering_r = 32,
-                       .scattering_ground = 10,
-                       .scattering_sky = 40,
-                       .scattering_mu_s = 44,
-                       .scattering_azimuth = 14,
-                       .outside_sky = 50,
-                       .outside_mu_s = 64,
-                       .outside_azimuth = 24},
-                      "a fifth of the texels"},
-      TableSizesEntry{"tiny",
-                      {.optical_depth_mu = 128,
-                       .optical_depth_r = 64,
-                       .irradiance_mu_s = 32,
-                       .irradiance_r = 8,
-                       .scattering_r = 16,
-                       .scattering_ground = 8,
-                       .scattering_sky = 24,
-                       .scattering_mu_s = 32,
-                       .scattering_azimuth = 8,
-                       .outside_sky = 32,
-                       .outside_mu_s = 48,
-                       .outside_azimuth = 16},
-                      "a thirtieth of the texels"}};
+  static constexpr std::array kSizes = {TableSizesEntry{"full", {}, "what skyfit render takes"},
+                                        TableSizesEntry{"medium",
+                                                        {.scattering_ground = 14,
+                                                         .scattering_sky = 50,
+                                                         .scattering_azimuth = 16,
+                                                         .outside_sky = 70,
+                                                         .outside_mu_s = 96,
+                                                         .outside_azimuth = 32},
+                                                        "half of the texels"},
+                                        TableSizesEntry{"small",
+                                                        {.optical_depth_mu = 128,
+                                                         .optical_depth_r = 64,
+                                                         .irradiance_mu_s = 48,
+                                                         .irradiance_r = 12,
+                                                         .scattering_r = 32,
+                                                         .scattering_ground = 10,
+                                                         .scattering_sky = 40,
+                                                         .scattering_mu_s = 44,
+                                                         .scattering_azimuth = 14,
+                                                         .outside_sky = 50,
+                                                         .outside_mu_s = 64,
+                                                         .outside_azimuth = 24},
+                                                        "a fifth of the texels"},
+                                        TableSizesEntry{"tiny",
+                                                        {.optical_depth_mu = 128,
+                                                         .optical_depth_r = 64,
+                                                         .irradiance_mu_s = 32,
+                                                         .irradiance_r = 8,
+                                                         .scattering_r = 16,
+                                                         .scattering_ground = 8,
+                                                         .scattering_sky = 24,
+                                                         .scattering_mu_s = 32,
+                                                         .scattering_azimuth = 8,
+                                                         .outside_sky = 32,
+                                                         .outside_mu_s = 48,
+                                                         .outside_azimuth = 16},
+                                                        "a thirtieth of the texels"}};
   return kSizes;
 }
 

@@ -22,7 +22,7 @@ constexpr const char *kJson = "tables.json", *kGlsl = "sky.glsl", *kHlsl = "sky.
 
 struct TableEntry {
   std::string_view name, meaning, axes;
-  Table AtmosphereTables::* table;
+  Table AtmosphereTables::*table;
   bool scattering;  // logarithms of scattered light, in the precision that is asked for
 };
 
@@ -30,8 +30,7 @@ struct TableEntry {
 constexpr std::array kTables = {
     TableEntry{"optical_depth", "optical depth from a point to the top of the atmosphere",
                "x: cosine of the zenith angle, y: height", &AtmosphereTables::optical_depth, false},
-    TableEntry{"irradiance",
-               "diffuse irradiance of a horizontal surface per unit solar irradiance",
+    TableEntry{"irradiance", "diffuse irradiance of a horizontal surface per unit solar irradiance",
                "x: sun, y: height", &AtmosphereTables::irradiance, false},
     TableEntry{"rayleigh_like",
                "natural logarithm of the mean along the ray, per km, of single Rayleigh scattering "
@@ -85,13 +84,13 @@ std::vector<std::string> defines_of(const EngineTables& engine, const Atmosphere
   for (const auto& parameters : phase_parameters(tables.phases))
     phases.push_back(fmt::format("vec4({})", listed(parameters)));
   const auto light = light_rows(tables.color, color_space(primaries));
-  defined.insert(defined.end(),
-                 {"LIBRARY", fmt::format("DEPOLARISATION {:.9g}", tables.phases.depolarisation),
-                  fmt::format("PHASE_PARAMETERS {}", fmt::join(phases, ", ")),
-                  "GROUND_ALBEDO " + listed(ground_albedo(tables)),
-                  "RED_FROM_NODES " + listed(light[0]), "GREEN_FROM_NODES " + listed(light[1]),
-                  "BLUE_FROM_NODES " + listed(light[2]),
-                  "LUMINANCE_FROM_NODES " + listed(light[3])});
+  defined.insert(
+      defined.end(),
+      {"LIBRARY", fmt::format("DEPOLARISATION {:.9g}", tables.phases.depolarisation),
+       fmt::format("PHASE_PARAMETERS {}", fmt::join(phases, ", ")),
+       "GROUND_ALBEDO " + listed(ground_albedo(tables)), "RED_FROM_NODES " + listed(light[0]),
+       "GREEN_FROM_NODES " + listed(light[1]), "BLUE_FROM_NODES " + listed(light[2]),
+       "LUMINANCE_FROM_NODES " + listed(light[3])});
   if (precision != TablePrecision::kFloat) {
     const TexelCode air = texels_of(engine, "rayleigh_like").code,
                     others = texels_of(engine, "single").code;
@@ -158,31 +157,30 @@ ordered_json parameters_of(const EngineTables& engine, const Preset& preset,
   for (const WavelengthNode& node : tables.color.nodes) nodes.push_back(node.wavelength_nm);
   for (const EngineTable& table : engine.tables) list.push_back(table_json(table));
   const TableSizes& s = tables.sizes;
-  return {
-      {"skyfit_tables", 1},
-      {"preset", preset.name},
-      {"written_by", fmt::format("skyfit {}", kVersion)},
-      {"wavelengths_nm", nodes},
-      {"primaries", color_space(primaries).name},
-      {"unit", "cd/m^2 of luminance, lx of illuminance"},
-      {"light_from_wavelengths",
-       {{"red", light[0]}, {"green", light[1]}, {"blue", light[2]}, {"luminance", light[3]}}},
-      {"planet",
-       {{"bottom_radius_km", 1e-3 * a.bottom_radius_m},
-        {"thickness_km", 1e-3 * (a.top_radius_m - a.bottom_radius_m)},
-        {"ground_albedo", ground_albedo(tables)}}},
-      {"sun",
-       {{"angular_radius_rad", a.star.angular_radius_rad()},
-        {"limb_darkening", a.star.limb_darkening}}},
-      {"lowest_sun", kTableLowestSun},
-      {"scattering_texels",
-       {{"sun", s.scattering_mu_s},
-        {"azimuth", s.scattering_azimuth},
-        {"rays_to_ground", s.scattering_ground},
-        {"rays_to_sky", s.scattering_sky},
-        {"height", s.scattering_r}}},
-      {"phase_functions", phase_json(tables.phases)},
-      {"tables", list}};
+  return {{"skyfit_tables", 1},
+          {"preset", preset.name},
+          {"written_by", fmt::format("skyfit {}", kVersion)},
+          {"wavelengths_nm", nodes},
+          {"primaries", color_space(primaries).name},
+          {"unit", "cd/m^2 of luminance, lx of illuminance"},
+          {"light_from_wavelengths",
+           {{"red", light[0]}, {"green", light[1]}, {"blue", light[2]}, {"luminance", light[3]}}},
+          {"planet",
+           {{"bottom_radius_km", 1e-3 * a.bottom_radius_m},
+            {"thickness_km", 1e-3 * (a.top_radius_m - a.bottom_radius_m)},
+            {"ground_albedo", ground_albedo(tables)}}},
+          {"sun",
+           {{"angular_radius_rad", a.star.angular_radius_rad()},
+            {"limb_darkening", a.star.limb_darkening}}},
+          {"lowest_sun", kTableLowestSun},
+          {"scattering_texels",
+           {{"sun", s.scattering_mu_s},
+            {"azimuth", s.scattering_azimuth},
+            {"rays_to_ground", s.scattering_ground},
+            {"rays_to_sky", s.scattering_sky},
+            {"height", s.scattering_r}}},
+          {"phase_functions", phase_json(tables.phases)},
+          {"tables", list}};
 }
 
 std::string file_name(std::string_view table, const TableFormatEntry& format) {

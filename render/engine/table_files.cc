@@ -80,10 +80,9 @@ void write_dds(const EncodedTable& table, const std::filesystem::path& file) {
   const auto width = unsigned_of(table.width),
              row = width * static_cast<std::uint32_t>(bytes_of_texel(table.precision));
   std::string bytes = "DDS ";
-  append(bytes, std::uint32_t{124},
-         kCaps | kHeight | kWidth | kPitch | kFormat | (flat ? 0 : kDepth),
-         unsigned_of(table.height), width, row, flat ? 0 : unsigned_of(table.depth),
-         std::uint32_t{1});
+  append(
+      bytes, std::uint32_t{124}, kCaps | kHeight | kWidth | kPitch | kFormat | (flat ? 0 : kDepth),
+      unsigned_of(table.height), width, row, flat ? 0 : unsigned_of(table.depth), std::uint32_t{1});
   bytes.append(11 * sizeof(std::uint32_t), '\0');
   append(bytes, std::uint32_t{32}, kFourCharacters, kDx10);
   bytes.append(5 * sizeof(std::uint32_t), '\0');

@@ -58,8 +58,8 @@ TEST(RenderRequest, ADayIsAFilmOfTenSecondsFromAStandingCamera) {
 }
 
 TEST(RenderRequest, TablesByTheirNames) {
-  const RenderRequest r = request(
-      {"--out", "x.png", "--table-size", "small", "--table-precision", "8bit"});
+  const RenderRequest r =
+      request({"--out", "x.png", "--table-size", "small", "--table-precision", "8bit"});
   EXPECT_EQ(r.table_precision, TablePrecision::k8Bit);
   EXPECT_LT(r.table_sizes.scattering_mu_s, TableSizes{}.scattering_mu_s);
   EXPECT_EQ(request({"--out", "x.png"}).table_sizes.scattering_mu_s, TableSizes{}.scattering_mu_s);

@@ -28,8 +28,7 @@ TexelCode add(const std::string& name, const Table& table, TableHolds holds,
   }
   const EncodedTable texels = encoded(table, holds, precision);
   graph.add_table(name, texels.width, texels.height, texels.depth,
-                  precision == TablePrecision::kHalf ? GL_RGBA16F : GL_RGBA8,
-                  texels.texels.data());
+                  precision == TablePrecision::kHalf ? GL_RGBA16F : GL_RGBA8, texels.texels.data());
   return texels.code;
 }
 
@@ -121,8 +120,7 @@ GlTexture scattering_texture(const AtmosphereTables& tables) {
   return texture;
 }
 
-TableCodes add_tables(const AtmosphereTables& tables, FrameGraph& graph,
-                      TablePrecision precision) {
+TableCodes add_tables(const AtmosphereTables& tables, FrameGraph& graph, TablePrecision precision) {
   const SkyRayMapping mapping = tables.sky_rays.mapping;
   const auto of_sky_rays = [&](const std::string& name, const Table& table) {
     return add(name, table, sky_rays_hold(mapping),
