@@ -149,6 +149,14 @@ ordered_json phase_json(const PhaseClasses& phases) {
   return {{"depolarisation of rayleigh_like", phases.depolarisation}, {"single", others}};
 }
 
+ordered_json texels_json(const TableSizes& sizes) {
+  return {{"sun", sizes.scattering_mu_s},
+          {"azimuth", sizes.scattering_azimuth},
+          {"rays_to_ground", sizes.scattering_ground},
+          {"rays_to_sky", sizes.scattering_sky},
+          {"height", sizes.scattering_r}};
+}
+
 ordered_json parameters_of(const EngineTables& engine, const Preset& preset,
                            const AtmosphereTables& tables, Primaries primaries) {
   const Atmosphere<double>& a = tables.atmosphere;
@@ -156,7 +164,6 @@ ordered_json parameters_of(const EngineTables& engine, const Preset& preset,
   ordered_json nodes = ordered_json::array(), list = ordered_json::array();
   for (const WavelengthNode& node : tables.color.nodes) nodes.push_back(node.wavelength_nm);
   for (const EngineTable& table : engine.tables) list.push_back(table_json(table));
-  const TableSizes& s = tables.sizes;
   return {{"skyfit_tables", 1},
           {"preset", preset.name},
           {"written_by", fmt::format("skyfit {}", kVersion)},
@@ -173,12 +180,7 @@ ordered_json parameters_of(const EngineTables& engine, const Preset& preset,
            {{"angular_radius_rad", a.star.angular_radius_rad()},
             {"limb_darkening", a.star.limb_darkening}}},
           {"lowest_sun", kTableLowestSun},
-          {"scattering_texels",
-           {{"sun", s.scattering_mu_s},
-            {"azimuth", s.scattering_azimuth},
-            {"rays_to_ground", s.scattering_ground},
-            {"rays_to_sky", s.scattering_sky},
-            {"height", s.scattering_r}}},
+          {"scattering_texels", texels_json(tables.sizes)},
           {"phase_functions", phase_json(tables.phases)},
           {"tables", list}};
 }
