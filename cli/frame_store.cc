@@ -34,6 +34,22 @@ std::string hash_of_file(const fs::path& file) {
   return hash.text();
 }
 
+ordered_json json_of(const TableSizes& sizes) {
+  const RayTexels rays = sizes.scattering(), outside = sizes.outside();
+  return {sizes.optical_depth_mu,
+          sizes.optical_depth_r,
+          sizes.irradiance_mu_s,
+          sizes.irradiance_r,
+          sizes.scattering_r,
+          rays.ground,
+          rays.sky,
+          rays.mu_s,
+          rays.azimuth,
+          outside.sky,
+          outside.mu_s,
+          outside.azimuth};
+}
+
 ordered_json json_of(const Scene& scene) {
   ordered_json meshes = ordered_json::array();
   for (const PlacedMesh& mesh : scene.meshes) {
@@ -101,6 +117,8 @@ Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<Timel
   common_ = {{"version", kVersion},
              {"model", request.model},
              {"light", {static_cast<int>(request.light.transfer), request.light.orders}},
+             {"tables", json_of(request.table_sizes)},
+             {"table_precision", static_cast<int>(request.table_precision)},
              {"device", static_cast<int>(request.device)},
              {"scene", json_of(request.scene)},
              {"frame", json_of(request.frame)},

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/arguments.h"
+#include "cli/table_options.h"
 #include "model/registry.h"
 
 namespace skyfit::cli {
@@ -155,6 +156,19 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
 }
 
+void add_table_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Tables");
+  group
+      .option("--table-size", options.table_size, names_of(table_sizes()),
+              "Texels of the tables of the atmosphere")
+      ->capture_default_str();
+  group
+      .option("--table-precision", options.table_precision, names_of(table_precisions()),
+              "Of the tables of scattered light; skyfit tables --measure prints what sizes and "
+              "precisions cost")
+      ->capture_default_str();
+}
+
 void add_sequence_options(CLI::App& command, RenderOptions& options) {
   Group group(command, "Sequences and strips");
   group.option("--sequence", options.sequence, "FILE",
@@ -263,6 +277,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_sun_options(command, options);
   add_scene_options(command, options);
   add_picture_options(command, options);
+  add_table_options(command, options);
   add_sequence_options(command, options);
 }
 

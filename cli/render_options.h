@@ -30,7 +30,7 @@ struct RenderOptions {
   // Picture
   std::string size = "1280x720", aerial = "volume", exposure, exposure_ev = "0", tone = "filmic";
   std::string view_transform = "hue", glare = "eye";
-  std::string primaries = "rec709";
+  std::string primaries = "rec709", table_precision = "float", table_size = "full";
   int samples_per_side = FrameOptions{}.samples_per_side;
   int orders = 0;  // 0: all
   bool scalar = false, shadows = false, layers = false, panels = false, gpu = false, stats = false;

@@ -11,6 +11,7 @@
 #include "cli/arguments.h"
 #include "cli/output.h"
 #include "cli/render_arguments.h"
+#include "cli/table_options.h"
 #include "model/base/input_file.h"
 #include "model/base/text.h"
 #include "model/base/whole_file.h"
@@ -181,6 +182,8 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   request.light = {transfer_of(options.scalar), options.orders};
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--orders", std::to_string(options.orders), "expected the model reference");
+  request.table_sizes = parse_table_sizes("--table-size", options.table_size);
+  request.table_precision = parse_table_precision("--table-precision", options.table_precision);
   request.panels = options.panels;
   request.stats = options.stats;
   request.threads = options.threads;

@@ -35,7 +35,7 @@ Atmosphere<double> RenderSession::drawn_atmosphere(const Preset& preset) const {
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
   const auto atmosphere = drawn_atmosphere(preset);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
-  const TableSizes sizes;
+  const TableSizes& sizes = request_.table_sizes;
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
   const auto compute = [&] {
     if (request_.light.orders > 0)
@@ -61,7 +61,7 @@ Preset RenderSession::show(double time_s) {
   const Timeline::Now now = timeline_.at(time_s);
   time_.done("waiting for tables");
   if (now.tables != shown_) {
-    renderer_.set_atmosphere(now.preset, *now.tables);
+    renderer_.set_atmosphere(now.preset, *now.tables, request_.table_precision);
     shown_ = now.tables;
     time_.done("tables to the renderer");
   }

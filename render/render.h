@@ -25,6 +25,7 @@
 #include "model/atmosphere/preset.h"
 #include "model/base/content_cache.h"
 #include "model/base/input_file.h"
+#include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/color_space.h"
 
@@ -233,7 +234,9 @@ class Renderer {
   // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere,
   // lowered_by() the scene's basin_depth_m().
   // Throws std::invalid_argument when the planet has another radius than before.
-  void set_atmosphere(const Preset& preset, const AtmosphereTables& tables);
+  // `precision`: how the tables of scattered light are kept.
+  void set_atmosphere(const Preset& preset, const AtmosphereTables& tables,
+                      TablePrecision precision = TablePrecision::kFloat);
 
   // What of a frame needs no tables, for while they are computed; set_atmosphere() and draw() do it
   // where it was not done: the ground of an atmosphere, lowered_by() as its tables, and the blocks

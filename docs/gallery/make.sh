@@ -142,6 +142,28 @@ done
 figure "4-45: orders of scattering" "Single scattering alone is too dark; all orders are thicker and bluer." \
   "reference, single scattering" "two orders" "all orders"
 
+precisions() { # ID SUN ARGUMENTS: by tables of both precisions
+  local id=$1 sun=$2 precision
+  shift 2
+  for precision in half 8bit; do
+    picture "s11-$id-$sun-$precision" "${s11[@]}" --model bruneton --table-precision "$precision" --sun-zenith-deg "$sun" "$@"
+  done
+}
+begin
+precisions 5-4 30 --view valley "${small[@]}"
+precisions 5-4 65 --view valley "${small[@]}"
+figure "5-4: tables of 16 and of 8 bits, midday and afternoon" "Hardly different." \
+  "bruneton, 16 bits, midday" "8 bits, midday" "16 bits, afternoon" "8 bits, afternoon"
+begin
+precisions 5-5 89 --view sunset "${small[@]}"
+precisions 5-5 93 --view sunset "${small[@]}"
+figure "5-5: tables of 16 and of 8 bits toward a low sun" \
+  "8 bits show bands, the more the lower the sun. Here, where 255 steps reach just as far as each table's light, they come after sunset." \
+  "bruneton, 16 bits, 89 deg" "8 bits, 89 deg" "16 bits, 93 deg" "8 bits, 93 deg"
+text "5.2.2: memory and error of tables" \
+  "Of the reference's tables, against those of full size in single precision. His 8 bits hold light, these its logarithm." \
+  tables earth-clear --measure
+
 # --- Bodare and Sandberg 2014 -----------------------------------------------------------------------------------------
 bs=(--preset bodare-2014)
 source_of bs14 "Bodare and Sandberg 2014: 3D tables, ozone"
@@ -269,8 +291,8 @@ cat >>"$page" <<'HTML'
 <h2 id="missing">What is not shown</h2>
 <ul>
 <li>Sperlhofer: the terrain and its levels (4-11 to 4-25), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
-<code>--tone clip</code>), an object half in the air (4-50), and the three repairs and the
-8-bit tables (5-1 to 5-5): the renderer has no options for them. His half and double values are the ends of the strips, whose steps are
+<code>--tone clip</code>), an object half in the air (4-50), and the three repairs (5-1 to 5-3):
+the renderer has no options for them. His half and double values are the ends of the strips, whose steps are
 even.</li>
 <li>Bodare and Sandberg: the Mie channel by proportion (11), the update over frames as frames (12), the aerial volume against samples
 (16, 18, 23), the build-up (27). Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>

@@ -14,19 +14,23 @@
 
 namespace skyfit {
 
-// Magic bytes, length of the header, and the header: a Python dictionary, padded so that the
-// numbers begin at a multiple of 64 bytes.
 void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
                std::span<const float> values) {
+  write_npy_bytes(file, shape, "<f4", sizeof(float), std::as_bytes(values));
+}
+
+// Magic bytes, length of the header, and the header: a Python dictionary, padded so that the
+// numbers begin at a multiple of 64 bytes.
+void write_npy_bytes(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
+                     std::string_view type, std::size_t size, std::span<const std::byte> values) {
   static_assert(std::endian::native == std::endian::little);
-  if (std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) !=
-      values.size())
+  if (std::accumulate(shape.begin(), shape.end(), size, std::multiplies<>()) != values.size())
     throw std::invalid_argument(
-        fmt::format("{}: {} values do not fill the shape", file.string(), values.size()));
+        fmt::format("{}: {} values do not fill the shape", file.string(), values.size() / size));
   std::string dimensions;
-  for (const std::size_t size : shape) dimensions += fmt::format("{}, ", size);
+  for (const std::size_t extent : shape) dimensions += fmt::format("{}, ", extent);
   std::string header =
-      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", dimensions);
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, dimensions);
   constexpr std::size_t kPrefix = 10, kAlignment = 64;
   header.append(kAlignment - 1 - (kPrefix + header.size()) % kAlignment, ' ');
   header += '\n';
@@ -35,7 +39,7 @@ void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>
   bytes += static_cast<char>(length & 0xff);
   bytes += static_cast<char>(length >> 8);
   bytes += header;
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size());
   write_whole_file(file, bytes);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace skyfit {
@@ -14,5 +15,10 @@ namespace skyfit {
 // as many values as the shape has.
 void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
                std::span<const float> values);
+
+// The same of values as bytes, little-endian: `type` is NumPy's name of them, "<f2", and `size` the
+// bytes of one.
+void write_npy_bytes(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
+                     std::string_view type, std::size_t size, std::span<const std::byte> values);
 
 }  // namespace skyfit

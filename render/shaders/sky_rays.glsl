@@ -9,7 +9,13 @@ layout(binding = 6) uniform sampler3D sky_ray_aerosol;
 
 const vec3 sky_ray_size = vec3(SKY_RAY_SIZE);
 
-Scattering sky_ray_texels(vec3 at) { return look_up_classes(sky_ray_air, sky_ray_aerosol, at); }
+Scattering sky_ray_texels(vec3 at) {
+  Scattering texels = look_up_classes(sky_ray_air, sky_ray_aerosol, at);
+#ifdef ENCODED
+  texels = decoded(texels, texel_scale.zw, texel_offset.zw);
+#endif
+  return texels;
+}
 
 vec3 texture_from_units(vec3 unit) {
   return 0.5 / sky_ray_size + clamp(unit, vec3(0.0), vec3(1.0)) * (1.0 - 1.0 / sky_ray_size);

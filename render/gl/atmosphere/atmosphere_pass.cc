@@ -127,7 +127,8 @@ bool AtmospherePass::has_sky_view(const FrameOptions& options) const {
 AtmospherePass::AtmospherePass(GraphicsDevice device)
     : device_(device), empty_(make_vertex_array()) {}
 
-void AtmospherePass::set_tables(const AtmosphereTables& tables) {
+void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes& codes) {
+  codes_ = codes;
   tables_.atmosphere = tables.atmosphere;
   tables_.color = tables.color;
   tables_.sizes = tables.sizes;
@@ -147,7 +148,7 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
 }
 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
-  Defined defined = atmosphere_defines(tables_);
+  Defined defined = atmosphere_defines(tables_, codes_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
   return defined;
@@ -169,7 +170,7 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
   block.set("suns", std::span<const glm::vec4>(suns));
   block.bind(blocks_);
-  bind_atmosphere(tables_, program, blocks_);
+  bind_atmosphere(tables_, program, blocks_, codes_);
 }
 
 void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {

@@ -73,7 +73,7 @@ class AtmospherePass {
   explicit AtmospherePass(GraphicsDevice device);
 
   // The tables' values are read from the textures; the rest is kept.
-  void set_tables(const AtmosphereTables& tables);
+  void set_tables(const AtmosphereTables& tables, const TableCodes& codes);
   const AtmosphereTables& tables() const { return tables_; }  // without values
 
   // Whether whole rays are looked up once a frame: not from high above the air; by Hillaire's
@@ -108,6 +108,7 @@ class AtmospherePass {
 
   GraphicsDevice device_;
   AtmosphereTables tables_;  // without the tables' values
+  TableCodes codes_;
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
   GlVertexArray empty_;
   GlTexture scattering_coefficients_;   // over height

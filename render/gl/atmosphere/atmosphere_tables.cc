@@ -17,7 +17,19 @@ namespace skyfit {
 namespace {
 
 void add(const std::string& name, const Table& table, FrameGraph& graph) {
-  graph.add_table(name, table.width, table.height, table.depth, table.rgba);
+  graph.add_table(name, table.width, table.height, table.depth, GL_RGBA32F, table.rgba.data());
+}
+
+TexelCode add(const std::string& name, const Table& table, TableHolds holds,
+              TablePrecision precision, FrameGraph& graph) {
+  if (precision == TablePrecision::kFloat) {
+    add(name, table, graph);
+    return {};
+  }
+  const EncodedTable texels = encoded(table, holds, precision);
+  graph.add_table(name, texels.width, texels.height, texels.depth,
+                  precision == TablePrecision::kHalf ? GL_RGBA16F : GL_RGBA8, texels.texels.data());
+  return texels.code;
 }
 
 glm::vec4 ground_albedo(const AtmosphereTables& tables) {
@@ -108,17 +120,24 @@ GlTexture scattering_texture(const AtmosphereTables& tables) {
   return texture;
 }
 
-void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
+TableCodes add_tables(const AtmosphereTables& tables, FrameGraph& graph, TablePrecision precision) {
+  const SkyRayMapping mapping = tables.sky_rays.mapping;
+  const auto of_sky_rays = [&](const std::string& name, const Table& table) {
+    return add(name, table, sky_rays_hold(mapping),
+               sky_rays_encoded(mapping) ? precision : TablePrecision::kFloat, graph);
+  };
   add("optical_depth", tables.optical_depth, graph);
   add("irradiance", tables.irradiance, graph);
-  add("rayleigh_like", tables.rayleigh_like, graph);
-  add("single", tables.single, graph);
   add("phase", tables.phase, graph);
-  add("sky_ray_air", tables.sky_rays.air, graph);
-  add("sky_ray_aerosol", tables.sky_rays.aerosol, graph);
+  return {precision,
+          add("rayleigh_like", tables.rayleigh_like, TableHolds::kLogarithms, precision, graph),
+          add("single", tables.single, TableHolds::kLogarithms, precision, graph),
+          of_sky_rays("sky_ray_air", tables.sky_rays.air),
+          of_sky_rays("sky_ray_aerosol", tables.sky_rays.aerosol)};
 }
 
-void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
+void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers,
+                     const TableCodes& codes) {
   std::vector<glm::vec4> parameters;
   for (const auto& p : phase_parameters(tables.phases))
     parameters.emplace_back(p[0], p[1], p[2], p[3]);
@@ -126,11 +145,18 @@ void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuff
   block.set("depolarisation", tables.phases.depolarisation);
   block.set("phase_parameters", std::span<const glm::vec4>(parameters));
   block.set("ground_albedo", ground_albedo(tables));
+  if (codes.precision != TablePrecision::kFloat) {
+    block.set("texel_scale", glm::vec4(codes.rayleigh_like.scale, codes.single.scale,
+                                       codes.sky_ray_air.scale, codes.sky_ray_aerosol.scale));
+    block.set("texel_offset", glm::vec4(codes.rayleigh_like.offset, codes.single.offset,
+                                        codes.sky_ray_air.offset, codes.sky_ray_aerosol.offset));
+  }
   if (is_closed_form(tables.sky_rays.mapping)) set_closed_form(tables, block);
   block.bind(buffers);
 }
 
-std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
+std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables,
+                                            const TableCodes& codes) {
   const glm::ivec3 sky_view = sky_view_size(tables);
   const Table& sky_rays = tables.sky_rays.air;
   std::vector<std::string> defined = table_defines(tables);
@@ -140,6 +166,9 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
        fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
        fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
        fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)});
+  if (codes.precision != TablePrecision::kFloat) defined.emplace_back("ENCODED");
+  // Mesa rounds what it interpolates between texels of 8 bits to 8 bits again.
+  if (codes.precision == TablePrecision::k8Bit) defined.emplace_back("EXACT_FILTER");
   if (tables.sky_rays.mapping == SkyRayMapping::kHillaire) {
     using Hillaire = literature::HillaireSizes;
     defined.insert(defined.end(),
