@@ -27,14 +27,20 @@ void validate(const BodareUpdateOptions& options) {
 
 BodareSet::BodareSet(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths)
-    : atmosphere_(atmosphere) {
+    : atmosphere_(atmosphere), wavelengths_(wavelengths.begin(), wavelengths.end()) {
   skyfit::validate(atmosphere);
-  geometry_ = std::make_unique<const literature::BodareGeometry>(atmosphere);
+  geometry_ = std::make_shared<const literature::BodareGeometry>(atmosphere);
   const auto air = seeded<0>(atmosphere, {});
   for (const WavelengthNode& node : wavelengths) {
-    tables_.push_back(std::make_unique<BodareTables<0>>(
+    tables_.push_back(std::make_shared<BodareTables<0>>(
         *geometry_, literature::clear_air(geometry_->shells(), air, node)));
   }
+}
+
+std::unique_ptr<const SkyModel> BodareSet::model(int threads) const {
+  auto model = std::make_unique<BodareModel>(threads);
+  model->keep(atmosphere_, geometry_, wavelengths_, {tables_.begin(), tables_.end()});
+  return model;
 }
 
 BodareUpdate::BodareUpdate(const Atmosphere<double>& atmosphere,

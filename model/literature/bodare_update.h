@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "model/literature/bodare_tables.h"
+#include "model/literature/bodare.h"
 
 namespace skyfit {
 
@@ -24,12 +24,16 @@ class BodareSet {
   // Empty.
   BodareSet(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths);
   const Atmosphere<double>& atmosphere() const { return atmosphere_; }
-  std::span<const std::unique_ptr<literature::BodareTables<0>>> tables() const { return tables_; }
+  std::span<const std::shared_ptr<literature::BodareTables<0>>> tables() const { return tables_; }
+
+  // The model of a finished set, which has no other tables; it shares these.
+  std::unique_ptr<const SkyModel> model(int threads) const;
 
  private:
   Atmosphere<double> atmosphere_;
-  std::unique_ptr<const literature::BodareGeometry> geometry_;
-  std::vector<std::unique_ptr<literature::BodareTables<0>>> tables_;  // one per wavelength
+  std::vector<WavelengthNode> wavelengths_;
+  std::shared_ptr<const literature::BodareGeometry> geometry_;
+  std::vector<std::shared_ptr<literature::BodareTables<0>>> tables_;  // one per wavelength
 };
 
 class BodareUpdate {
@@ -49,6 +53,8 @@ class BodareUpdate {
 
   // The two finished sets and the weight of the newer, which grows from 0 to 1 over the orders but
   // the last and rests there: picture = (1 - blend) of older + blend of newer.
+  // Of the set that is being built, 0 .. frames_of_update() - 1; at 0 newer() is new.
+  int frame() const { return frame_; }
   const BodareSet& older() const { return *older_; }
   const BodareSet& newer() const { return *newer_; }
   double blend() const;

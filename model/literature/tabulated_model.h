@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -97,8 +98,9 @@ class TabulatedModel final : public SkyModel {
     SkyRayTables tables{Method::kSkyRays, {}, {}};
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       const SkyRayTexels texels = kept->prepared(nodes[node]).sky_rays();
-      for (const auto& [of_node, table] :
-           {std::pair(&texels.air, &tables.air), std::pair(&texels.aerosol, &tables.aerosol)}) {
+      for (const auto& [of_node, table] : {std::pair(&texels.air, &tables.air),
+                                           std::pair(&texels.aerosol, &tables.aerosol),
+                                           std::pair(&texels.gathered, &tables.gathered)}) {
         if (node == 0)
           *table = {of_node->width, of_node->height, of_node->depth,
                     std::vector<float>(4 * of_node->values.size())};
@@ -112,23 +114,38 @@ class TabulatedModel final : public SkyModel {
   std::size_t prepare(const Atmosphere<double>& atmosphere,
                       std::span<const WavelengthNode> wavelengths) const override {
     check_request(Method::kName, atmosphere, {}, {});
+    if (const std::shared_ptr<const Kept> same = kept_for(atmosphere)) {
+      if (std::ranges::all_of(wavelengths, [&](const auto& node) { return same->at(node); }))
+        return same->bytes();
+    }
     const auto kept = std::make_shared<Kept>();
     kept->atmosphere = atmosphere;
-    std::size_t bytes = 0;
     tbb::task_arena(threads_).execute([&] {
       kept->geometry = std::make_shared<const Geometry>(atmosphere);
       const Atmosphere<Dual<0>> air = Method::see(seeded<0>(atmosphere, {}));
       for (const WavelengthNode& node : wavelengths) {
         kept->nodes.push_back(node);
-        kept->tables.push_back(std::make_unique<const Tables<0>>(
+        kept->tables.push_back(std::make_shared<const Tables<0>>(
             *kept->geometry, clear_air(kept->geometry->shells(), air, node),
             std::span<const View>{}));
-        bytes += kept->tables.back()->bytes();
       }
     });
+    const std::size_t bytes = kept->bytes();
     const std::lock_guard lock(mutex_);
     kept_ = kept;
     return bytes;
+  }
+
+  // Finished tables of an atmosphere, one for each wavelength, in the place of those that prepare()
+  // makes. `geometry` is theirs.
+  void keep(const Atmosphere<double>& atmosphere,
+            std::shared_ptr<const typename Method::Geometry> geometry,
+            std::vector<WavelengthNode> wavelengths,
+            std::vector<std::shared_ptr<const typename Method::template Tables<0>>> tables) const {
+    auto kept = std::make_shared<Kept>(
+        Kept{atmosphere, std::move(geometry), std::move(wavelengths), std::move(tables)});
+    const std::lock_guard lock(mutex_);
+    kept_ = std::move(kept);
   }
 
  private:
@@ -140,8 +157,13 @@ class TabulatedModel final : public SkyModel {
     Atmosphere<double> atmosphere;
     std::shared_ptr<const Geometry> geometry;
     std::vector<WavelengthNode> nodes;
-    std::vector<std::unique_ptr<const Tables<0>>> tables;
+    std::vector<std::shared_ptr<const Tables<0>>> tables;
 
+    std::size_t bytes() const {
+      std::size_t sum = 0;
+      for (const auto& of_node : tables) sum += of_node->bytes();
+      return sum;
+    }
     const Tables<0>* at(const WavelengthNode& node) const {
       const auto found = std::find(nodes.begin(), nodes.end(), node);
       return found == nodes.end() ? nullptr : tables[found - nodes.begin()].get();

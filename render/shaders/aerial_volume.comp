@@ -17,6 +17,9 @@ void main() {
 #ifdef HILLAIRE
   March march = march_begin();
   float marched = 0.0;
+#elif defined(BODARE)
+  Scattering path = march_begin();
+  float marched = 0.0;
 #else
   Scattering whole = scattering(start, nu, ray.hits_ground);
 #endif
@@ -31,6 +34,9 @@ void main() {
     march = march_step(march_step(march, start, nu, marched, half_way), start, nu, half_way, d);
     marched = d;
     Scattering path = march.light;
+#elif defined(BODARE)
+    path = march_step(path, start, nu, marched, d, ray.hits_ground);
+    marched = d;
 #else
     Scattering path = scattering_before(whole, exp(-depth_between), scattering(end, nu, ray.hits_ground));
 #endif

@@ -117,6 +117,9 @@ struct Place {
   float h, mu, mu_s;
 };
 
+#if defined(CLOSED_FORM) || defined(ONEIL)  // once: a file is included where it is named first
+#include "model/shared/closed_forms.glsl"
+#endif
 #ifdef CLOSED_FORM
 #include "render/shaders/closed_form.glsl"
 #endif
