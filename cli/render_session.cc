@@ -104,7 +104,7 @@ Frame RenderSession::draw_updated(const Shot& shot, double time_s,
         steps_, request_.sequence.frames_per_second,
         color_rule(refs::spectral_data_of(first.atmosphere)),
         [this](const Preset& preset) { return drawn_atmosphere(preset); },
-        BodareUpdateOptions{.slices = request_.update_frames}, request_.threads);
+        BodareUpdateOptions{.slices = request_.update_frames}, TableSizes{}, request_.threads);
     time_.done("first tables");
   }
   const auto frame = static_cast<int>(std::lround(time_s * request_.sequence.frames_per_second));

@@ -21,8 +21,10 @@ void validate(const BodareUpdateOptions& options);
 // The tables of one atmosphere at several wavelengths.
 class BodareSet {
  public:
-  // Empty.
-  BodareSet(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths);
+  // Empty. Its rays are those of `before`, which may be null, where radii and profiles are the
+  // same.
+  BodareSet(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
+            const BodareSet* before);
   const Atmosphere<double>& atmosphere() const { return atmosphere_; }
   std::span<const std::shared_ptr<literature::BodareTables<0>>> tables() const { return tables_; }
 
@@ -46,9 +48,9 @@ class BodareUpdate {
   // two slices for the last, and before each but the first one frame that gathers.
   int frames_of_update() const;
 
-  // One frame's share of the next set (the first frame also lays out its rays, which costs as much
-  // as an order), which is of the atmosphere given to the first of its frames. After the last one
-  // the set becomes newer(), the one before it older().
+  // One frame's share of the next set (the first frame also lays out its rays where radii or
+  // profiles have changed, which costs as much as an order), which is of the atmosphere given to
+  // the first of its frames. After the last one the set becomes newer(), the one before it older().
   void advance(const Atmosphere<double>& atmosphere);
 
   // The two finished sets and the weight of the newer, which grows from 0 to 1 over the orders but

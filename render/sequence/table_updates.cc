@@ -13,11 +13,12 @@ namespace skyfit {
 TableUpdates::TableUpdates(std::vector<TimelineStep> steps, double frames_per_second,
                            const ColorRule& color,
                            std::function<Atmosphere<double>(const Preset&)> drawn,
-                           const BodareUpdateOptions& options, int threads)
+                           const BodareUpdateOptions& options, const TableSizes& sizes, int threads)
     : steps_(std::move(steps)),
       frames_per_second_(frames_per_second),
       color_(color),
       drawn_(std::move(drawn)),
+      sizes_(sizes),
       threads_(threads),
       update_(drawn_(preset_of(0)), {color.nodes.begin(), color.nodes.end()}, options),
       older_(whole(update_.newer(), preset_of(0))),
@@ -28,9 +29,8 @@ Preset TableUpdates::preset_of(int frame) const {
 }
 
 TableUpdates::Whole TableUpdates::whole(const BodareSet& set, const Preset& preset) const {
-  return {preset, std::make_shared<const AtmosphereTables>(
-                      compute_tables_of(*set.model(threads_), set.atmosphere(), color_, TableSizes{},
-                                        threads_, {}))};
+  return {preset, std::make_shared<const AtmosphereTables>(compute_tables_of(
+                      *set.model(threads_), set.atmosphere(), color_, sizes_, threads_, {}))};
 }
 
 // The share of the next frame in the next set.
@@ -54,8 +54,8 @@ TableUpdates::Now TableUpdates::at(int frame) {
     now.preset = preset_between(older.preset, newer.preset, now.blend);
     now.tables = older.tables;
     if (older.tables != newer.tables && now.blend > 0)
-      now.tables = now.blend < 1 ? std::make_shared<const AtmosphereTables>(interpolated_tables(
-                                       *older.tables, *newer.tables, now.blend))
+      now.tables = now.blend < 1 ? std::make_shared<const AtmosphereTables>(
+                                       interpolated_tables(*older.tables, *newer.tables, now.blend))
                                  : newer.tables;
   }
   now.update_ms =

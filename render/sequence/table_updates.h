@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // An atmosphere that changes over a sequence, whose tables the model `bodare` renews over frames:
-// Bodare & Sandberg 2014, chapter 5. While the frames of one update are drawn, the picture goes over
-// from the set before the last to the last whole one; it lags behind the sequence by one update to
-// three, and a set that is not whole is never shown.
+// Bodare & Sandberg 2014, chapter 5. While the frames of one update are drawn, the picture goes
+// over from the set before the last to the last whole one; it lags behind the sequence by one
+// update to three, and a set that is not whole is never shown.
 #pragma once
 
 #include <memory>
@@ -15,11 +15,11 @@ namespace skyfit {
 
 class TableUpdates {
  public:
-  // `drawn` makes of a preset's atmosphere that of the frames. The first set is made at once, of the
-  // first frame. Throws what BodareUpdate throws.
+  // `drawn` makes of a preset's atmosphere that of the frames. The first set is made at once, of
+  // the first frame. Throws what BodareUpdate throws.
   TableUpdates(std::vector<TimelineStep> steps, double frames_per_second, const ColorRule& color,
                std::function<Atmosphere<double>(const Preset&)> drawn,
-               const BodareUpdateOptions& options, int threads);
+               const BodareUpdateOptions& options, const TableSizes& sizes, int threads);
 
   struct Now {
     Preset preset;            // between those of the two sets
@@ -47,11 +47,12 @@ class TableUpdates {
   double frames_per_second_;
   ColorRule color_;
   std::function<Atmosphere<double>(const Preset&)> drawn_;
+  TableSizes sizes_;
   int threads_;
   BodareUpdate update_;
   Whole older_, newer_;
-  Preset next_;     // of the set that is being built
-  int frame_ = 0;   // the next that is not done
+  Preset next_;    // of the set that is being built
+  int frame_ = 0;  // the next that is not done
 };
 
 }  // namespace skyfit
