@@ -63,6 +63,18 @@ constexpr SkyModelVariant kNielsenVariants[] = {
     {NielsenModel::kSunThroughSky, "the sun's light is what the model's sky lets through"},
 };
 
+constexpr SkyModelVariant kBodareVariants[] = {
+    {BodareMieFromRayleighMethod::kVariant,
+     "aerosol's light is air's, by the proportion of the two at 650 nm, as in the source"},
+};
+
+std::unique_ptr<SkyModel> make_bodare(const SkyModelRequest& request) {
+  if (request.variants.empty()) return std::make_unique<BodareModel>(request.threads);
+  return std::make_unique<BodareMieFromRayleighModel>(
+      request.threads, BodareMieFromRayleighMethod{
+                           {}, node_at(request.spectra, BodareMieFromRayleighMethod::kRedNm)});
+}
+
 constexpr SkyModelVariant kONeilVariants[] = {
     {ONeilModel::kSamplesN, "N samples of a ray in the place of 5: 1 to 1000", true, 1,
      ONeilModel::kMostSamples},
@@ -111,8 +123,8 @@ std::span<const SkyModelEntry> sky_models() {
       {"tables", "what the renderer looks up: tables of the reference", make_tables},
       {"bruneton", "Bruneton & Neyret 2008: 4D tables, multiple scattering",
        make_threaded<BrunetonModel>},
-      {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering",
-       make_threaded<BodareModel>},
+      {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering", make_bodare,
+       kBodareVariants},
       {"hillaire", "Hillaire 2020, as engines do: 2D tables, multiple scattering as a series",
        make_threaded<HillaireModel>},
       {"schafhitzel", "Schafhitzel, Falk & Ertl 2007: 3D table, single scattering",

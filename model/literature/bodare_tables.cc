@@ -245,6 +245,18 @@ typename BodareTables<N>::InScatter BodareTables<N>::in_scatter(double height, d
 }
 
 template <int N>
+void BodareTables<N>::take_aerosol_from_air(const BodareTables& red) {
+  const Dual<N> from = air_.air * red.air_.aerosol_scattering;
+  const bool any = from.v > 0;
+  const Dual<N> factor = any ? red.air_.air * air_.aerosol_scattering / from : Dual<N>(0.0);
+  for (std::size_t i = 0; i < air_sum_.count(); ++i) {
+    const Dual<N>& air = red.air_sum_[i];
+    aerosol_sum_[i] = air.v > 0 ? factor * air_sum_[i] * red.aerosol_sum_[i] / air : Dual<N>(0.0);
+  }
+  light_ground();
+}
+
+template <int N>
 Dual<N> BodareTables<N>::gathered(double height, double mu_s) const {
   return deep_twilight(mu_s, BodareGeometry::sun(0)) *
          gathered_sum_.linear({geometry_.height_texel(height), BodareGeometry::sun_texel(mu_s)});
@@ -293,7 +305,8 @@ SkyRayTexels BodareTables<N>::sky_rays() const {
 
 template <int N>
 std::size_t BodareTables<N>::bytes() const {
-  return air_sum_.bytes() + aerosol_sum_.bytes() + gathered_sum_.bytes() + ground_.size() * sizeof(Dual<N>);
+  return air_sum_.bytes() + aerosol_sum_.bytes() + gathered_sum_.bytes() +
+         ground_.size() * sizeof(Dual<N>);
 }
 
 template class BodareTables<0>;

@@ -81,6 +81,12 @@ class BodareTables {
   InScatter in_scatter(double height, double mu, double mu_s, bool ground) const;
   Dual<N> ground_irradiance(double mu_s) const;  // by the sky
 
+  // His equation 19, of finished tables: aerosol in the proportion to air that the tables `red`
+  // have,
+  //   M = R (M_red / R_red) (beta_R,red / beta_M,red) (beta_M / beta_R),
+  // texel by texel, where his shader forms it after the look-up. No light where there is no air.
+  void take_aerosol_from_air(const BodareTables& red);
+
   // G: all light but the sun's that falls on a place, times the phase functions.
   Dual<N> gathered(double height, double mu_s) const;
 
@@ -103,9 +109,9 @@ class BodareTables {
   SunColumns<N> sun_;
   Table air_order_, aerosol_order_, air_sum_, aerosol_sum_;
   Grid<N, 2> gathered_, gathered_sum_;  // [height][sun], of one order and G
-  std::vector<Dual<N>> mean_aerosol_;  // integral of F_M over the azimuth, [sun][theta]
-  std::vector<double> mean_air_;       // of F_R
-  std::vector<Dual<N>> ground_;        // [sun]
+  std::vector<Dual<N>> mean_aerosol_;   // integral of F_M over the azimuth, [sun][theta]
+  std::vector<double> mean_air_;        // of F_R
+  std::vector<Dual<N>> ground_;         // [sun]
 };
 
 extern template class BodareTables<0>;

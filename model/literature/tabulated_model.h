@@ -7,6 +7,7 @@
 //   scattered(view), which is light(view) without the ground and without interpolation,
 //   kSkyRays: how sky_rays() are read,
 //   see(Atmosphere<T>): the atmosphere as the method sees it,
+//   where it takes more than one wavelength, tables<N>(geometry, see(atmosphere), node, views),
 //   can_fit(Parameter).
 #pragma once
 
@@ -27,7 +28,8 @@ namespace skyfit::literature {
 template <class Method>
 class TabulatedModel final : public SkyModel {
  public:
-  explicit TabulatedModel(int threads) : threads_(threads) {
+  explicit TabulatedModel(int threads, Method method = {})
+      : threads_(threads), method_(std::move(method)) {
     check_model_value(Method::kName, threads >= 1, "threads", threads, ">= 1");
   }
   std::string_view name() const override { return Method::kName; }
@@ -58,8 +60,7 @@ class TabulatedModel final : public SkyModel {
                 return look_up(*tables);
             }
             if (!geometry) geometry = std::make_shared<const Geometry>(atmosphere);
-            look_up(
-                Tables<N>(*geometry, clear_air(geometry->shells(), Method::see(air), node), views));
+            look_up(make_tables<N>(*geometry, Method::see(air), node, views));
           });
     });
   }
@@ -98,9 +99,9 @@ class TabulatedModel final : public SkyModel {
     SkyRayTables tables{Method::kSkyRays, {}, {}};
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       const SkyRayTexels texels = kept->prepared(nodes[node]).sky_rays();
-      for (const auto& [of_node, table] : {std::pair(&texels.air, &tables.air),
-                                           std::pair(&texels.aerosol, &tables.aerosol),
-                                           std::pair(&texels.gathered, &tables.gathered)}) {
+      for (const auto& [of_node, table] :
+           {std::pair(&texels.air, &tables.air), std::pair(&texels.aerosol, &tables.aerosol),
+            std::pair(&texels.gathered, &tables.gathered)}) {
         if (node == 0)
           *table = {of_node->width, of_node->height, of_node->depth,
                     std::vector<float>(4 * of_node->values.size())};
@@ -126,8 +127,7 @@ class TabulatedModel final : public SkyModel {
       for (const WavelengthNode& node : wavelengths) {
         kept->nodes.push_back(node);
         kept->tables.push_back(std::make_shared<const Tables<0>>(
-            *kept->geometry, clear_air(kept->geometry->shells(), air, node),
-            std::span<const View>{}));
+            make_tables<0>(*kept->geometry, air, node, std::span<const View>{})));
       }
     });
     const std::size_t bytes = kept->bytes();
@@ -152,6 +152,16 @@ class TabulatedModel final : public SkyModel {
   using Geometry = typename Method::Geometry;
   template <int N>
   using Tables = typename Method::template Tables<N>;
+
+  template <int N>
+  Tables<N> make_tables(const Geometry& geometry, const Atmosphere<Dual<N>>& seen,
+                        const WavelengthNode& node, std::span<const View> views) const {
+    if constexpr (requires { method_.template tables<N>(geometry, seen, node, views); }) {
+      return method_.template tables<N>(geometry, seen, node, views);
+    } else {
+      return Tables<N>(geometry, clear_air(geometry.shells(), seen, node), views);
+    }
+  }
 
   struct Kept {
     Atmosphere<double> atmosphere;
@@ -184,6 +194,7 @@ class TabulatedModel final : public SkyModel {
   }
 
   int threads_;
+  Method method_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Kept> kept_;
 };

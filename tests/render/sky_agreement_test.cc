@@ -142,6 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         Sky{"hillaire", "earth-clear", "10km", {92}}, Sky{"hillaire", "earth-clear", "orbit", {30}},
         Sky{"bodare", "earth-clear", "sunset", {60, 90}},
         Sky{"bodare", "earth-clear", "limb", {30, 85, 92}},
+        Sky{"bodare:mie-from-rayleigh", "bodare-2014", "sunset", {60}},
         Sky{"schafhitzel", "bruneton-2008", "valley", {80}},
         Sky{"schafhitzel", "bruneton-2008", "limb", {30, 85, 90}},
         Sky{"oneil", "earth-clear", "10km", {60, 92}},
