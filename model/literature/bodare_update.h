@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodare & Sandberg 2014, chapter 5: an update of the tables spread over frames; what a sequence
-// shows of it is render/sequence/table_updates.h. Two finished sets are there
-// to interpolate between while a third is built; a set that is not finished is never shown.
+// shows of it is render/sequence/table_updates.h. Two finished sets are there to interpolate between
+// while a third is built; a set that is not finished is never shown.
 #pragma once
 
 #include <memory>
@@ -56,11 +56,12 @@ class BodareUpdate {
 
   // The two finished sets and the weight of the newer, which grows from 0 to 1 over the orders but
   // the last and rests there: picture = (1 - blend) of older + blend of newer.
-  // Of the set that is being built, 0 .. frames_of_update() - 1; at 0 newer() is new.
-  int frame() const { return frame_; }
   const BodareSet& older() const { return *older_; }
   const BodareSet& newer() const { return *newer_; }
   double blend() const;
+
+  // Of the set that is being built, 0 .. frames_of_update() - 1; at 0 newer() is new.
+  int frame() const { return frame_; }
 
   // Radiance (1/sr) of a point at every wavelength, interpolated between the two sets.
   std::vector<double> radiance(const SkyPoint& point) const;

@@ -14,11 +14,8 @@ void main() {
   ViewRay ray = ray_in_view(vec2(texel), sun, kVolumeView);
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Place start = place_of(ray, sun, nu);
-#ifdef HILLAIRE
+#if defined(HILLAIRE) || defined(BODARE)
   March march = march_begin();
-  float marched = 0.0;
-#elif defined(BODARE)
-  Scattering path = march_begin();
   float marched = 0.0;
 #else
   Scattering whole = scattering(start, nu, ray.hits_ground);
@@ -35,8 +32,9 @@ void main() {
     marched = d;
     Scattering path = march.light;
 #elif defined(BODARE)
-    path = march_step(path, start, nu, marched, d, ray.hits_ground);
+    march = march_step(march, start, nu, marched, d, ray.hits_ground);
     marched = d;
+    Scattering path = march.light;
 #else
     Scattering path = scattering_before(whole, exp(-depth_between), scattering(end, nu, ray.hits_ground));
 #endif

@@ -13,11 +13,17 @@ vec4 gathered_light(Place at) {
   return dusk * look_up(gathered_table, 0.5 / size + clamp(unit, vec2(0.0), vec2(1.0)) * (1.0 - 1.0 / size));
 }
 
-Scattering march_begin() {
-  Scattering none;
-  none.rayleigh_like = vec4(0.0);
-  for (int c = 0; c < kClasses; ++c) none.single[c] = vec4(0.0);
-  return none;
+struct March {
+  Scattering light;
+  vec4 depth;  // optical, from the beginning
+};
+
+March march_begin() {
+  March march;
+  march.light.rayleigh_like = vec4(0.0);
+  for (int c = 0; c < kClasses; ++c) march.light.single[c] = vec4(0.0);
+  march.depth = vec4(0.0);
+  return march;
 }
 
 // Where a step begins, as a share of the path: short ones in the denser air, at the beginning or at the ground.
@@ -27,23 +33,27 @@ float march_share(float step, bool downward) {
   return downward ? x * (2.0 - x) : x * x;
 }
 
-// Between two distances, km: one sample in the middle of the step.
-Scattering march_step(Scattering sum, Place from, float nu, float begin, float end, bool downward) {
+// Between two distances, km: the light that falls on the middle of the step, as much of it as gets through from all of it.
+March march_step(March march, Place from, float nu, float begin, float end, bool downward) {
+  const vec4 least = vec4(1e-12);
   Place at = place_along(from, nu, 0.5 * (begin + end));
-  vec4 light = (end - begin) * transmittance_between(from, at, downward) *
+  vec4 depth = optical_depth_between(from, place_along(from, nu, end), downward);
+  vec4 of_step = max(depth - march.depth, least);
+  vec4 light = (end - begin) * exp(-march.depth) * (share_taken(of_step) / of_step) *
                (sun_transmittance(at.h, at.mu_s) + gathered_light(at));
   Scattering here = scattering_at(at.h);
   float by_phase = elek_rayleigh_phase(nu) / rayleigh_phase(depolarisation, nu);
-  sum.rayleigh_like += by_phase * light * here.rayleigh_like;
-  for (int c = 0; c < kClasses; ++c) sum.single[c] += light * here.single[c];
-  return sum;
+  march.light.rayleigh_like += by_phase * light * here.rayleigh_like;
+  for (int c = 0; c < kClasses; ++c) march.light.single[c] += light * here.single[c];
+  march.depth = depth;
+  return march;
 }
 
 // For each pixel, where there is no volume.
 Scattering bodare_march(Place from, float nu, float length_km, bool downward) {
-  Scattering sum = march_begin();
+  March march = march_begin();
   for (float i = 0.0; i < kMarchSteps; i += 1.0) {
-    sum = march_step(sum, from, nu, length_km * march_share(i, downward), length_km * march_share(i + 1.0, downward), downward);
+    march = march_step(march, from, nu, length_km * march_share(i, downward), length_km * march_share(i + 1.0, downward), downward);
   }
-  return sum;
+  return march.light;
 }

@@ -199,8 +199,10 @@ TEST(AerialPerspective, OfHillaireIsMarched) {
 
 // By `bodare` it is the integral over the path of sunlight and of what the table of gathered light
 // holds, here by Simpson's rule with 2 x 200 steps.
-TEST(AerialPerspective, OfBodareIsTheIntegralOfSunAndGatheredLight) {
-  const Preset preset = shipped("bodare-2014");
+class AerialPerspectiveOfBodare : public ::testing::TestWithParam<double> {};
+
+TEST_P(AerialPerspectiveOfBodare, IsTheIntegralOfSunAndGatheredLight) {
+  const Preset preset = Planet::with_aerosol(shipped("bodare-2014"), GetParam());
   const AtmosphereTables tables =
       compute_tables_of(BodareModel(2), preset.atmosphere,
                         color_rule(refs::standard_spectral_data()), kSmallTables, 2, {});
@@ -268,10 +270,13 @@ TEST(AerialPerspective, OfBodareIsTheIntegralOfSunAndGatheredLight) {
   std::printf("[ aerial ] %d paths: worst %.2f %% by pixel, %.2f %% from the volume\n", pixels,
               100 * worst_pixel, 100 * worst_volume);
   ASSERT_GT(pixels, 80);
-  constexpr double kSixteenSteps = 0.01, kVolumeTexels = 0.03;
+  constexpr double kSixteenSteps = 0.02, kVolumeTexels = 0.03;
   EXPECT_LT(worst_pixel, kSixteenSteps);
   EXPECT_LT(worst_volume, kVolumeTexels);
 }
+
+INSTANTIATE_TEST_SUITE_P(AirAndFog, AerialPerspectiveOfBodare,
+                         ::testing::Values(0.0, 3e-4));  // 1/m; 0: the preset's own
 
 INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf,
                          ::testing::Values(Seen{"earth-clear", "valley", 0, 0, 0},
