@@ -217,7 +217,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
     if (!coupling.shifted.empty()) {
       std::vector<DiffuseField> more;
       if (options.deep_twilight)
-        more = couple(coupling, twilight_couplings(shape.levels) - kCouplings, kShiftedModes);
+        more = couple(coupling, twilight_couplings(options.levels) - kCouplings, kShiftedModes);
       const auto found = [&](std::size_t w) {
         return more.empty() ? has_converged(result[w], result[w], coupling, kDarkByDay)
                             : has_converged(result[w], more[w], coupling, kDark);

@@ -54,6 +54,7 @@ struct DiffuseOptions {
   // places; in two where that does not converge.
   bool deep_twilight = false;
   bool polarised = true;  // with P of the light that air polarises
+  int levels = 28;        // of the grid, without those that layers of the atmosphere add
 };
 
 // The first sun of the grid that has light from neighbouring places under their own sun. On a

@@ -36,7 +36,7 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
       sun_coupling(grid_, solved_, streams, first),
       {options.moments, options.tolerance, std::max(options.order - 1, 0), deep_twilight,
-       options.transfer == Transfer::kVector});
+       options.transfer == Transfer::kVector, options.levels});
 }
 
 // docs/theory (8.6).
