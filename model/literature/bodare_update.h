@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodare & Sandberg 2014, chapter 5: an update of the tables spread over frames; what a sequence
-// shows of it is render/sequence/table_updates.h. Two finished sets are there to interpolate between
-// while a third is built; a set that is not finished is never shown.
+// shows of it is render/sequence/table_updates.h. Two finished sets are there to interpolate
+// between while a third is built; a set that is not finished is never shown.
 #pragma once
 
 #include <memory>

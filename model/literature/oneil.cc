@@ -127,10 +127,9 @@ std::vector<Path> paths_of(const Atmosphere<double>& atmosphere, const Depths& d
                            int threads) {
   std::vector<Path> paths(points.size());
   tbb::task_arena(threads).execute([&] {
-    tbb::parallel_for(std::size_t{0}, points.size(),
-                      [&](std::size_t i) {
-                        paths[i] = path_of(atmosphere, depths, choices, points[i]);
-                      });
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+      paths[i] = path_of(atmosphere, depths, choices, points[i]);
+    });
   });
   return paths;
 }

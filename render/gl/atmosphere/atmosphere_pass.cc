@@ -109,8 +109,7 @@ bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = thickness_m(tables);
   return !is_closed_form(tables.sky_rays.mapping) &&
          tables.sky_rays.mapping != SkyRayMapping::kONeil &&
-         options.aerial == AerialPerspective::kVolume &&
-         only_ground && !options.second_sun &&
+         options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
          options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
 }
 
