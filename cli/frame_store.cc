@@ -113,7 +113,9 @@ std::string name_of(int frame) { return fmt::format("frame_{:05}", frame); }
 }  // namespace
 
 Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<TimelineStep>& timeline)
-    : timeline_(timeline) {
+    : timeline_(timeline),
+      update_frames_(timeline.size() > 1 ? request.update_frames : 0),
+      frames_per_second_(request.sequence.frames_per_second) {
   common_ = {{"version", kVersion},
              {"model", request.model},
              {"light", {static_cast<int>(request.light.transfer), request.light.orders}},
@@ -134,6 +136,12 @@ std::string Fingerprints::of(const Shot& shot, double time_s) const {
   json["sun"] = {shot.sun.zenith, shot.sun.azimuth};
   json["timeline"] = {preset_to_json(timeline_[moment.before].preset),
                       preset_to_json(timeline_[moment.after].preset), moment.share};
+  if (update_frames_ > 0) {
+    // What earlier frames have seen is still in the tables.
+    for (const TimelineStep& step : timeline_)
+      json["updates"].push_back({step.time_s, preset_to_json(step.preset)});
+    json["update"] = {update_frames_, frames_per_second_, time_s};
+  }
   // Where the timeline stands still, time does not matter.
   if (json["timeline"][0] == json["timeline"][1]) json["timeline"][2] = 0;
   return hash_of(json.dump());

@@ -185,6 +185,12 @@ void add_sequence_options(CLI::App& command, RenderOptions& options) {
                "there already are kept");
   group.option("--format", options.format, "png|exr|png,exr", "Format of the frames in --out-dir")
       ->capture_default_str();
+  group.option(
+      "--update-frames", options.update_frames, "2|4|8|16|32",
+      "Of --model bodare: renew its tables over frames, as its authors do, where the "
+      "atmosphere changes: N frames for each order of scattering but the last, which takes "
+      "half, and one to gather between them; the picture lags behind by one to three "
+      "updates. --stats lists what each frame does for it");
   group.option("--strip", options.strip, "PARAMETER=LOW..HIGH[:N]",
                "N frames (5) side by side in which a parameter of the preset varies");
 }
@@ -201,6 +207,7 @@ constexpr Pair kNeeds[] = {
     {"--height-range-m", "--height-map"},
     {"--water-level-m", "--height-map"},
     {"--format", "--out-dir"},
+    {"--update-frames", "--out-dir"},
 };
 constexpr Pair kExcludes[] = {
     {"--altitude-m", "--above-ground-m"},

@@ -22,7 +22,7 @@ struct RenderOptions {
   // Several frames
   std::string sequence, step_min, frames_per_second = "24", out_dir, format = "png", strip;
   std::string adaptation = "1";
-  int frames = 0;
+  int frames = 0, update_frames = 0;  // 0: not typed
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
   std::string moon, second_sun, clouds, wind = "5", atmosphere = "on";

@@ -37,6 +37,7 @@ struct RenderRequest {
   std::vector<std::string> out;         // of a picture
   std::string out_dir;                  // of a sequence
   std::vector<std::string> extensions;  // of its frames: .png, .exr
+  int update_frames = 0;                // --update-frames; 0: tables of each time
   bool panels = false;                  // beside each PNG of a picture
   bool stats = false;
   std::shared_ptr<ContentCache> cache;  // null with --no-cache and where there is no place for one

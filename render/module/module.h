@@ -26,7 +26,7 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 10;
+  static constexpr int kRevision = 11;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);

@@ -148,6 +148,9 @@ Place place_at(float h, float mu, float mu_s) {
   return place;
 }
 
+#if defined(CLOSED_FORM) || defined(ONEIL)  // once: a file is included where it is named first
+#include "model/shared/closed_forms.glsl"
+#endif
 #ifdef CLOSED_FORM
 #include "render/shaders/closed_form.glsl"
 #endif

@@ -110,6 +110,10 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
     path.transmittance = transmittance_between(start, end, ray.hits_ground);
 #ifdef HILLAIRE
     path.in_scatter = radiance(hillaire_march(start, nu, in_air), nu);
+#elif defined(BODARE)
+    path.in_scatter = radiance(bodare_march(start, nu, in_air, ray.hits_ground), nu);
+#elif defined(ONEIL)
+    path.in_scatter = radiance(oneil_sum(start, nu, in_air), nu);
 #else
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     Scattering rest = scattering(end, nu, ray.hits_ground);

@@ -75,6 +75,7 @@ struct Stated {
   double direction;
   double (*bias)(double sun_deg);
 };
+void PrintTo(const Stated& stated, std::ostream* out) { *out << stated.of; }
 class DeepTwilightTruth : public testing::TestWithParam<Stated> {};
 
 TEST_P(DeepTwilightTruth, IsMetAsStated) {
@@ -114,10 +115,10 @@ INSTANTIATE_TEST_SUITE_P(
                                                    : sun < 99 ? 0.08
                                                               : 0.1; }},
                     Stated{"mars", 0.15,
-                           [](double sun) { return sun < 95   ? 0.05
-                                                   : sun < 99 ? 0.09
-                                                              : 0.15; }}),
-    [](const auto& info) { return info.param.of == "mars" ? "DustOnMars" : "ClearAirOnEarth"; });
+                           [](double sun) {
+                             return sun < 95 ? 0.05 : sun < 99 ? 0.09 : sun < 101 ? 0.15 : 0.2;
+                           }}),
+    [](const auto& test) { return test.param.of == "mars" ? "DustOnMars" : "ClearAirOnEarth"; });
 
 }  // namespace
 }  // namespace skyfit

@@ -43,6 +43,8 @@ constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 // After those of kAtmosphereReads.
 constexpr GLuint kShadowUnit = 12, kScatteringUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
                  kMaterialUnit = 18;
+// Of kBodare while there is no volume to be read.
+constexpr GLuint kGatheredUnit = kVolumeUnit;
 
 std::vector<std::string> class_defines() {
   return {fmt::format("SKY_CLASS {:.1f}", kSkyClass),
@@ -105,8 +107,9 @@ std::vector<ShaderStage> stages_of(const std::string& path,
 
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = thickness_m(tables);
-  return !is_closed_form(tables.sky_rays.mapping) && options.aerial == AerialPerspective::kVolume &&
-         only_ground && !options.second_sun &&
+  return !is_closed_form(tables.sky_rays.mapping) &&
+         tables.sky_rays.mapping != SkyRayMapping::kONeil &&
+         options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
          options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
 }
 
@@ -119,8 +122,12 @@ bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
 bool AtmosphereView::sees_grains() const { return !only_ground || nearest_m < grainless_m(*this); }
 
 bool AtmospherePass::has_sky_view(const FrameOptions& options) const {
-  if (is_closed_form(tables_.sky_rays.mapping)) return false;
-  const bool hillaire = tables_.sky_rays.mapping == SkyRayMapping::kHillaire;
+  const SkyRayMapping mapping = tables_.sky_rays.mapping;
+  const bool hillaire = mapping == SkyRayMapping::kHillaire;
+  // Closed forms and sums of what is before a surface have no whole rays to the ground.
+  if (is_closed_form(mapping) || mapping == SkyRayMapping::kONeil ||
+      mapping == SkyRayMapping::kBodare)
+    return false;
   return options.camera.altitude_m <= (hillaire ? thickness_m(tables_) : kAbove);
 }
 
@@ -134,9 +141,12 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes
   tables_.sizes = tables.sizes;
   tables_.sky_rays.mapping = tables.sky_rays.mapping;
   tables_.sky_rays.nielsen = tables.sky_rays.nielsen;
+  tables_.sky_rays.oneil = tables.sky_rays.oneil;
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
   tables_.phases = tables.phases;
   scattering_coefficients_ = scattering_texture(tables);
+  gathered_.reset();
+  if (tables.sky_rays.mapping == SkyRayMapping::kBodare) gathered_ = gathered_texture(tables);
 }
 
 GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
@@ -203,6 +213,7 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
   const GLuint id = program(kFillVolume, defined);
   bind_blocks(id, view);
   glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
+  if (gathered_) glBindTextureUnit(kGatheredUnit, gathered_->id());
   volume_->fill(id);
 }
 
@@ -248,7 +259,11 @@ void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_m
     if (!clouds_) clouds_.emplace();
     clouds_->bind(*view.options.clouds, sky, kCloudUnit, blocks_);
   }
-  if (view.volume(tables_)) volume_->bind(kVolumeUnit);
+  if (view.volume(tables_)) {
+    volume_->bind(kVolumeUnit);
+  } else if (gathered_) {
+    glBindTextureUnit(kGatheredUnit, gathered_->id());
+  }
   const glm::dvec3 camera =
       (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
   view.materials.bind(camera, grainy, kMaterialUnit, blocks_);

@@ -77,7 +77,8 @@ class AtmospherePass {
   const AtmosphereTables& tables() const { return tables_; }  // without values
 
   // Whether whole rays are looked up once a frame: not from high above the air; by Hillaire's
-  // method from everywhere in it; not by closed forms.
+  // method from everywhere in it; not by closed forms, and not where light before surfaces is
+  // summed along the path.
   bool has_sky_view(const FrameOptions& options) const;
   void add_sky_view(const FrameOptions& options, FrameGraph& graph) const;
   void draw_sky_view(const AtmosphereView& view);
@@ -112,6 +113,7 @@ class AtmospherePass {
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
   GlVertexArray empty_;
   GlTexture scattering_coefficients_;   // over height
+  std::optional<GlTexture> gathered_;   // of kBodare
   std::optional<AerialVolume> volume_;  // made when first used
   std::optional<Clouds> clouds_;
   UniformBuffers blocks_;

@@ -9,7 +9,6 @@
 #include "model/literature/evaluate.h"
 #include "model/literature/hillaire_tables.h"
 #include "model/literature/nielsen.h"
-#include "model/literature/oneil.h"
 #include "model/shared/shared.h"
 #include "render/glsl/table_defines.h"
 
@@ -67,6 +66,28 @@ void define_closed_form(const AtmosphereTables& tables, std::vector<std::string>
   if (choices.sun == NielsenSun::kPublished) defined.emplace_back("NIELSEN_PUBLISHED_SUN");
 }
 
+// What render/shaders/oneil.glsl is compiled for.
+void define_sums(const ONeilChoices& choices, std::vector<std::string>& defined) {
+  defined.emplace_back("ONEIL");
+  defined.push_back(fmt::format("ONEIL_SAMPLES {}", choices.samples));
+  if (choices.depths == ONeilDepths::kPolynomial) defined.emplace_back("ONEIL_POLYNOMIAL");
+  if (choices.phase == ONeilAirPhase::kIsotropic) defined.emplace_back("ONEIL_ISOTROPIC_AIR");
+  if (choices.shadow == ONeilShadow::kNone) defined.emplace_back("ONEIL_NO_SHADOW");
+}
+
+// Of RGBA in single precision.
+GlTexture flat_texture(GLsizei width, GLsizei height, const void* rgba) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  GlTexture texture(id);
+  glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
+  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, rgba);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
 }  // namespace
 
 // Rows and columns of the sky's view for each texel of the scattering table.
@@ -109,15 +130,12 @@ GlTexture scattering_texture(const AtmosphereTables& tables) {
   }
   const auto width = static_cast<GLsizei>(kHeights),
              height = static_cast<GLsizei>(tables.phases.count() + 1);
-  GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &id);
-  GlTexture texture(id);
-  glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
-  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values.data());
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
+  return flat_texture(width, height, values.data());
+}
+
+GlTexture gathered_texture(const AtmosphereTables& tables) {
+  const Table& gathered = tables.sky_rays.gathered;
+  return flat_texture(gathered.width, gathered.height, gathered.rgba.data());
 }
 
 TableCodes add_tables(const AtmosphereTables& tables, FrameGraph& graph, TablePrecision precision) {
@@ -164,8 +182,7 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables,
       defined.end(),
       {fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
        fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
-       fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
-       fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)});
+       fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu)});
   if (codes.precision != TablePrecision::kFloat) defined.emplace_back("ENCODED");
   // Mesa rounds what it interpolates between texels of 8 bits to 8 bits again.
   if (codes.precision == TablePrecision::k8Bit) defined.emplace_back("EXACT_FILTER");
@@ -176,6 +193,8 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables,
                     fmt::format("HILLAIRE_SKY_VIEW {}, {}", Hillaire::sky_view_azimuth,
                                 Hillaire::sky_view_rows)});
   }
+  if (tables.sky_rays.mapping == SkyRayMapping::kONeil) define_sums(tables.sky_rays.oneil, defined);
+  if (tables.sky_rays.mapping == SkyRayMapping::kBodare) defined.emplace_back("BODARE");
   if (is_closed_form(tables.sky_rays.mapping)) define_closed_form(tables, defined);
   return defined;
 }

@@ -38,4 +38,7 @@ glm::ivec3 sky_view_size(const AtmosphereTables& tables);
 // 1/km, over the heights of the tables.
 GlTexture scattering_texture(const AtmosphereTables& tables);
 
+// SkyRayTables::gathered, of SkyRayMapping::kBodare.
+GlTexture gathered_texture(const AtmosphereTables& tables);
+
 }  // namespace skyfit
