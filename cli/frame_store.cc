@@ -71,6 +71,7 @@ ordered_json json_of(const FrameOptions& frame) {
                        {"aerial", static_cast<int>(frame.aerial)},
                        {"shadows", frame.shadows},
                        {"wind_m_s", frame.wind_m_s},
+                       {"refraction", frame.refraction},
                        {"primaries", static_cast<int>(frame.primaries)},
                        {"glare", static_cast<int>(frame.glare)},
                        {"layers", frame.layers}};

@@ -105,6 +105,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       .option("--atmosphere", options.atmosphere, "on|off",
               "off: the planet without its air, in the sun's light alone")
       ->capture_default_str();
+  group.flag(
+      "--refraction", options.refraction,
+      "Suns' discs stand, and are flat, as air refracts them; ground and sky stay as straight\n"
+      "rays see them");
   group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
 }
 

@@ -33,7 +33,8 @@ struct RenderOptions {
   std::string primaries = "rec709", table_precision = "float", table_size = "full";
   int samples_per_side = FrameOptions{}.samples_per_side;
   int orders = 0;  // 0: all
-  bool scalar = false, shadows = false, layers = false, panels = false, gpu = false, stats = false;
+  bool scalar = false, shadows = false, refraction = false, layers = false, panels = false,
+       gpu = false, stats = false;
   bool no_cache = false;
   std::vector<std::string> out;
   int threads = default_threads();

@@ -133,6 +133,9 @@ struct FrameOptions {
   AerialPerspective aerial = AerialPerspective::kVolume;
   bool shadows = false;  // of the terrain, on the ground and in the air
   double wind_m_s = 5;   // 12.5 m above the sea: how rough it is, 0 to 30
+  // The suns' discs stand where air refracts them to, and as flat: those of the light of one
+  // wavelength, 550 nm, toward which the ground and the sky are drawn as along straight rays.
+  bool refraction = false;
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;
   std::optional<CloudLayer> clouds;

@@ -25,6 +25,9 @@ void pass_constants() {
   view.volume_km = volume_km;
   view.slope_variance = slope_variance;
   view.suns = suns;
+#ifdef REFRACTION
+  view.bending = bending;
+#endif
   atmosphere.depolarisation = depolarisation;
   atmosphere.phase_parameters = phase_parameters;
   atmosphere.ground_albedo = ground_albedo;

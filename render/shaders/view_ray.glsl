@@ -8,6 +8,13 @@ const int kSuns = 2;
 const int kSuns = 1;
 #endif
 
+// Of each sun where and how its disc is refracted, render/gl/atmosphere/disc_bending.h.
+#ifdef REFRACTION
+#define BENDING_CONSTANTS(HOW) HOW vec4 bending[2 * kSuns];
+#else
+#define BENDING_CONSTANTS(HOW)
+#endif
+
 // Of a frame. Half the field of view; the camera's height; a pixel's angle, rad; the farthest distance of the volume; the variance of the sea's slopes; of each
 // sun the unit vector in the camera frame and the irradiance as a share of the first one's.
 #define VIEW_CONSTANTS(HOW)  \
@@ -19,7 +26,8 @@ const int kSuns = 1;
   HOW float pixel_angle;     \
   HOW float volume_km;       \
   HOW float slope_variance;  \
-  HOW vec4 suns[kSuns];
+  HOW vec4 suns[kSuns];      \
+  BENDING_CONSTANTS(HOW)
 CONSTANTS(1, View, VIEW_CONSTANTS)
 
 // The ray through a point of the picture, which runs from -1 to 1: of length 1 along the view's axis, so that it is linear

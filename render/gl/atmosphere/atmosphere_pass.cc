@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "model/shared/sea.h"
+#include "render/gl/atmosphere/disc_bending.h"
 #include "render/gl/context/shader.h"
 #include "render/gl/context/uniform_block.h"
 #include "render/gl/context/uniforms.h"
@@ -145,6 +146,7 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
   tables_.phases = tables.phases;
   scattering_coefficients_ = scattering_texture(tables);
+  refraction_.reset();
   gathered_.reset();
   if (tables.sky_rays.mapping == SkyRayMapping::kBodare) gathered_ = gathered_texture(tables);
 }
@@ -160,6 +162,7 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
   Defined defined = atmosphere_defines(tables_, codes_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
+  if (options.refraction) defined.push_back("REFRACTION");
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
   return defined;
 }
@@ -179,6 +182,18 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
       {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
   block.set("suns", std::span<const glm::vec4>(suns));
+  if (options.refraction) {
+    constexpr double kWavelength = 550;  // of which the bending is that of all
+    if (!refraction_) refraction_.emplace(tables_.atmosphere, kWavelength);
+    std::vector<glm::vec4> bending;
+    for (const glm::vec4& sun : suns) {
+      const double zenith = std::atan2(glm::length(glm::dvec2(sun.x, sun.y)), double{sun.z});
+      std::ranges::copy(disc_bending(*refraction_, options.camera.altitude_m, zenith,
+                                     tables_.atmosphere.star.angular_radius_rad()),
+                        std::back_inserter(bending));
+    }
+    block.set("bending", std::span<const glm::vec4>(bending));
+  }
   block.bind(blocks_);
   bind_atmosphere(tables_, program, blocks_, codes_);
 }

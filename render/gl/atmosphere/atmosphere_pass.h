@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "model/atmosphere/refraction.h"
 #include "render/gl/atmosphere/aerial_volume.h"
 #include "render/gl/atmosphere/atmosphere_tables.h"
 #include "render/gl/atmosphere/clouds.h"
@@ -116,6 +117,7 @@ class AtmospherePass {
   std::optional<GlTexture> gathered_;   // of kBodare
   std::optional<AerialVolume> volume_;  // made when first used
   std::optional<Clouds> clouds_;
+  std::optional<Refraction> refraction_;  // of the tables' atmosphere, made when first used
   UniformBuffers blocks_;
 };
 
