@@ -75,6 +75,7 @@ void add_commands(CLI::App& app) {
   add_plot_command(app);
   add_render_command(app);
   add_view_command(app);
+  add_tables_command(app);
   add_presets_command(app);
   add_parameters_command(app);
   add_references_command(app);

@@ -180,7 +180,7 @@ void add_campaign_command(CLI::App& app) {
       app.add_subcommand("campaign", "Fits many measured skies in one way, each by itself.");
   command->add_option("plan", arguments->plan, "Files, grouping and options (docs/campaigns.md)")
       ->required()
-      ->type_name("PLAN.json");
+      ->type_name("PLAN");
   command->add_option("--out", arguments->out, "Directory of the results; what is there stays")
       ->required()
       ->type_name("DIR");

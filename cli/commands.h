@@ -20,6 +20,7 @@ void add_doctor_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_view_command(CLI::App& app);
+void add_tables_command(CLI::App& app);
 void add_presets_command(CLI::App& app);
 void add_parameters_command(CLI::App& app);
 void add_references_command(CLI::App& app);

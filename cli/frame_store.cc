@@ -34,6 +34,22 @@ std::string hash_of_file(const fs::path& file) {
   return hash.text();
 }
 
+ordered_json json_of(const TableSizes& sizes) {
+  const RayTexels rays = sizes.scattering(), outside = sizes.outside();
+  return {sizes.optical_depth_mu,
+          sizes.optical_depth_r,
+          sizes.irradiance_mu_s,
+          sizes.irradiance_r,
+          sizes.scattering_r,
+          rays.ground,
+          rays.sky,
+          rays.mu_s,
+          rays.azimuth,
+          outside.sky,
+          outside.mu_s,
+          outside.azimuth};
+}
+
 ordered_json json_of(const Scene& scene) {
   ordered_json meshes = ordered_json::array();
   for (const PlacedMesh& mesh : scene.meshes) {
@@ -55,6 +71,7 @@ ordered_json json_of(const FrameOptions& frame) {
                        {"aerial", static_cast<int>(frame.aerial)},
                        {"shadows", frame.shadows},
                        {"wind_m_s", frame.wind_m_s},
+                       {"refraction", frame.refraction},
                        {"primaries", static_cast<int>(frame.primaries)},
                        {"glare", static_cast<int>(frame.glare)},
                        {"layers", frame.layers}};
@@ -97,10 +114,14 @@ std::string name_of(int frame) { return fmt::format("frame_{:05}", frame); }
 }  // namespace
 
 Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<TimelineStep>& timeline)
-    : timeline_(timeline) {
+    : timeline_(timeline),
+      update_frames_(timeline.size() > 1 ? request.update_frames : 0),
+      frames_per_second_(request.sequence.frames_per_second) {
   common_ = {{"version", kVersion},
              {"model", request.model},
              {"light", {static_cast<int>(request.light.transfer), request.light.orders}},
+             {"tables", json_of(request.table_sizes)},
+             {"table_precision", static_cast<int>(request.table_precision)},
              {"device", static_cast<int>(request.device)},
              {"scene", json_of(request.scene)},
              {"frame", json_of(request.frame)},
@@ -116,6 +137,12 @@ std::string Fingerprints::of(const Shot& shot, double time_s) const {
   json["sun"] = {shot.sun.zenith, shot.sun.azimuth};
   json["timeline"] = {preset_to_json(timeline_[moment.before].preset),
                       preset_to_json(timeline_[moment.after].preset), moment.share};
+  if (update_frames_ > 0) {
+    // What earlier frames have seen is still in the tables.
+    for (const TimelineStep& step : timeline_)
+      json["updates"].push_back({step.time_s, preset_to_json(step.preset)});
+    json["update"] = {update_frames_, frames_per_second_, time_s};
+  }
   // Where the timeline stands still, time does not matter.
   if (json["timeline"][0] == json["timeline"][1]) json["timeline"][2] = 0;
   return hash_of(json.dump());

@@ -24,6 +24,8 @@ class Fingerprints {
 
  private:
   const std::vector<TimelineStep>& timeline_;
+  const int update_frames_;  // 0: tables do not depend on earlier frames
+  const double frames_per_second_;
   nlohmann::ordered_json common_;
 };
 

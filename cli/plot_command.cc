@@ -18,6 +18,7 @@
 #include "model/registry.h"
 #include "model/sky_model.h"
 #include "render/plot/comparison.h"
+#include "render/plot/mean_density.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/polarisation_maps.h"
 #include "render/plot/results.h"
@@ -25,7 +26,8 @@
 namespace skyfit::cli {
 namespace {
 
-constexpr std::string_view kComparison = "comparison", kPolarisation = "polarisation";
+constexpr std::string_view kComparison = "comparison", kPolarisation = "polarisation",
+                           kMeanDensity = "mean-density";
 
 struct PlotOptions {
   std::vector<std::string> directories, out;
@@ -84,7 +86,7 @@ void draw_polarisation(const PlotOptions& options, const plot::Sheet& sheet,
 
 void require_figure(const std::string& name) {
   if (name.empty()) return;
-  std::vector<std::string_view> names = {kComparison, kPolarisation};
+  std::vector<std::string_view> names = {kComparison, kPolarisation, kMeanDensity};
   for (const plot::MeasuredFigure& figure : plot::measured_figures()) names.push_back(figure.name);
   if (std::ranges::count(names, name) == 0)
     throw UsageError("--figure", name, fmt::format("expected one of {}", fmt::join(names, ", ")));
@@ -96,6 +98,14 @@ void run_plot(const PlotOptions& options) {
   require_figure(options.figure);
   const plot::Sheet sheet = parse_sheet(options.page);
   if (options.figure == kPolarisation) return draw_polarisation(options, sheet, files);
+  if (options.figure == kMeanDensity) {
+    if (!options.directories.empty())
+      throw UsageError("directories", options.directories.front(),
+                       "expected none with --figure mean-density");
+    return plot::write_figure(plot::mean_density_figure(sheet), files);
+  }
+  if (options.directories.empty())
+    throw UsageError("directories", "", "expected what skyfit fit left");
   if (!options.sun_zenith.empty())
     throw UsageError("--sun-zenith-deg", options.sun_zenith, "expected with --figure polarisation");
   const bool comparison = options.figure == kComparison;
@@ -131,8 +141,8 @@ void add_plot_command(CLI::App& app) {
       "plot", "Draws the figure of finished fits, or the polarisation of a preset's sky.");
   command
       ->add_option("directories", options->directories,
-                   "What skyfit fit left; with --figure polarisation also a preset")
-      ->required()
+                   "What skyfit fit left; with --figure polarisation also a preset; with --figure "
+                   "mean-density none")
       ->type_name("DIR");
   command->add_option("--out", options->out, "The figure; may be repeated")
       ->required()
@@ -140,8 +150,8 @@ void add_plot_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--figure", options->figure,
-                   fmt::format("{}, {}, or one of those of absolute and spectral skies",
-                               kComparison, kPolarisation))
+                   fmt::format("{}, {}, {}, or one of those of absolute and spectral skies",
+                               kComparison, kPolarisation, kMeanDensity))
       ->type_name("NAME");
   command
       ->add_option("--model", options->model,
@@ -183,6 +193,11 @@ void add_plot_command(CLI::App& app) {
       "Q\n"
       "changes its sign along the sun's vertical circle. Its conventions are those of skyfit sky "
       "--stokes.\n"
+      "\n"
+      "--figure mean-density draws the mean density of a vertical path by the integral and by the "
+      "two "
+      "ways of\n"
+      "the model nielsen over the height of the eye (Nielsen 2003, figure 5.2).\n"
       "\n"
       "Styles of a page, in which the panels are arranged anew:\n" +
       style_lines() +

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/arguments.h"
+#include "cli/table_options.h"
 #include "model/registry.h"
 
 namespace skyfit::cli {
@@ -104,6 +105,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       .option("--atmosphere", options.atmosphere, "on|off",
               "off: the planet without its air, in the sun's light alone")
       ->capture_default_str();
+  group.flag(
+      "--refraction", options.refraction,
+      "Suns' discs stand, and are flat, as air refracts them; ground and sky stay as straight\n"
+      "rays see them");
   group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
 }
 
@@ -155,6 +160,19 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
 }
 
+void add_table_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Tables");
+  group
+      .option("--table-size", options.table_size, names_of(table_sizes()),
+              "Texels of the tables of the atmosphere")
+      ->capture_default_str();
+  group
+      .option("--table-precision", options.table_precision, names_of(table_precisions()),
+              "Of the tables of scattered light; skyfit tables --measure prints what sizes and "
+              "precisions cost")
+      ->capture_default_str();
+}
+
 void add_sequence_options(CLI::App& command, RenderOptions& options) {
   Group group(command, "Sequences and strips");
   group.option("--sequence", options.sequence, "FILE",
@@ -171,6 +189,12 @@ void add_sequence_options(CLI::App& command, RenderOptions& options) {
                "there already are kept");
   group.option("--format", options.format, "png|exr|png,exr", "Format of the frames in --out-dir")
       ->capture_default_str();
+  group.option(
+      "--update-frames", options.update_frames, "2|4|8|16|32",
+      "Of --model bodare: renew its tables over frames, as its authors do, where the "
+      "atmosphere changes: N frames for each order of scattering but the last, which takes "
+      "half, and one to gather between them; the picture lags behind by one to three "
+      "updates. --stats lists what each frame does for it");
   group.option("--strip", options.strip, "PARAMETER=LOW..HIGH[:N]",
                "N frames (5) side by side in which a parameter of the preset varies");
 }
@@ -187,6 +211,7 @@ constexpr Pair kNeeds[] = {
     {"--height-range-m", "--height-map"},
     {"--water-level-m", "--height-map"},
     {"--format", "--out-dir"},
+    {"--update-frames", "--out-dir"},
 };
 constexpr Pair kExcludes[] = {
     {"--altitude-m", "--above-ground-m"},
@@ -263,6 +288,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_sun_options(command, options);
   add_scene_options(command, options);
   add_picture_options(command, options);
+  add_table_options(command, options);
   add_sequence_options(command, options);
 }
 

@@ -22,7 +22,7 @@ struct RenderOptions {
   // Several frames
   std::string sequence, step_min, frames_per_second = "24", out_dir, format = "png", strip;
   std::string adaptation = "1";
-  int frames = 0;
+  int frames = 0, update_frames = 0;  // 0: not typed
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
   std::string moon, second_sun, clouds, wind = "5", atmosphere = "on";
@@ -30,10 +30,11 @@ struct RenderOptions {
   // Picture
   std::string size = "1280x720", aerial = "volume", exposure, exposure_ev = "0", tone = "filmic";
   std::string view_transform = "hue", glare = "eye";
-  std::string primaries = "rec709";
+  std::string primaries = "rec709", table_precision = "float", table_size = "full";
   int samples_per_side = FrameOptions{}.samples_per_side;
   int orders = 0;  // 0: all
-  bool scalar = false, shadows = false, layers = false, panels = false, gpu = false, stats = false;
+  bool scalar = false, shadows = false, refraction = false, layers = false, panels = false,
+       gpu = false, stats = false;
   bool no_cache = false;
   std::vector<std::string> out;
   int threads = default_threads();

@@ -11,6 +11,7 @@
 #include "cli/arguments.h"
 #include "cli/output.h"
 #include "cli/render_arguments.h"
+#include "cli/table_options.h"
 #include "model/base/input_file.h"
 #include "model/base/text.h"
 #include "model/base/whole_file.h"
@@ -181,6 +182,17 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   request.light = {transfer_of(options.scalar), options.orders};
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--orders", std::to_string(options.orders), "expected the model reference");
+  request.table_sizes = parse_table_sizes("--table-size", options.table_size);
+  request.table_precision = parse_table_precision("--table-precision", options.table_precision);
+  if (command.count("--update-frames") > 0) {
+    const std::string typed = std::to_string(options.update_frames);
+    constexpr int kSlices[] = {2, 4, 8, 16, 32};
+    if (std::ranges::count(kSlices, options.update_frames) == 0)
+      throw UsageError("--update-frames", typed, "expected 2, 4, 8, 16 or 32");
+    if (options.model != "bodare")
+      throw UsageError("--update-frames", typed, "expected the model bodare");
+  }
+  request.update_frames = options.update_frames;
   request.panels = options.panels;
   request.stats = options.stats;
   request.threads = options.threads;

@@ -10,6 +10,7 @@
 #include "cli/render_options.h"
 #include "model/atmosphere/parameters.h"
 #include "model/base/content_cache.h"
+#include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/sequence/sequence.h"
 
@@ -25,6 +26,8 @@ struct RenderRequest {
   GraphicsDevice device = GraphicsDevice::kSoftware;
   std::string model;
   TableLight light;
+  TableSizes table_sizes;
+  TablePrecision table_precision = TablePrecision::kFloat;
   FrameOptions frame;  // camera, site and sun are those of the sequence
   Sequence sequence;   // of one frame for a single picture and a strip
   bool is_sequence = false;
@@ -34,6 +37,7 @@ struct RenderRequest {
   std::vector<std::string> out;         // of a picture
   std::string out_dir;                  // of a sequence
   std::vector<std::string> extensions;  // of its frames: .png, .exr
+  int update_frames = 0;                // --update-frames; 0: tables of each time
   bool panels = false;                  // beside each PNG of a picture
   bool stats = false;
   std::shared_ptr<ContentCache> cache;  // null with --no-cache and where there is no place for one

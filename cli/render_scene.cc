@@ -94,6 +94,7 @@ FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) 
   frame.height = size.height;
   frame.samples_per_side = options.samples_per_side;
   frame.shadows = options.shadows;
+  frame.refraction = options.refraction;
   frame.wind_m_s = parse_number("--wind-m-s", options.wind);
   if (!(frame.wind_m_s >= 0 && frame.wind_m_s <= 30))
     throw UsageError("--wind-m-s", options.wind, "expected m/s from 0 to 30");

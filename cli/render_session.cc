@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/light_check.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/lowered_ground.h"
@@ -21,9 +23,13 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
                             request.light.transfer)),
       keeps_tables_(request.cache && timeline.size() == 1),
-      timeline_(
-          std::move(timeline), [this](const Preset& preset) { return tables_of(preset); },
-          first_time_s),
+      timeline_(request.update_frames > 0
+                    ? std::optional<Timeline>()
+                    : std::optional<Timeline>(
+                          std::in_place, timeline,
+                          [this](const Preset& preset) { return tables_of(preset); },
+                          first_time_s)),
+      steps_(std::move(timeline)),
       renderer_(request.scene, request.device, request.cache) {
   time_.done("opening the renderer");
 }
@@ -35,7 +41,7 @@ Atmosphere<double> RenderSession::drawn_atmosphere(const Preset& preset) const {
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
   const auto atmosphere = drawn_atmosphere(preset);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
-  const TableSizes sizes;
+  const TableSizes& sizes = request_.table_sizes;
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
   const auto compute = [&] {
     if (request_.light.orders > 0)
@@ -57,26 +63,27 @@ FrameOptions RenderSession::placed(const Shot& shot, const Preset& preset) const
 
 // Makes the atmosphere of a time that of the renderer.
 Preset RenderSession::show(double time_s) {
-  if (settled_) return *timeline_.steady();
-  const Timeline::Now now = timeline_.at(time_s);
+  if (settled_) return *timeline_->steady();
+  const Timeline::Now now = timeline_->at(time_s);
   time_.done("waiting for tables");
   if (now.tables != shown_) {
-    renderer_.set_atmosphere(now.preset, *now.tables);
+    renderer_.set_atmosphere(now.preset, *now.tables, request_.table_precision);
     shown_ = now.tables;
     time_.done("tables to the renderer");
   }
-  if (timeline_.steady() != nullptr) {
+  if (timeline_->steady() != nullptr) {
     settled_ = true;
     shown_.reset();
-    timeline_.forget();
+    timeline_->forget();
   }
   return now.preset;
 }
 
 Frame RenderSession::draw(const Shot& shot, double time_s,
                           const std::function<void(double)>& progress) {
+  if (!timeline_) return draw_updated(shot, time_s, progress);
   // Before the first frame of an atmosphere that stays, while its tables are made.
-  if (const Preset* preset = timeline_.steady(); preset != nullptr && !settled_) {
+  if (const Preset* preset = timeline_->steady(); preset != nullptr && !settled_) {
     renderer_.set_ground(drawn_atmosphere(*preset),
                          color_rule(refs::spectral_data_of(preset->atmosphere)));
     renderer_.prepare(placed(shot, *preset));
@@ -85,6 +92,33 @@ Frame RenderSession::draw(const Shot& shot, double time_s,
   const Preset preset = show(time_s);
   Frame drawn = renderer_.draw(placed(shot, preset), progress);
   time_.done("frame: other", drawn.statistics.steps);
+  return drawn;
+}
+
+// With tables that are renewed over frames.
+Frame RenderSession::draw_updated(const Shot& shot, double time_s,
+                                  const std::function<void(double)>& progress) {
+  if (!updates_) {
+    const Preset& first = steps_.front().preset;
+    updates_.emplace(
+        steps_, request_.sequence.frames_per_second,
+        color_rule(refs::spectral_data_of(first.atmosphere)),
+        [this](const Preset& preset) { return drawn_atmosphere(preset); },
+        BodareUpdateOptions{.slices = request_.update_frames}, TableSizes{}, request_.threads);
+    time_.done("first tables");
+  }
+  const auto frame = static_cast<int>(std::lround(time_s * request_.sequence.frames_per_second));
+  const TableUpdates::Now now = updates_->at(frame);
+  time_.done("update of tables");
+  if (now.tables != shown_) {
+    renderer_.set_atmosphere(now.preset, *now.tables);
+    shown_ = now.tables;
+    time_.done("tables to the renderer");
+  }
+  Frame drawn = renderer_.draw(placed(shot, now.preset), progress);
+  time_.done("frame: other", drawn.statistics.steps);
+  drawn.statistics.passes.insert(drawn.statistics.passes.begin(), {"table update", now.update_ms});
+  drawn.metadata.emplace_back("skyfit:table_blend", fmt::format("{:.9g}", now.blend));
   return drawn;
 }
 

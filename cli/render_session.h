@@ -5,12 +5,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cli/render_request.h"
 #include "cli/time_account.h"
 #include "model/registry.h"
 #include "model/sky_model.h"
+#include "render/sequence/table_updates.h"
 #include "render/sequence/timeline.h"
 
 namespace skyfit::cli {
@@ -33,13 +35,16 @@ class RenderSession {
   Atmosphere<double> drawn_atmosphere(const Preset& preset) const;
   FrameOptions placed(const Shot& shot, const Preset& preset) const;
   Preset show(double time_s);
+  Frame draw_updated(const Shot& shot, double time_s, const std::function<void(double)>& progress);
 
   const RenderRequest& request_;
   TimeAccount& time_;
   Report report_;
   std::unique_ptr<SkyModel> model_;
-  bool keeps_tables_;  // in the cache: not the many of an atmosphere that changes
-  Timeline timeline_;
+  bool keeps_tables_;                    // in the cache: not the many of an atmosphere that changes
+  std::optional<Timeline> timeline_;     // or, with --update-frames,
+  std::optional<TableUpdates> updates_;  // made for the first frame
+  std::vector<TimelineStep> steps_;      // of the updates
   Renderer renderer_;
   Timeline::Tables shown_;  // what renderer_ has
   bool settled_ = false;    // it has them for all times, and alone

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <ranges>
 #include <stdexcept>
 #include <vector>
@@ -62,6 +63,30 @@ constexpr SkyModelVariant kNielsenVariants[] = {
     {NielsenModel::kSunThroughSky, "the sun's light is what the model's sky lets through"},
 };
 
+constexpr SkyModelVariant kBodareVariants[] = {
+    {BodareMieFromRayleighMethod::kVariant,
+     "aerosol's light is air's, by the proportion of the two at 650 nm, as in the source"},
+};
+
+std::unique_ptr<SkyModel> make_bodare(const SkyModelRequest& request) {
+  if (request.variants.empty()) return std::make_unique<BodareModel>(request.threads);
+  return std::make_unique<BodareMieFromRayleighModel>(
+      request.threads, BodareMieFromRayleighMethod{
+                           {}, node_at(request.spectra, BodareMieFromRayleighMethod::kRedNm)});
+}
+
+constexpr SkyModelVariant kONeilVariants[] = {
+    {ONeilModel::kSamplesN, "N samples of a ray in the place of 5: 1 to 1000", true, 1,
+     ONeilModel::kMostSamples},
+    {ONeilModel::kIsotropicAir, "air scatters alike in all directions, as in the source's demo"},
+    {ONeilModel::kNoShadow,
+     "no test of the planet's shadow, as in the source; of planets of his geometry alone"},
+};
+
+std::unique_ptr<SkyModel> make_oneil(const SkyModelRequest& request) {
+  return std::make_unique<ONeilModel>(request.threads, oneil_choices(request.variants));
+}
+
 std::unique_ptr<SkyModel> make_nielsen(const SkyModelRequest& request) {
   return std::make_unique<NielsenModel>(nielsen_choices(request.variants));
 }
@@ -70,6 +95,23 @@ std::vector<std::string_view> split(std::string_view text) {
   std::vector<std::string_view> parts;
   for (const auto part : std::views::split(text, ':')) parts.emplace_back(part.begin(), part.end());
   return parts;
+}
+
+// Throws std::invalid_argument that names the number.
+bool is_variant(std::string_view model, std::string_view variant, const SkyModelVariant& row) {
+  if (row.most == 0) return variant == row.name;
+  const std::string_view prefix = row.name.substr(0, row.name.size() - 1);  // without the N
+  if (!variant.starts_with(prefix)) return false;
+  const std::string_view digits = variant.substr(prefix.size());
+  int number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || end != digits.data() + digits.size() || number < row.least ||
+      number > row.most) {
+    throw std::invalid_argument(
+        fmt::format("model \"{}\": variant \"{}\": expected a whole number from {} to {}", model,
+                    variant, row.least, row.most));
+  }
+  return true;
 }
 
 }  // namespace
@@ -81,14 +123,14 @@ std::span<const SkyModelEntry> sky_models() {
       {"tables", "what the renderer looks up: tables of the reference", make_tables},
       {"bruneton", "Bruneton & Neyret 2008: 4D tables, multiple scattering",
        make_threaded<BrunetonModel>},
-      {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering",
-       make_threaded<BodareModel>},
+      {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering", make_bodare,
+       kBodareVariants},
       {"hillaire", "Hillaire 2020, as engines do: 2D tables, multiple scattering as a series",
        make_threaded<HillaireModel>},
       {"schafhitzel", "Schafhitzel, Falk & Ertl 2007: 3D table, single scattering",
        make_threaded<SchafhitzelModel>},
-      {"oneil", "O'Neil 2005: five samples along the ray, single scattering",
-       make_threaded<ONeilModel>},
+      {"oneil", "O'Neil 2005: five samples along the ray, single scattering", make_oneil,
+       kONeilVariants},
       {"nielsen", "Nielsen 2003: closed form, mean density; day, up to 30 km", make_nielsen,
        kNielsenVariants},
       {"hoffman-preetham",
@@ -127,7 +169,9 @@ std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralDa
   std::vector<std::string_view> variants = split(name);
   variants.erase(variants.begin());
   for (const std::string_view variant : variants) {
-    if (std::ranges::count(entry.variants, variant, &SkyModelVariant::name) > 0) continue;
+    if (std::ranges::any_of(entry.variants,
+                            [&](const auto& row) { return is_variant(name, variant, row); }))
+      continue;
     std::vector<std::string_view> known;
     for (const SkyModelVariant& row : entry.variants) known.push_back(row.name);
     throw std::invalid_argument(

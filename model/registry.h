@@ -19,10 +19,12 @@ struct SkyModelRequest {
   std::vector<std::string_view> variants;  // of the row's
 };
 
-// A choice that a source leaves open, written behind the model's name: "nielsen:mean-height".
+// A choice that a source leaves open, written behind the model's name: "nielsen:mean-height". A
+// name that ends in "=N" takes a whole number, as "oneil:samples=3".
 struct SkyModelVariant {
   std::string_view name, meaning;
   bool draws_frames = true;
+  int least = 0, most = 0;  // N
 };
 
 struct SkyModelEntry {

@@ -66,8 +66,9 @@ Renderer::Renderer(const Scene& scene, GraphicsDevice device, std::shared_ptr<Co
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 
-void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tables) {
-  drawer_->set_atmosphere(tables);
+void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tables,
+                              TablePrecision precision) {
+  drawer_->set_atmosphere(tables, precision);
   limits_ = tables.sky_rays.limits;
   preset_ = preset_to_json(preset);
 }

@@ -25,6 +25,7 @@
 #include "model/atmosphere/preset.h"
 #include "model/base/content_cache.h"
 #include "model/base/input_file.h"
+#include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/color_space.h"
 
@@ -132,6 +133,9 @@ struct FrameOptions {
   AerialPerspective aerial = AerialPerspective::kVolume;
   bool shadows = false;  // of the terrain, on the ground and in the air
   double wind_m_s = 5;   // 12.5 m above the sea: how rough it is, 0 to 30
+  // The suns' discs stand where air refracts them to, and as flat: those of the light of one
+  // wavelength, 550 nm, toward which the ground and the sky are drawn as along straight rays.
+  bool refraction = false;
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;
   std::optional<CloudLayer> clouds;
@@ -240,7 +244,9 @@ class Renderer {
   // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere,
   // lowered_by() the scene's basin_depth_m().
   // Throws std::invalid_argument when the planet has another radius than before.
-  void set_atmosphere(const Preset& preset, const AtmosphereTables& tables);
+  // `precision`: how the tables of scattered light are kept.
+  void set_atmosphere(const Preset& preset, const AtmosphereTables& tables,
+                      TablePrecision precision = TablePrecision::kFloat);
 
   // What of a frame needs no tables, for while they are computed; set_atmosphere() and draw() do it
   // where it was not done: the ground of an atmosphere, lowered_by() as its tables, and the blocks

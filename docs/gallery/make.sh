@@ -25,6 +25,26 @@ picture() {
   pictures+=("$name")
 }
 
+# panel NAME PANEL ARGUMENTS: one part of a frame, as `skyfit render --panels` writes it.
+panel() {
+  local name=$1 part=$2
+  shift 2
+  commands+="skyfit render $* --panels --out $name.png    # $name.$part.png"$'\n'
+  "$skyfit" render "$@" --panels --out "$scratch/$name.png" >/dev/null
+  oiiotool "$scratch/$name.$part.png" --ch R,G,B --compression jpeg:88 -o "$out/$name.jpg"
+  pictures+=("$name")
+}
+
+# plotted NAME ARGUMENTS: a figure of `skyfit plot`.
+plotted() {
+  local name=$1
+  shift
+  commands+="skyfit plot $* --out $name.png"$'\n'
+  "$skyfit" plot "$@" --out "$scratch/$name.png" >/dev/null
+  oiiotool "$scratch/$name.png" --ch R,G,B --compression jpeg:88 -o "$out/$name.jpg"
+  pictures+=("$name")
+}
+
 source_of() { # ID TITLE
   printf '<h2 id="%s">%s</h2>\n' "$1" "$(escaped <<<"$2")" >>"$page"
 }
@@ -142,6 +162,28 @@ done
 figure "4-45: orders of scattering" "Single scattering alone is too dark; all orders are thicker and bluer." \
   "reference, single scattering" "two orders" "all orders"
 
+precisions() { # ID SUN ARGUMENTS: by tables of both precisions
+  local id=$1 sun=$2 precision
+  shift 2
+  for precision in half 8bit; do
+    picture "s11-$id-$sun-$precision" "${s11[@]}" --model bruneton --table-precision "$precision" --sun-zenith-deg "$sun" "$@"
+  done
+}
+begin
+precisions 5-4 30 --view valley "${small[@]}"
+precisions 5-4 65 --view valley "${small[@]}"
+figure "5-4: tables of 16 and of 8 bits, midday and afternoon" "Hardly different." \
+  "bruneton, 16 bits, midday" "8 bits, midday" "16 bits, afternoon" "8 bits, afternoon"
+begin
+precisions 5-5 89 --view sunset "${small[@]}"
+precisions 5-5 93 --view sunset "${small[@]}"
+figure "5-5: tables of 16 and of 8 bits toward a low sun" \
+  "8 bits show bands, the more the lower the sun. Here, where 255 steps reach just as far as each table's light, they come after sunset." \
+  "bruneton, 16 bits, 89 deg" "8 bits, 89 deg" "16 bits, 93 deg" "8 bits, 93 deg"
+text "5.2.2: memory and error of tables" \
+  "Of the reference's tables, against those of full size in single precision. His 8 bits hold light, these its logarithm." \
+  tables earth-clear --measure
+
 # --- Bodare and Sandberg 2014 -----------------------------------------------------------------------------------------
 bs=(--preset bodare-2014)
 source_of bs14 "Bodare and Sandberg 2014: 3D tables, ozone"
@@ -186,9 +228,25 @@ begin
 both bs14-29 bodare "${bs[@]}" --view limb "${small[@]}"
 figure "29: the limb from space" "Limb and disc without a seam." "bodare" "reference"
 
+begin
+picture bs14-11-own --model bodare "${bs[@]}" --view sunset --sun-zenith-deg 80 "${small[@]}"
+picture bs14-11-from-air --model bodare:mie-from-rayleigh "${bs[@]}" --view sunset --sun-zenith-deg 80 "${small[@]}"
+figure "11: aerosol with a table of its own, and from that of air" "No difference to be seen around the sun." \
+  "bodare" "bodare:mie-from-rayleigh"
+
+begin
+panel bs14-23-volume in-scatter --model bodare "${bs[@]}" --view 10km --exposure 3e-4 "${small[@]}"
+panel bs14-23-pixel in-scatter --model bodare "${bs[@]}" --view 10km --aerial pixel --exposure 3e-4 "${small[@]}"
+panel bs14-23-reference in-scatter "${bs[@]}" --view 10km --exposure 3e-4 "${small[@]}"
+figure "23: light of the air alone, from the volume and step by step" "No seam at the horizon. His right picture has 4 samples of single scattering; here both have 16 and the gathered light." \
+  "bodare, the volume" "bodare, for each pixel" "reference"
+
 # --- Nielsen 2003 -----------------------------------------------------------------------------------------------------
 source_of n03 "Nielsen 2003: closed form with mean densities"
 n03=(--preset nielsen-2003)
+begin
+plotted n03-5-2 --figure mean-density
+figure "5.2: the mean of the densities and the density at the mean height" "The latter is nearer to the integral." "ground at 1500 m"
 begin
 captions=()
 for altitude in 2 16e3 30e3; do
@@ -243,6 +301,19 @@ done
 figure "16-1: from space to sunset" "Plausible at every height; single scattering leaves the sunset too dark." \
   "space, oneil" "space, reference" "limb, oneil" "limb, reference" "ground, oneil" "ground, reference" "sunset, oneil" "sunset, reference"
 
+begin
+captions=()
+for samples in 3 5 10 50; do
+  picture "o05-samples-$samples" --model "oneil:samples=$samples" "${on[@]}" --view ground --sun-zenith-deg 75 --exposure 3e-4 "${small[@]}"
+  captions+=("$samples samples")
+done
+figure "Samples of a ray" "More samples are brighter, by 7 % toward the zenith from 3 on, and converge." "${captions[@]}"
+begin
+demo=(--model oneil:samples=3:isotropic-air:no-shadow "${on[@]}" --exposure 3e-4 "${small[@]}")
+picture o05-16-4-clip "${demo[@]}" --view sunset --tone clip
+picture o05-16-4-exponential "${demo[@]}" --view sunset --tone exponential
+figure "16-4: without and with a tone curve" "Without it the sky about the sun is cut off. The model is that of his demo." "--tone clip" "--tone exponential"
+
 # --- Schafhitzel, Falk and Ertl 2007 ----------------------------------------------------------------------------------
 source_of sfe07 "Schafhitzel, Falk and Ertl 2007: 3D texture, Earth and Mars"
 earth=(--preset schafhitzel-2007-earth)
@@ -269,14 +340,13 @@ cat >>"$page" <<'HTML'
 <h2 id="missing">What is not shown</h2>
 <ul>
 <li>Sperlhofer: the terrain and its levels (4-11 to 4-25), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
-<code>--tone clip</code>), an object half in the air (4-50), and the three repairs and the
-8-bit tables (5-1 to 5-5): the renderer has no options for them. His half and double values are the ends of the strips, whose steps are
+<code>--tone clip</code>), an object half in the air (4-50), and the three repairs (5-1 to 5-3):
+the renderer has no options for them. His half and double values are the ends of the strips, whose steps are
 even.</li>
-<li>Bodare and Sandberg: the Mie channel by proportion (11), the update over frames as frames (12), the aerial volume against samples
-(16, 18, 23), the build-up (27). Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>
-<li>Nielsen: his plots (2.5, 5.1 to 5.4), the sky toward the sun (7.4), mountains by day (7.6), the edge of the world (7.14) and
+<li>Bodare and Sandberg: the update over frames as frames (12; <code>--update-frames</code> draws them), the seam of the difference of
+two rays (16, 18), which no frame of <code>bodare</code> has, the build-up (27). Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>
+<li>Nielsen: his other plots (2.5, 5.1, 5.3, 5.4), the sky toward the sun (7.4), mountains by day (7.6), the edge of the world (7.14) and
 clipping (7.15).</li>
-<li>O'Neil: other numbers of samples, the frame without a tone curve (16-4).</li>
 <li>All: times on the machines of their day.</li>
 </ul>
 </body>

@@ -18,6 +18,7 @@
 #include "data_refs/civil_time.h"
 #include "data_refs/import_options.h"
 #include "data_refs/joint_reference.h"
+#include "fit/campaign/toml_document.h"
 #include "model/base/content_hash.h"
 #include "model/base/preset_reader.h"
 #include "model/base/text.h"
@@ -229,7 +230,9 @@ refs::Reference only_scans(refs::Reference reference, const std::vector<int>& sc
 }  // namespace
 
 CampaignPlan load_plan(const fs::path& file) {
-  const PresetDocument document(read_file(file, "the plan of a campaign (JSON)"), file.string());
+  const std::string text = read_file(file, "the plan of a campaign (JSON or TOML)");
+  const PresetDocument document = file.extension() == ".toml" ? toml_document(text, file.string())
+                                                              : PresetDocument(text, file.string());
   const PresetReader plan = document.root();
   plan.expect_only({"skyfit_campaign", "inputs", "group", "options", "tasks_per_file", "note"});
   if (plan.number("skyfit_campaign") != kPlanVersion)

@@ -208,10 +208,15 @@ double Refraction::refractive_index(double height) const {
 
 // docs/theory (14.6).
 double Refraction::apparent_zenith(double height, double true_zenith) const {
-  constexpr int kSteps = 8;  // each leaves a fifth of the error at the horizon
-  double zenith = true_zenith;
-  for (int k = 0; k < kSteps; ++k) zenith = std::max(true_zenith - bending(height, zenith), 0.0);
-  return zenith;
+  constexpr int kSteps = 30;  // each leaves half of the error
+  // The bending grows with the zenith angle, on the limb of the planet faster than the angle
+  // itself.
+  double low = std::max(true_zenith - bending(height, true_zenith), 0.0), high = true_zenith;
+  for (int k = 0; k < kSteps; ++k) {
+    const double middle = 0.5 * (low + high);
+    (middle + bending(height, middle) < true_zenith ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 // docs/theory (14.7).

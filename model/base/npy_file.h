@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace skyfit {
@@ -16,7 +17,13 @@ namespace skyfit {
 void write_npy(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
                std::span<const float> values);
 
-// The bytes of such a file, of float64. Throws std::invalid_argument as write_npy().
-std::string npy_bytes(const std::vector<std::size_t>& shape, std::span<const double> values);
+// The same of values as bytes, little-endian: `type` is NumPy's name of them, "<f2", and `size` the
+// bytes of one.
+void write_npy_bytes(const std::filesystem::path& file, const std::vector<std::size_t>& shape,
+                     std::string_view type, std::size_t size, std::span<const std::byte> values);
+
+// The bytes of such a file.
+std::string npy_bytes(const std::vector<std::size_t>& shape, std::string_view type,
+                      std::size_t size, std::span<const std::byte> values);
 
 }  // namespace skyfit

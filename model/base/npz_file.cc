@@ -40,7 +40,8 @@ void write_archive(const std::filesystem::path& file, const std::vector<NamedArr
   expect(archive != nullptr);
   try {
     for (const NamedArray& array : arrays)
-      add_member(archive, array.name + ".npy", npy_bytes(array.shape, array.values));
+      add_member(archive, array.name + ".npy",
+                 npy_bytes(array.shape, "<f8", sizeof(double), std::as_bytes(array.values)));
   } catch (...) {
     zipClose(archive, nullptr);
     throw;

@@ -75,7 +75,7 @@ class FieldTracker {
     return true;
   }
 
-  std::map<std::string, int, std::less<>> take_lines() { return std::move(line_of_path_); }
+  PresetDocument::Lines take_lines() { return std::move(line_of_path_); }
 
  private:
   struct Level {
@@ -126,7 +126,7 @@ class FieldTracker {
   std::string source_;
   const int* line_;
   std::vector<Level> open_;
-  std::map<std::string, int, std::less<>> line_of_path_;
+  PresetDocument::Lines line_of_path_;
 };
 
 // The library's words without its "[json.exception...] parse error at line 1, column 2: ".
@@ -167,10 +167,11 @@ PresetDocument::PresetDocument(std::string_view text, std::string_view source) :
   }
 }
 
-PresetDocument PresetDocument::of_value(json value, std::string_view source) {
+PresetDocument PresetDocument::of_value(json value, std::string_view source, Lines lines) {
   PresetDocument document;
   document.source_ = source;
   document.json_ = std::move(value);
+  document.line_of_path_ = std::move(lines);
   return document;
 }
 

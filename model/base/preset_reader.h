@@ -23,8 +23,10 @@ std::string json_excerpt(const nlohmann::json& value);
 class PresetDocument {
  public:
   PresetDocument(std::string_view text, std::string_view source);
-  // A value that was read before: messages name fields, but no lines.
-  static PresetDocument of_value(nlohmann::json value, std::string_view source);
+  // Where fields stand, by their paths.
+  using Lines = std::map<std::string, int, std::less<>>;
+  // A value that something else has read. Without lines messages name fields alone.
+  static PresetDocument of_value(nlohmann::json value, std::string_view source, Lines lines = {});
 
   // The outermost object; lives as long as the document.
   PresetReader root() const;
@@ -37,7 +39,7 @@ class PresetDocument {
 
   std::string source_;
   nlohmann::json json_;
-  std::map<std::string, int, std::less<>> line_of_path_;
+  Lines line_of_path_;
 };
 
 // One object of the document and the path that leads to it, such as "keyframes[1].camera".

@@ -83,6 +83,7 @@ BodareTables<N>::BodareTables(const BodareGeometry& geometry, const ClearAir<N>&
       air_sum_(air_order_),
       aerosol_sum_(air_order_),
       gathered_({Sizes::height, Sizes::sun}),
+      gathered_sum_(gathered_),
       ground_(Sizes::sun) {
   make_mean_phases();
 }
@@ -196,6 +197,7 @@ void BodareTables<N>::gather() {
                    gathered_.at({i, s}));
       }
     }
+    for (int s = 0; s < Sizes::sun; ++s) gathered_sum_.at({i, s}) += gathered_.at({i, s});
   });
 }
 
@@ -243,6 +245,24 @@ typename BodareTables<N>::InScatter BodareTables<N>::in_scatter(double height, d
 }
 
 template <int N>
+void BodareTables<N>::take_aerosol_from_air(const BodareTables& red) {
+  const Dual<N> from = air_.air * red.air_.aerosol_scattering;
+  const bool any = from.v > 0;
+  const Dual<N> factor = any ? red.air_.air * air_.aerosol_scattering / from : Dual<N>(0.0);
+  for (std::size_t i = 0; i < air_sum_.count(); ++i) {
+    const Dual<N>& air = red.air_sum_[i];
+    aerosol_sum_[i] = air.v > 0 ? factor * air_sum_[i] * red.aerosol_sum_[i] / air : Dual<N>(0.0);
+  }
+  light_ground();
+}
+
+template <int N>
+Dual<N> BodareTables<N>::gathered(double height, double mu_s) const {
+  return deep_twilight(mu_s, BodareGeometry::sun(0)) *
+         gathered_sum_.linear({geometry_.height_texel(height), BodareGeometry::sun_texel(mu_s)});
+}
+
+template <int N>
 Dual<N> BodareTables<N>::ground_irradiance(double mu_s) const {
   const Between at = BodareGeometry::sun_texel(mu_s);
   return (1 - at.part) * ground_[static_cast<std::size_t>(at.low)] +
@@ -269,6 +289,7 @@ template <int N>
 SkyRayTexels BodareTables<N>::sky_rays() const {
   SkyRayTexels sky;
   sky.air = sky.aerosol = {Sizes::sun, kHalf, Sizes::height, {}};
+  sky.gathered = {Sizes::sun, Sizes::height, 1, {}};
   for (int i = 0; i < Sizes::height; ++i) {
     for (int v = kHalf; v < Sizes::view; ++v) {
       for (int s = 0; s < Sizes::sun; ++s) {
@@ -276,13 +297,16 @@ SkyRayTexels BodareTables<N>::sky_rays() const {
         sky.aerosol.values.push_back(static_cast<float>(aerosol_sum_.at({i, v, s}).v));
       }
     }
+    for (int s = 0; s < Sizes::sun; ++s)
+      sky.gathered.values.push_back(static_cast<float>(gathered_sum_.at({i, s}).v));
   }
   return sky;
 }
 
 template <int N>
 std::size_t BodareTables<N>::bytes() const {
-  return air_sum_.bytes() + aerosol_sum_.bytes() + ground_.size() * sizeof(Dual<N>);
+  return air_sum_.bytes() + aerosol_sum_.bytes() + gathered_sum_.bytes() +
+         ground_.size() * sizeof(Dual<N>);
 }
 
 template class BodareTables<0>;

@@ -6,6 +6,7 @@
 //   R1 = beta_R integral rho_R T(sun) T ds, M1 likewise, view and sun in one plane;
 //   G_k(h, s) = integral over the sphere of (F_R R_{k-1} + F_M M_{k-1}) sin(theta) dtheta dphi;
 //   R_k = beta_R integral rho_R G_k T ds, M_k likewise;
+//   G = sum_k G_k, with which a path to a surface is summed step by step (his 6.4.2);
 //   L = F_R(nu) sum_k R_k + F_M(nu) sum_k M_k,
 // F_M the aerosol's phase function and F_R that of Elek 2009, (8/10) (7/5 + nu / 2) / (4 pi), which
 // integrates to 1.12 as published. (Algorithm 3 as printed has no sine and runs theta over 2 pi.)
@@ -80,7 +81,17 @@ class BodareTables {
   InScatter in_scatter(double height, double mu, double mu_s, bool ground) const;
   Dual<N> ground_irradiance(double mu_s) const;  // by the sky
 
-  SkyRayTexels sky_rays() const;  // [height][view][sun], views from the horizon to the zenith
+  // His equation 19, of finished tables: aerosol in the proportion to air that the tables `red`
+  // have,
+  //   M = R (M_red / R_red) (beta_R,red / beta_M,red) (beta_M / beta_R),
+  // texel by texel, where his shader forms it after the look-up. No light where there is no air.
+  void take_aerosol_from_air(const BodareTables& red);
+
+  // G: all light but the sun's that falls on a place, times the phase functions.
+  Dual<N> gathered(double height, double mu_s) const;
+
+  // [height][view][sun], views from the horizon to the zenith; G [height][sun].
+  SkyRayTexels sky_rays() const;
 
   // Of finished tables: all rays, and the light on the ground.
   std::size_t bytes() const;
@@ -97,10 +108,10 @@ class BodareTables {
   ClearAir<N> air_;
   SunColumns<N> sun_;
   Table air_order_, aerosol_order_, air_sum_, aerosol_sum_;
-  Grid<N, 2> gathered_;                // [height][sun]
-  std::vector<Dual<N>> mean_aerosol_;  // integral of F_M over the azimuth, [sun][theta]
-  std::vector<double> mean_air_;       // of F_R
-  std::vector<Dual<N>> ground_;        // [sun]
+  Grid<N, 2> gathered_, gathered_sum_;  // [height][sun], of one order and G
+  std::vector<Dual<N>> mean_aerosol_;   // integral of F_M over the azimuth, [sun][theta]
+  std::vector<double> mean_air_;        // of F_R
+  std::vector<Dual<N>> ground_;         // [sun]
 };
 
 extern template class BodareTables<0>;

@@ -25,16 +25,37 @@ void validate(const BodareUpdateOptions& options) {
           "2, 4, 8, 16 or 32");
 }
 
+namespace {
+
+bool same_rays(const Shells& a, const Shells& b) {
+  return a.bottom_radius == b.bottom_radius && a.top == b.top && a.sun_radius == b.sun_radius &&
+         a.profiles == b.profiles && a.breaks == b.breaks && a.layer_depth == b.layer_depth &&
+         a.profile_of == b.profile_of;
+}
+
+}  // namespace
+
 BodareSet::BodareSet(const Atmosphere<double>& atmosphere,
-                     std::span<const WavelengthNode> wavelengths)
-    : atmosphere_(atmosphere) {
+                     std::span<const WavelengthNode> wavelengths, const BodareSet* before)
+    : atmosphere_(atmosphere), wavelengths_(wavelengths.begin(), wavelengths.end()) {
   skyfit::validate(atmosphere);
-  geometry_ = std::make_unique<const literature::BodareGeometry>(atmosphere);
+  if (before != nullptr &&
+      same_rays(before->geometry_->shells(), shells_of(atmosphere, Keep::kAll))) {
+    geometry_ = before->geometry_;
+  } else {
+    geometry_ = std::make_shared<const literature::BodareGeometry>(atmosphere);
+  }
   const auto air = seeded<0>(atmosphere, {});
   for (const WavelengthNode& node : wavelengths) {
-    tables_.push_back(std::make_unique<BodareTables<0>>(
+    tables_.push_back(std::make_shared<BodareTables<0>>(
         *geometry_, literature::clear_air(geometry_->shells(), air, node)));
   }
+}
+
+std::unique_ptr<const SkyModel> BodareSet::model(int threads) const {
+  auto model = std::make_unique<BodareModel>(threads);
+  model->keep(atmosphere_, geometry_, wavelengths_, {tables_.begin(), tables_.end()});
+  return model;
 }
 
 BodareUpdate::BodareUpdate(const Atmosphere<double>& atmosphere,
@@ -42,7 +63,7 @@ BodareUpdate::BodareUpdate(const Atmosphere<double>& atmosphere,
                            const BodareUpdateOptions& options)
     : options_(options), wavelengths_(std::move(wavelengths)) {
   validate(options);
-  const auto first = std::make_shared<BodareSet>(atmosphere, wavelengths_);
+  const auto first = std::make_shared<BodareSet>(atmosphere, wavelengths_, nullptr);
   for (int frame = 0; frame < frames_of_update(); ++frame) step(*first, frame);
   older_ = newer_ = first;
 }
@@ -52,7 +73,7 @@ int BodareUpdate::frames_of_update() const {
 }
 
 void BodareUpdate::advance(const Atmosphere<double>& atmosphere) {
-  if (frame_ == 0) next_ = std::make_shared<BodareSet>(atmosphere, wavelengths_);
+  if (frame_ == 0) next_ = std::make_shared<BodareSet>(atmosphere, wavelengths_, newer_.get());
   step(*next_, frame_++);
   if (frame_ < frames_of_update()) return;
   older_ = newer_;

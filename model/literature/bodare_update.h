@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bodare & Sandberg 2014: an update of the tables spread over frames. Two finished sets are there
-// to interpolate between while a third is built; a set that is not finished is never shown.
+// Bodare & Sandberg 2014, chapter 5: an update of the tables spread over frames; what a sequence
+// shows of it is render/sequence/table_updates.h. Two finished sets are there to interpolate
+// between while a third is built; a set that is not finished is never shown.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "model/literature/bodare_tables.h"
+#include "model/literature/bodare.h"
 
 namespace skyfit {
 
@@ -21,15 +22,21 @@ void validate(const BodareUpdateOptions& options);
 // The tables of one atmosphere at several wavelengths.
 class BodareSet {
  public:
-  // Empty.
-  BodareSet(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths);
+  // Empty. Its rays are those of `before`, which may be null, where radii and profiles are the
+  // same.
+  BodareSet(const Atmosphere<double>& atmosphere, std::span<const WavelengthNode> wavelengths,
+            const BodareSet* before);
   const Atmosphere<double>& atmosphere() const { return atmosphere_; }
-  std::span<const std::unique_ptr<literature::BodareTables<0>>> tables() const { return tables_; }
+  std::span<const std::shared_ptr<literature::BodareTables<0>>> tables() const { return tables_; }
+
+  // The model of a finished set, which has no other tables; it shares these.
+  std::unique_ptr<const SkyModel> model(int threads) const;
 
  private:
   Atmosphere<double> atmosphere_;
-  std::unique_ptr<const literature::BodareGeometry> geometry_;
-  std::vector<std::unique_ptr<literature::BodareTables<0>>> tables_;  // one per wavelength
+  std::vector<WavelengthNode> wavelengths_;
+  std::shared_ptr<const literature::BodareGeometry> geometry_;
+  std::vector<std::shared_ptr<literature::BodareTables<0>>> tables_;  // one per wavelength
 };
 
 class BodareUpdate {
@@ -42,9 +49,9 @@ class BodareUpdate {
   // two slices for the last, and before each but the first one frame that gathers.
   int frames_of_update() const;
 
-  // One frame's share of the next set (the first frame also lays out its rays, which costs as much
-  // as an order), which is of the atmosphere given to the first of its frames. After the last one
-  // the set becomes newer(), the one before it older().
+  // One frame's share of the next set (the first frame also lays out its rays where radii or
+  // profiles have changed, which costs as much as an order), which is of the atmosphere given to
+  // the first of its frames. After the last one the set becomes newer(), the one before it older().
   void advance(const Atmosphere<double>& atmosphere);
 
   // The two finished sets and the weight of the newer, which grows from 0 to 1 over the orders but
@@ -52,6 +59,9 @@ class BodareUpdate {
   const BodareSet& older() const { return *older_; }
   const BodareSet& newer() const { return *newer_; }
   double blend() const;
+
+  // Of the set that is being built, 0 .. frames_of_update() - 1; at 0 newer() is new.
+  int frame() const { return frame_; }
 
   // Radiance (1/sr) of a point at every wavelength, interpolated between the two sets.
   std::vector<double> radiance(const SkyPoint& point) const;

@@ -165,7 +165,7 @@ struct SkyRayTexels {
     int width = 0, height = 0, depth = 0;  // width varies fastest
     std::vector<float> values;
   };
-  Texels air, aerosol;
+  Texels air, aerosol, gathered;  // the last empty where a model has none
 };
 
 // Whether models without absorption depend on a parameter.

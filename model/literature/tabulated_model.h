@@ -7,12 +7,14 @@
 //   scattered(view), which is light(view) without the ground and without interpolation,
 //   kSkyRays: how sky_rays() are read,
 //   see(Atmosphere<T>): the atmosphere as the method sees it,
+//   where it takes more than one wavelength, tables<N>(geometry, see(atmosphere), node, views),
 //   can_fit(Parameter).
 #pragma once
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -26,7 +28,8 @@ namespace skyfit::literature {
 template <class Method>
 class TabulatedModel final : public SkyModel {
  public:
-  explicit TabulatedModel(int threads) : threads_(threads) {
+  explicit TabulatedModel(int threads, Method method = {})
+      : threads_(threads), method_(std::move(method)) {
     check_model_value(Method::kName, threads >= 1, "threads", threads, ">= 1");
   }
   std::string_view name() const override { return Method::kName; }
@@ -57,8 +60,7 @@ class TabulatedModel final : public SkyModel {
                 return look_up(*tables);
             }
             if (!geometry) geometry = std::make_shared<const Geometry>(atmosphere);
-            look_up(
-                Tables<N>(*geometry, clear_air(geometry->shells(), Method::see(air), node), views));
+            look_up(make_tables<N>(*geometry, Method::see(air), node, views));
           });
     });
   }
@@ -98,7 +100,8 @@ class TabulatedModel final : public SkyModel {
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       const SkyRayTexels texels = kept->prepared(nodes[node]).sky_rays();
       for (const auto& [of_node, table] :
-           {std::pair(&texels.air, &tables.air), std::pair(&texels.aerosol, &tables.aerosol)}) {
+           {std::pair(&texels.air, &tables.air), std::pair(&texels.aerosol, &tables.aerosol),
+            std::pair(&texels.gathered, &tables.gathered)}) {
         if (node == 0)
           *table = {of_node->width, of_node->height, of_node->depth,
                     std::vector<float>(4 * of_node->values.size())};
@@ -112,23 +115,37 @@ class TabulatedModel final : public SkyModel {
   std::size_t prepare(const Atmosphere<double>& atmosphere,
                       std::span<const WavelengthNode> wavelengths) const override {
     check_request(Method::kName, atmosphere, {}, {});
+    if (const std::shared_ptr<const Kept> same = kept_for(atmosphere)) {
+      if (std::ranges::all_of(wavelengths, [&](const auto& node) { return same->at(node); }))
+        return same->bytes();
+    }
     const auto kept = std::make_shared<Kept>();
     kept->atmosphere = atmosphere;
-    std::size_t bytes = 0;
     tbb::task_arena(threads_).execute([&] {
       kept->geometry = std::make_shared<const Geometry>(atmosphere);
       const Atmosphere<Dual<0>> air = Method::see(seeded<0>(atmosphere, {}));
       for (const WavelengthNode& node : wavelengths) {
         kept->nodes.push_back(node);
-        kept->tables.push_back(std::make_unique<const Tables<0>>(
-            *kept->geometry, clear_air(kept->geometry->shells(), air, node),
-            std::span<const View>{}));
-        bytes += kept->tables.back()->bytes();
+        kept->tables.push_back(std::make_shared<const Tables<0>>(
+            make_tables<0>(*kept->geometry, air, node, std::span<const View>{})));
       }
     });
+    const std::size_t bytes = kept->bytes();
     const std::lock_guard lock(mutex_);
     kept_ = kept;
     return bytes;
+  }
+
+  // Finished tables of an atmosphere, one for each wavelength, in the place of those that prepare()
+  // makes. `geometry` is theirs.
+  void keep(const Atmosphere<double>& atmosphere,
+            std::shared_ptr<const typename Method::Geometry> geometry,
+            std::vector<WavelengthNode> wavelengths,
+            std::vector<std::shared_ptr<const typename Method::template Tables<0>>> tables) const {
+    auto kept = std::make_shared<Kept>(
+        Kept{atmosphere, std::move(geometry), std::move(wavelengths), std::move(tables)});
+    const std::lock_guard lock(mutex_);
+    kept_ = std::move(kept);
   }
 
  private:
@@ -136,12 +153,27 @@ class TabulatedModel final : public SkyModel {
   template <int N>
   using Tables = typename Method::template Tables<N>;
 
+  template <int N>
+  Tables<N> make_tables(const Geometry& geometry, const Atmosphere<Dual<N>>& seen,
+                        const WavelengthNode& node, std::span<const View> views) const {
+    if constexpr (requires { method_.template tables<N>(geometry, seen, node, views); }) {
+      return method_.template tables<N>(geometry, seen, node, views);
+    } else {
+      return Tables<N>(geometry, clear_air(geometry.shells(), seen, node), views);
+    }
+  }
+
   struct Kept {
     Atmosphere<double> atmosphere;
     std::shared_ptr<const Geometry> geometry;
     std::vector<WavelengthNode> nodes;
-    std::vector<std::unique_ptr<const Tables<0>>> tables;
+    std::vector<std::shared_ptr<const Tables<0>>> tables;
 
+    std::size_t bytes() const {
+      std::size_t sum = 0;
+      for (const auto& of_node : tables) sum += of_node->bytes();
+      return sum;
+    }
     const Tables<0>* at(const WavelengthNode& node) const {
       const auto found = std::find(nodes.begin(), nodes.end(), node);
       return found == nodes.end() ? nullptr : tables[found - nodes.begin()].get();
@@ -162,6 +194,7 @@ class TabulatedModel final : public SkyModel {
   }
 
   int threads_;
+  Method method_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Kept> kept_;
 };

@@ -95,6 +95,10 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
 // Steps of the iteration that couples the suns: where it does not converge, and by day.
 constexpr int kFewCouplings = 2, kCouplings = 4;
 
+// The share of new light in each: the more, the faster it comes from afar; the less, the stronger
+// the coupling may be. Where much light is scattered high above the ground, all of it diverges.
+constexpr double kShare = 0.8, kTwilightShare = 0.6;
+
 // In deep twilight, where light comes from a node of the sun grid further, and through one layer
 // more, with each step or two.
 int twilight_couplings(int levels) {
@@ -111,25 +115,28 @@ HorizontalCoupling to_first_order(const HorizontalCoupling& coupling) {
 }
 
 // Whether the coupling's iteration has led to a twilight: the mean radiance on the ground is above
-// 0 and falls from sun to sun, no level's is far above those of the sun before, and the first
-// coupled suns, which know their light from few steps, have kept theirs. It diverges where much
-// light is scattered high above the ground. The last `dark` nodes of the suns are not looked at.
+// 0 and falls from sun to sun, no level's is far above that of the sun before, and suns of the day,
+// which know their light from few steps, have kept it. The last `dark` nodes of the suns are not
+// looked at.
 bool has_converged(const DiffuseField& after_few, const DiffuseField& field,
                    const HorizontalCoupling& coupling, int dark) {
-  constexpr int kKept = 2;
   constexpr double kChange = 0.02, kRise = 2;
   const auto mean = [&](const DiffuseField& f, int level, int sun) {
     return f.moments[0][level * f.shape.level(0) + static_cast<std::size_t>(sun) * f.shape.slices];
   };
   double ground_before = std::numeric_limits<double>::infinity(), largest_before = ground_before;
-  for (int j = 0, checked = 0; j < field.shape.suns - dark; ++j) {
+  for (int j = 0; j < field.shape.suns - dark; ++j) {
     if (!coupling.coupled[j]) continue;
     const double ground = mean(field, 0, j);
     double largest = 0;
     for (int i = 0; i < field.shape.levels; ++i)
       largest = std::max(largest, std::abs(mean(field, i, j)));
-    if (!(ground > 0 && ground < ground_before && largest < kRise * largest_before)) return false;
-    if (checked++ < kKept && std::abs(ground / mean(after_few, 0, j) - 1) > kChange) return false;
+    if (coupling.shifted[j]) {
+      if (!(ground > 0 && ground < ground_before && largest < kRise * largest_before)) return false;
+    } else if (!coupling.shifted[j + 1] &&
+               !(std::abs(ground / mean(after_few, 0, j) - 1) < kChange)) {
+      return false;
+    }
     ground_before = ground;
     largest_before = largest;
   }
@@ -201,10 +208,11 @@ std::vector<DiffuseField> solve_diffuse_fields(
         unpack_all(pack, p, std::span(fields).subspan(first, width));
       }
     });
-    const auto couple = [&](const HorizontalCoupling& by, int steps, int first_modes) {
+    const auto couple = [&](const HorizontalCoupling& by, int steps, double share,
+                            int first_modes) {
       const int active = std::min(count, (first_modes + at_once - 1) / at_once);
       for (int k = 0; k < steps; ++k) {
-        tbb::parallel_for(0, active, [&](int p) { packs[p]->prepare_coupling(by); });
+        tbb::parallel_for(0, active, [&](int p) { packs[p]->prepare_coupling(by, share); });
         tbb::parallel_for(0, active, [&](int p) { packs[p]->couple(by, packs, at_once, width); });
       }
       std::vector<DiffuseField> now(fields.begin() + first, fields.begin() + first + width);
@@ -213,11 +221,12 @@ std::vector<DiffuseField> solve_diffuse_fields(
     };
     if (!coupled) continue;
     std::vector<DiffuseField> result =
-        couple(coupling, coupling.converges ? kCouplings : kFewCouplings, modes);
+        couple(coupling, coupling.converges ? kCouplings : kFewCouplings, kShare, modes);
     if (!coupling.shifted.empty()) {
       std::vector<DiffuseField> more;
       if (options.deep_twilight)
-        more = couple(coupling, twilight_couplings(options.levels) - kCouplings, kShiftedModes);
+        more = couple(coupling, twilight_couplings(options.levels) - kCouplings, kTwilightShare,
+                      kShiftedModes);
       const auto found = [&](std::size_t w) {
         return more.empty() ? has_converged(result[w], result[w], coupling, kDarkByDay)
                             : has_converged(result[w], more[w], coupling, kDark);
@@ -230,7 +239,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
         }
         if (first_order.empty()) {
           tbb::parallel_for(0, count, [&](int p) { packs[p].emplace(pack_of(p)).solve(); });
-          first_order = couple(to_first_order(coupling), kCouplings, modes);
+          first_order = couple(to_first_order(coupling), kCouplings, kShare, modes);
         }
         result[w] = std::move(first_order[w]);
       }

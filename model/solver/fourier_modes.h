@@ -37,7 +37,7 @@ class FourierModes {
   // One step of an iteration that takes the light of neighbouring places under their own sun: first
   // every pack of the same medium prepares, then each couples to all of them. `packs` hold
   // `at_once` modes each, ascending, in lanes of `width` wavelengths.
-  void prepare_coupling(const HorizontalCoupling& coupling);
+  void prepare_coupling(const HorizontalCoupling& coupling, double share);
   void couple(const HorizontalCoupling& coupling,
               const std::vector<std::optional<FourierModes>>& packs, int at_once, int width);
   // One more order of scattering or reflection, values only: what advance() was called k times for

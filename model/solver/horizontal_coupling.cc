@@ -38,12 +38,20 @@ void StreamLight::set_neighbour(const HorizontalCoupling& coupling, int layer,
   }
 }
 
-// docs/theory (7.5).
+// docs/theory (7.5) and (7.8).
 // The light that enters a layer at its far end, as it is at the near end.
-void StreamLight::prepare_coupling(const HorizontalCoupling& coupling, const StreamSources& diffuse,
+void StreamLight::prepare_coupling(const HorizontalCoupling& coupling, double share,
+                                   const StreamSources& diffuse,
                                    const StreamColumns& source_tangent) {
   const std::size_t p_count = medium_->parameters, columns = suns() * p_count;
   const StreamColumns source = source_function(diffuse);
+  const auto blend_and_keep = [&](Batch& light, Batch& before) {
+    if (!before.empty()) {
+      for (std::size_t k = 0; k < light.size(); ++k)
+        light[k] = share * light[k] + (1 - share) * before[k];
+    }
+    before = light;
+  };
   for (std::size_t side = 0; side < 2; ++side) {
     const bool looks_up = side == 0;
     for (auto* v : {&to_next_, &to_previous_, &from_afar_}) {
@@ -58,13 +66,13 @@ void StreamLight::prepare_coupling(const HorizontalCoupling& coupling, const Str
       Batch x((looks_up ? w.down : w.up).far);
       for (std::size_t k = 0; k < x.size(); ++k) x[k] *= of(beam_source_)[k];
       batch::add_blend(w.t.data(), of(values), w.far.data(), of(source), x.data(), rays(i), suns());
-      if (!coupling.shifted.empty()) from_afar_[kValues][side][i] = x;
+      blend_and_keep(x, from_afar_[kValues][side][i]);
       set_neighbour(coupling, i, x, 1, to_next_[kValues][side][i], to_previous_[kValues][side][i]);
       if (p_count == 0) continue;
       Batch dx = layer_tangent(i, looks_up, diffuse, false);
       batch::add_blend(w.t.data(), of(tangents), w.far.data(), of(source_tangent), dx.data(),
                        rays(i), columns);
-      if (!coupling.shifted.empty()) from_afar_[kTangents][side][i] = dx;
+      blend_and_keep(dx, from_afar_[kTangents][side][i]);
       set_neighbour(coupling, i, dx, p_count, to_next_[kTangents][side][i],
                     to_previous_[kTangents][side][i]);
     }
@@ -141,15 +149,58 @@ void StreamLight::add_shares(const HorizontalCoupling& coupling, const LightOfMo
   }
 }
 
-void FourierModes::prepare_coupling(const HorizontalCoupling& coupling) {
+void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling, double share,
+                                      const LevelMoments& intensity,
+                                      const LevelMoments& intensity_tangents) {
+  const std::size_t tangents = columns(Kind::kTangents);
+  const Kind kind = tangents > 0 ? Kind::kTangents : Kind::kValues;
+  if (!has_matrices()) complete(kind);
+  std::array<StreamColumns, 2> tangent;
+  if (tangents > 0) {
+    const State& state = state_[Kind::kTangents];
+    if (has_air()) {
+      const Batch scattered_by_air = scaled(*polarised_, state.all, tangents);
+      for (std::size_t c = 0; c < components_.size(); ++c)
+        tangent[c] = source(components_[c].pattern, scattered_by_air, tangents);
+    }
+    if (has_matrices()) {
+      const std::array<StreamColumns, 2> of_particles =
+          particles_->scattered(intensity_tangents, state.spin, tangents);
+      for (std::size_t c = 0; c < components_.size(); ++c) {
+        if (has_air()) {
+          add(of_particles[c], tangent[c]);
+        } else {
+          tangent[c] = of_particles[c];
+        }
+      }
+    }
+  }
+  const State& state = state_[Kind::kValues];
+  const std::array<StreamSources, 2> of = sources(state.all, intensity, state.spin);
+  for (std::size_t c = 0; c < components_.size(); ++c)
+    components_[c].light.prepare_coupling(coupling, share, of[c], tangent[c]);
+}
+
+void PolarisedModes::add_coupling(const HorizontalCoupling& coupling, const ModesOf& modes_of,
+                                  int width, Kind kind) {
+  for (std::size_t c = 0; c < components_.size(); ++c) {
+    const auto light_of = [&](int mode) -> StreamLight::OfMode {
+      const OfMode of = modes_of(mode);
+      return {of.modes ? &of.modes->components_[c].light : nullptr, of.first_lane};
+    };
+    components_[c].light.add_coupling(coupling, light_of, width, kind, c == 1);
+  }
+}
+
+void FourierModes::prepare_coupling(const HorizontalCoupling& coupling, double share) {
   const std::size_t columns = suns() * medium_->parameters;
   StreamColumns tangent;
   if (columns > 0) {
     tangent = at_rays(scattered(moment_tangents_, columns), columns);
     if (polarised_) add(source_of_polarised(StreamLight::kTangents, columns), tangent);
   }
-  light_.prepare_coupling(coupling, diffuse_sources(), tangent);
-  if (polarised_) polarised_->prepare_coupling(coupling, moments_, moment_tangents_);
+  light_.prepare_coupling(coupling, share, diffuse_sources(), tangent);
+  if (polarised_) polarised_->prepare_coupling(coupling, share, moments_, moment_tangents_);
 }
 
 void FourierModes::couple(const HorizontalCoupling& coupling,

@@ -355,47 +355,4 @@ void PolarisedModes::advance(const StreamColumns& light, const LevelMoments& int
                                              sweep(components_[1].light, suns));
 }
 
-void PolarisedModes::prepare_coupling(const HorizontalCoupling& coupling,
-                                      const LevelMoments& intensity,
-                                      const LevelMoments& intensity_tangents) {
-  const std::size_t tangents = columns(Kind::kTangents);
-  const Kind kind = tangents > 0 ? Kind::kTangents : Kind::kValues;
-  if (!has_matrices()) complete(kind);
-  std::array<StreamColumns, 2> tangent;
-  if (tangents > 0) {
-    const State& state = state_[Kind::kTangents];
-    if (has_air()) {
-      const Batch scattered_by_air = scaled(*polarised_, state.all, tangents);
-      for (std::size_t c = 0; c < components_.size(); ++c)
-        tangent[c] = source(components_[c].pattern, scattered_by_air, tangents);
-    }
-    if (has_matrices()) {
-      const std::array<StreamColumns, 2> of_particles =
-          particles_->scattered(intensity_tangents, state.spin, tangents);
-      for (std::size_t c = 0; c < components_.size(); ++c) {
-        if (has_air()) {
-          add(of_particles[c], tangent[c]);
-        } else {
-          tangent[c] = of_particles[c];
-        }
-      }
-    }
-  }
-  const State& state = state_[Kind::kValues];
-  const std::array<StreamSources, 2> of = sources(state.all, intensity, state.spin);
-  for (std::size_t c = 0; c < components_.size(); ++c)
-    components_[c].light.prepare_coupling(coupling, of[c], tangent[c]);
-}
-
-void PolarisedModes::add_coupling(const HorizontalCoupling& coupling, const ModesOf& modes_of,
-                                  int width, Kind kind) {
-  for (std::size_t c = 0; c < components_.size(); ++c) {
-    const auto light_of = [&](int mode) -> StreamLight::OfMode {
-      const OfMode of = modes_of(mode);
-      return {of.modes ? &of.modes->components_[c].light : nullptr, of.first_lane};
-    };
-    components_[c].light.add_coupling(coupling, light_of, width, kind, c == 1);
-  }
-}
-
 }  // namespace skyfit

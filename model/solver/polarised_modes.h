@@ -69,8 +69,8 @@ class PolarisedModes {
   // Adds to the source functions of I, per unit of each scatterer's share, what air makes of P.
   void add_sources(StreamSources& sources) const;
 
-  void prepare_coupling(const HorizontalCoupling& coupling, const LevelMoments& intensity,
-                        const LevelMoments& intensity_tangents);
+  void prepare_coupling(const HorizontalCoupling& coupling, double share,
+                        const LevelMoments& intensity, const LevelMoments& intensity_tangents);
   // `modes_of(mode)` as StreamLight::LightOfMode, for the modes' Q and U.
   struct OfMode {
     const PolarisedModes* modes;

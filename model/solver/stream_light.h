@@ -61,8 +61,8 @@ struct HorizontalCoupling {
   };
   std::vector<char> shifted;  // [sun]: whether it takes these; empty: none does
   std::vector<std::vector<std::vector<Share>>> shares;  // [layer][ray] by [mode]
-  // Whether more than two steps of the iteration are of use: not where all suns are coupled, on a
-  // planet whose atmosphere is thick against its radius, there they diverge.
+  // Whether more than two steps of the iteration are of use: not on a planet whose atmosphere is
+  // thick against its radius (Titan), there they diverge.
   bool converges = true;
 };
 
@@ -97,11 +97,12 @@ class StreamLight {
   StreamColumns source_function(const StreamSources& sources) const;
 
   // Horizontal coupling: prepare_coupling() derives the light that enters each layer from its far
-  // end by the sun's place; add_coupling() adds it to the layers' sources. `source_tangent` is the
-  // source function's derivative, empty without parameters. `light_of` gives the light of a mode
-  // and its first lane, or null.
-  void prepare_coupling(const HorizontalCoupling& coupling, const StreamSources& diffuse,
-                        const StreamColumns& source_tangent);
+  // end by the sun's place, blended as `share` of it with what it was the time before;
+  // add_coupling() adds it to the layers' sources. `source_tangent` is the source function's
+  // derivative, empty without parameters. `light_of` gives the light of a mode and its first lane,
+  // or null.
+  void prepare_coupling(const HorizontalCoupling& coupling, double share,
+                        const StreamSources& diffuse, const StreamColumns& source_tangent);
   struct OfMode {
     const StreamLight* light;
     int first_lane;
@@ -136,7 +137,7 @@ class StreamLight {
   // What the light that enters each layer from its far end becomes at the near end, derived by the
   // sun's place as the next and as the previous mode need it: [kind][down, up][layer].
   std::array<std::array<std::vector<Batch>, 2>, 2> to_next_, to_previous_;
-  // That light itself, for the suns that are shifted.
+  // That light itself, for the suns that are shifted and for the next repetition.
   std::array<std::array<std::vector<Batch>, 2>, 2> from_afar_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "model/numerics/angles.h"
@@ -73,7 +74,7 @@ void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalC
   constexpr double kPast = 1e-9;
   int first = 0;
   while (solved[first] < 0 || !c.coupled[solved[first]]) ++first;
-  const double highest_mu = std::cos(grid.zenith(first - 1) + kPast);
+  const double highest_mu = first == 0 ? 1 : std::cos(grid.zenith(first - 1) + kPast);
   for (int i = 0; i < grid.size(); ++i) {
     if (solved[i] < 0) continue;
     c.shifted[solved[i]] = c.coupled[solved[i]] && grid.zenith(i) > kDusk;
@@ -106,21 +107,24 @@ void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalC
   });
 }
 
+double top_over_radius(const Shells& shells) { return shells.top / shells.bottom_radius; }
+
 }  // namespace
 
 int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
-  constexpr double kThin = 0.02;  // top height over radius
-  if (shells.top > kThin * shells.bottom_radius) return 0;
+  constexpr double kThin = 0.02;
+  if (top_over_radius(shells) > kThin) return 0;
   constexpr double kLow = 86 * kRadiansPerDegree;
   int i = 0;
   while (grid.zenith(i) < kLow) ++i;
   return i;
 }
 
-HorizontalCoupling sun_coupling(const SunGrid& grid, const std::vector<int>& solved,
-                                const Streams& streams, int first) {
+HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
+                                const std::vector<int>& solved, const Streams& streams, int first) {
+  const double kThick = getenv("ALL") ? 1 : 0.05;
   HorizontalCoupling c;
-  c.converges = first > 0;
+  c.converges = top_over_radius(shells) < kThick;
   for (int i = 0; i < grid.size(); ++i) {
     if (solved[i] < 0) continue;
     c.coupled.push_back(i >= first);

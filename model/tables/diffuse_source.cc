@@ -58,7 +58,7 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   std::iota(all.begin(), all.end(), 0);
   const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
   const HorizontalCoupling coupling =
-      sun_coupling(suns_, all, streams, first_coupled_sun(suns_, shells));
+      sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells));
   const auto fields_of = [&](int order) {
     return solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams, coupling,
                                    {.moments = kSourceOptions.moments,

@@ -23,9 +23,9 @@ enum class SkyRayMapping {
   kFromOutside,
   // A model's own, for every eye: amplitudes without phase functions.
   kBruneton,     // x: nu * mu_s (mu_s fastest), y: mu, z: r; model/shared/bruneton_mapping.glsl
-  kBodare,       // x: sun, y: view, z: height; model/shared/bodare_mapping.glsl
+  kBodare,       // x: sun, y: view, z: height; model/shared/bodare_mapping.glsl; `gathered`
   kSchafhitzel,  // the same, height and angles spaced evenly; all views
-  kONeil,        // no tables: sums in the shader
+  kONeil,        // no tables: sums in the shader, of all rays
   // Sums in the shader with tables of their own; `air`: transmittance, x: mu, y: r; `aerosol`:
   // multiple scattering, 1/sr, x: mu_s, y: height; model/literature/hillaire_tables.h.
   kHillaire,
@@ -47,6 +47,17 @@ struct NielsenChoices {
   NielsenSun sun = NielsenSun::kPublished;
 };
 
+// What kONeil sums, see model/literature/oneil.h.
+enum class ONeilAirPhase { kRayleigh, kIsotropic };
+enum class ONeilShadow { kOfThePlanet, kNone };
+enum class ONeilDepths { kExact, kPolynomial };
+struct ONeilChoices {
+  int samples = 5;
+  ONeilAirPhase phase = ONeilAirPhase::kRayleigh;
+  ONeilShadow shadow = ONeilShadow::kOfThePlanet;
+  ONeilDepths depths = ONeilDepths::kExact;
+};
+
 // The observers whom a model without twilight and space knows: those below a height, by day.
 struct DaylightLimits {
   std::string model;
@@ -57,7 +68,9 @@ struct SkyRayTables {
   SkyRayMapping mapping = SkyRayMapping::kFromOutside;
   Table air, aerosol;  // by which of them light was scattered last
   NielsenChoices nielsen = {};
+  ONeilChoices oneil = {};
   std::optional<DaylightLimits> limits = {};
+  Table gathered = {};  // kBodare: all light but the sun's that falls on a place, x: sun, y: height
 };
 
 }  // namespace skyfit

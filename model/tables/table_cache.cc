@@ -15,7 +15,8 @@ namespace {
 // Bytes of padding would differ from run to run.
 static_assert(std::has_unique_object_representations_v<TableSizes> &&
               std::has_unique_object_representations_v<TableLight> &&
-              std::has_unique_object_representations_v<NielsenChoices>);
+              std::has_unique_object_representations_v<NielsenChoices> &&
+              std::has_unique_object_representations_v<ONeilChoices>);
 static_assert(sizeof(ColorRule) == (4 * 4 + 3 * 4) * sizeof(double));
 
 CacheKey key_of(const TableInputs& inputs) {
@@ -30,9 +31,10 @@ struct Header {
   TableSizes sizes;
   SkyRayMapping mapping;
   NielsenChoices nielsen;
+  ONeilChoices oneil;
   bool limited;
   double highest_m;
-  std::array<std::array<int, 3>, 7> extents;
+  std::array<std::array<int, 3>, 8> extents;
 };
 
 // The order of the parts behind the header and the name in the limits.
@@ -41,17 +43,18 @@ auto all_tables(Tables& tables) {
   // One name for each member: a new one must be thought of here.
   auto& [atmosphere, phases, color, sizes, optical_depth, irradiance, rayleigh_like, single, phase,
          sky_rays] = tables;
-  return std::array{&optical_depth, &irradiance,   &rayleigh_like,   &single,
-                    &phase,         &sky_rays.air, &sky_rays.aerosol};
+  return std::array{&optical_depth, &irradiance,   &rayleigh_like,    &single,
+                    &phase,         &sky_rays.air, &sky_rays.aerosol, &sky_rays.gathered};
 }
 constexpr std::size_t kBefore = 2;
 
 void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tables) {
-  const auto& [mapping, air, aerosol, nielsen, limits] = tables.sky_rays;
+  const auto& [mapping, air, aerosol, nielsen, oneil, limits, gathered] = tables.sky_rays;
   Header header{};
   header.sizes = tables.sizes;
   header.mapping = mapping;
   header.nielsen = nielsen;
+  header.oneil = oneil;
   header.limited = limits.has_value();
   header.highest_m = limits ? limits->highest_m : 0;
   const std::string model = limits ? limits->model : "";
@@ -85,6 +88,7 @@ bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
   tables.sizes = header.sizes;
   tables.sky_rays.mapping = header.mapping;
   tables.sky_rays.nielsen = header.nielsen;
+  tables.sky_rays.oneil = header.oneil;
   if (header.limited) tables.sky_rays.limits = DaylightLimits{model, header.highest_m};
   return true;
 }

@@ -191,12 +191,12 @@ TableSizes sizes_beside_closed_form(TableSizes sizes) {
   return sizes;
 }
 
-// Where the renderer sums the sky itself, the scattering tables hold the light before the ground
-// and in the irradiance alone, of single scattering, which is smooth; by Hillaire's method that in
-// the irradiance and before clouds.
+// Where the renderer sums light along rays itself, the scattering tables hold that in the
+// irradiance and before clouds alone.
 TableSizes sizes_beside(const std::optional<SkyRayTables>& own, TableSizes sizes) {
   if (own && is_closed_form(own->mapping)) return sizes_beside_closed_form(sizes);
-  if (!own || (own->mapping != SkyRayMapping::kONeil && own->mapping != SkyRayMapping::kHillaire))
+  if (!own || (own->mapping != SkyRayMapping::kONeil && own->mapping != SkyRayMapping::kHillaire &&
+               own->mapping != SkyRayMapping::kBodare))
     return sizes;
   sizes.scattering_r = std::min(sizes.scattering_r, 16);
   sizes.scattering_ground = std::min(sizes.scattering_ground, 16);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,13 +17,54 @@ constexpr std::string_view kFormulas =
     "#define Number float\n"
     "#define OUT(T) out T\n";
 
+constexpr std::string_view kEs =
+    "#version 300 es\n"
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "precision highp sampler2D;\n"
+    "precision highp sampler3D;\n";
+
+// What GLSL has under other names. Global constants of HLSL are inputs unless they are static.
+constexpr std::string_view kHlsl = R"(#define HLSL
+#define vec2 float2
+#define vec3 float3
+#define vec4 float4
+#define ivec2 int2
+#define ivec3 int3
+#define mix lerp
+#define const static const
+#define sampler2D Texture2D<float4>
+#define sampler3D Texture3D<float4>
+#define TABLE(UNIT, TYPE, NAME) TYPE NAME : register(t##UNIT);
+#define LIST(TYPE, SIZE, VALUES) { VALUES }
+SamplerState skyfit_linear_clamp : register(s0);
+#define texture(MAP, AT) MAP.SampleLevel(skyfit_linear_clamp, AT, 0.0)
+int2 textureSize(Texture2D<float4> map, int level) {
+  uint width, height, levels;
+  map.GetDimensions(level, width, height, levels);
+  return int2(width, height);
+}
+int3 textureSize(Texture3D<float4> map, int level) {
+  uint width, height, depth, levels;
+  map.GetDimensions(level, width, height, depth, levels);
+  return int3(width, height, depth);
+}
+float4 texelFetch(Texture2D<float4> map, int2 at, int level) { return map.Load(int3(at, level)); }
+float4 texelFetch(Texture3D<float4> map, int3 at, int level) { return map.Load(int4(at, level)); }
+)";
+
 std::string_view prelude(ShaderLanguage language) {
-  if (language == ShaderLanguage::kGlsl450) return "#version 450 core\n";
-  return "#version 300 es\n"
-         "precision highp float;\n"
-         "precision highp int;\n"
-         "precision highp sampler2D;\n"
-         "precision highp sampler3D;\n";
+  switch (language) {
+    case ShaderLanguage::kGlsl450:
+      return "#version 450 core\n";
+    case ShaderLanguage::kGlslEs300:
+      return kEs;
+    case ShaderLanguage::kGlslLibrary:
+      return "";
+    case ShaderLanguage::kHlslLibrary:
+      return kHlsl;
+  }
+  throw std::logic_error("no such language of shaders");
 }
 
 }  // namespace
@@ -85,6 +127,24 @@ void ShaderText::append(const std::string& path, const std::string& where) {
     text_ += line + '\n';
     origins_.push_back({path, number});
   }
+}
+
+std::string shader_library(std::string_view title, const std::string& path, ShaderLanguage language,
+                           std::span<const std::string> defined) {
+  std::string library;
+  std::istringstream said{std::string(title)};
+  for (std::string line; std::getline(said, line);) library += "// " + line + '\n';
+  const std::string text = ShaderText(path, language, defined).text();
+  library += text;
+  static const std::regex kDefine(R"(^\s*#define\s+(\w+).*$)");
+  std::set<std::string> names;
+  std::istringstream lines(text);
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_match(line, match, kDefine)) names.insert(match[1]);
+  }
+  for (const std::string& name : names) library += fmt::format("#undef {}\n", name);
+  return library;
 }
 
 }  // namespace skyfit

@@ -22,7 +22,9 @@ std::span<const ShaderSource> embedded_shaders();
 // Throws std::out_of_range when no such file was compiled in.
 std::string_view embedded_shader(std::string_view path);
 
-enum class ShaderLanguage { kGlsl450, kGlslEs300 };
+// The libraries are for files of other programs, which say their version themselves: GLSL from 4.20
+// on and HLSL from shader model 4 on.
+enum class ShaderLanguage { kGlsl450, kGlslEs300, kGlslLibrary, kHlslLibrary };
 
 // One shader, flattened, and where each of its lines came from. (#line would do, but Mesa's
 // compiler forgets its file number.)
@@ -53,5 +55,10 @@ class ShaderText {
   std::vector<std::string> files_;
   std::vector<Origin> origins_;  // [line of the result]
 };
+
+// The text of a library, with `title` as a comment before it; none of the names that it defines for
+// the preprocessor outlives it. Throws as ShaderText().
+std::string shader_library(std::string_view title, const std::string& path, ShaderLanguage language,
+                           std::span<const std::string> defined);
 
 }  // namespace skyfit

@@ -158,6 +158,15 @@ void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file
   write_whole(file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
+void write_table_file(const EncodedTable& table, const fs::path& file) {
+  const OIIO::TypeDesc type = table.precision == TablePrecision::kHalf ? OIIO::TypeDesc::HALF
+                                                                       : OIIO::TypeDesc::FLOAT;
+  OIIO::ImageSpec spec(table.width, table.height * table.depth, 4, type);
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  write_whole(file, spec, type, table.texels.data());
+}
+
 void write_png_file(const Frame& frame, const fs::path& file, const ToneOptions& tone) {
   const CaptionBand band = caption_band(frame.captions, frame.width, frame.height);
   OIIO::ImageSpec spec(frame.width, frame.height + band.height, 3, OIIO::TypeDesc::UINT8);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 
+#include "model/tables/table_precision.h"
 #include "render/render.h"
 #include "render/sky_map/sky_map.h"
 
@@ -14,6 +15,8 @@ namespace skyfit {
 void write_exr_file(const Frame& frame, const std::filesystem::path& file);
 // .npy of (height x width x channels), else a picture.
 void write_map_file(const SkyMap& map, Primaries primaries, const std::filesystem::path& file);
+// R, G, B and A of a table of float or half, see render/engine/table_files.h.
+void write_table_file(const EncodedTable& table, const std::filesystem::path& file);
 void write_png_file(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone);
 
 // RGBA, 8 bit, as they are.

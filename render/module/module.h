@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "model/tables/table_precision.h"
 #include "render/render.h"
 #include "render/sky_map/sky_map.h"
 
@@ -17,7 +18,7 @@ class FrameDrawer {
   virtual ~FrameDrawer() = default;
   virtual void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) = 0;
   virtual void prepare(const FrameOptions& options) = 0;
-  virtual void set_atmosphere(const AtmosphereTables& tables) = 0;
+  virtual void set_atmosphere(const AtmosphereTables& tables, TablePrecision precision) = 0;
   virtual double ground_height_m(const std::optional<Site>& site) const = 0;
   virtual Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) = 0;
   virtual FrameStatistics submit(const FrameOptions& options) = 0;
@@ -25,13 +26,14 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 10;
+  static constexpr int kRevision = 12;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);
   void (*write_exr)(const Frame&, const std::filesystem::path&);
   void (*write_map)(const SkyMap&, Primaries, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);
+  void (*write_table)(const EncodedTable&, const std::filesystem::path&);
 };
 
 }  // namespace skyfit

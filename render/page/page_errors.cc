@@ -9,10 +9,10 @@
 
 namespace skyfit {
 
-std::vector<SkyPoint> compared_points(double altitude_m) {
+std::vector<SkyPoint> compared_points(double altitude_m, std::span<const double> suns_deg) {
   constexpr double kDegree = std::numbers::pi / 180;
   std::vector<SkyPoint> points;
-  for (const double sun : {0.0, 30.0, 60.0, 75.0, 84.0, 88.0}) {
+  for (const double sun : suns_deg) {
     for (const double view : {5.0, 30.0, 55.0, 75.0, 85.0, 89.0}) {
       for (const double azimuth : {0.0, 10.0, 60.0, 120.0, 180.0})
         points.push_back({altitude_m, sun * kDegree, view * kDegree, azimuth * kDegree});

@@ -2,6 +2,7 @@
 // How far the luminances of a page's tables are from those of the model `reference`.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -11,8 +12,11 @@
 
 namespace skyfit {
 
-// Suns 0 to 88 deg and views 5 to 89 deg from the zenith, from one height.
-std::vector<SkyPoint> compared_points(double altitude_m);
+inline constexpr std::array kDaySuns_deg = {0.0, 30.0, 60.0, 75.0, 84.0, 88.0};
+
+// Suns and views 5 to 89 deg from the zenith, from one height.
+std::vector<SkyPoint> compared_points(double altitude_m,
+                                      std::span<const double> suns_deg = kDaySuns_deg);
 
 // [point], cd/m^2, by luminance_rule().
 std::vector<double> reference_luminances(const Atmosphere<double>& atmosphere,

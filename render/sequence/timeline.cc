@@ -29,15 +29,6 @@ double largest_ratio(const Atmosphere<double>& a, const Atmosphere<double>& b) {
   return largest;
 }
 
-Preset preset_between(const Preset& a, const Preset& b, double share) {
-  if (share <= 0) return a;
-  if (share >= 1) return b;
-  Preset preset;
-  preset.name = fmt::format("{:.4g} of the way from {} to {}", share, a.name, b.name);
-  preset.atmosphere = interpolated_atmosphere(a.atmosphere, b.atmosphere, share);
-  return preset;
-}
-
 // The steps after a, up to b. The shares are such that the ratio of the parameter that changes most
 // is the same from step to step.
 void add_steps(const TimelineStep& a, const TimelineStep& b, std::vector<TimelineStep>& steps) {
@@ -56,6 +47,20 @@ void add_steps(const TimelineStep& a, const TimelineStep& b, std::vector<Timelin
 }
 
 }  // namespace
+
+Preset preset_between(const Preset& a, const Preset& b, double share) {
+  if (share <= 0) return a;
+  if (share >= 1) return b;
+  Preset preset;
+  preset.name = fmt::format("{:.4g} of the way from {} to {}", share, a.name, b.name);
+  preset.atmosphere = interpolated_atmosphere(a.atmosphere, b.atmosphere, share);
+  return preset;
+}
+
+Preset preset_at(const std::vector<TimelineStep>& steps, double time_s) {
+  const TimelineMoment moment = moment_at(steps, time_s);
+  return preset_between(steps[moment.before].preset, steps[moment.after].preset, moment.share);
+}
 
 std::vector<TimelineStep> refined(const std::vector<TimelineStep>& steps) {
   std::vector<TimelineStep> result = {steps.at(0)};

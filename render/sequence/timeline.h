@@ -31,6 +31,12 @@ struct TimelineMoment {
 };
 TimelineMoment moment_at(const std::vector<TimelineStep>& steps, double time_s);
 
+// The preset of a share of the way from one to another, whose atmospheres are comparable.
+Preset preset_between(const Preset& a, const Preset& b, double share);
+
+// The preset of a time.
+Preset preset_at(const std::vector<TimelineStep>& steps, double time_s);
+
 class Timeline {
  public:
   using Compute = std::function<AtmosphereTables(const Preset&)>;

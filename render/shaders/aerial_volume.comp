@@ -14,7 +14,7 @@ void main() {
   ViewRay ray = ray_in_view(vec2(texel), sun, kVolumeView);
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Place start = place_of(ray, sun, nu);
-#ifdef HILLAIRE
+#if defined(HILLAIRE) || defined(BODARE)
   March march = march_begin();
   float marched = 0.0;
 #else
@@ -29,6 +29,10 @@ void main() {
 #ifdef HILLAIRE
     float half_way = 0.5 * (marched + d);  // two steps for a slice
     march = march_step(march_step(march, start, nu, marched, half_way), start, nu, half_way, d);
+    marched = d;
+    Scattering path = march.light;
+#elif defined(BODARE)
+    march = march_step(march, start, nu, marched, d, ray.hits_ground);
     marched = d;
     Scattering path = march.light;
 #else

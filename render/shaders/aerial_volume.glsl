@@ -25,11 +25,6 @@ float slice_share(float slice) {
 }
 float slice_coordinate(float share) { return sqrt(share) * ((kVolumeSize.z - 0.5) / kVolumeSize.z); }
 
-// 1 - exp(-depth); by its series where the difference would lose digits, to 4e-7.
-vec4 share_taken(vec4 depth) {
-  return mix(1.0 - exp(-depth), depth * (1.0 - 0.5 * depth * (1.0 - depth * (1.0 / 3.0))), lessThan(depth, vec4(0.02)));
-}
-
 #ifndef VOLUME_WRITE
 layout(binding = 15) uniform sampler3D air_volume;
 layout(binding = 16) uniform sampler3D aerosol_volume;

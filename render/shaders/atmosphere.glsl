@@ -9,11 +9,11 @@
 #include "model/shared/phase.glsl"
 #include "model/shared/mapping.glsl"
 
-BINDING(0) uniform sampler2D optical_depth_table;
-BINDING(1) uniform sampler2D irradiance_table;
-BINDING(2) uniform sampler3D rayleigh_like_table;
-BINDING(3) uniform sampler3D single_table;  // the classes of phase functions one after the other along z
-BINDING(4) uniform sampler2D phase_table;   // logarithm of tabulated phase functions, a class in a row
+TABLE(0, sampler2D, optical_depth_table)
+TABLE(1, sampler2D, irradiance_table)
+TABLE(2, sampler3D, rayleigh_like_table)
+TABLE(3, sampler3D, single_table)  // the classes of phase functions one after the other along z
+TABLE(4, sampler2D, phase_table)   // logarithm of tabulated phase functions, a class in a row
 
 #ifdef CHANGES
 // What other values of parameters add to the logarithms of all these, by the same mappings in fewer texels: see
@@ -39,17 +39,36 @@ const int kClasses = CLASSES;  // of phase functions but the Rayleigh-like one, 
 #define CLOSED_FORM_CONSTANTS(HOW)
 #endif
 
+// What the texels of the scattering tables stand for where they are ENCODED (model/tables/table_precision.h): texel_scale times
+// the texel plus texel_offset; of rayleigh_like_table, of single_table, and of the two of sky_rays.glsl.
+#ifdef ENCODED
+#define ENCODING_CONSTANTS(HOW) HOW vec4 texel_scale; HOW vec4 texel_offset;
+#else
+#define ENCODING_CONSTANTS(HOW)
+#endif
+
 // The Rayleigh-like class's depolarisation; g, g1, g2 and weight of phase functions that are not tabulated (of another
 // Rayleigh phase function its depolarisation).
 #define ATMOSPHERE_CONSTANTS(HOW)       \
   HOW float depolarisation;             \
   HOW vec4 phase_parameters[CLASSES];   \
   HOW vec4 ground_albedo;               \
+  ENCODING_CONSTANTS(HOW)               \
   CLOSED_FORM_CONSTANTS(HOW)
+#ifdef LIBRARY  // for other people's renderers: of one atmosphere, without uniforms
+const float depolarisation = float(DEPOLARISATION);
+const vec4 phase_parameters[CLASSES] = LIST(vec4, CLASSES, PHASE_PARAMETERS);
+const vec4 ground_albedo = vec4(GROUND_ALBEDO);
+#ifdef ENCODED
+const vec4 texel_scale = vec4(TEXEL_SCALE);
+const vec4 texel_offset = vec4(TEXEL_OFFSET);
+#endif
+#else
 CONSTANTS(0, Atmosphere, ATMOSPHERE_CONSTANTS)
+#endif
 
-const int kPhaseTypes[CLASSES] = int[CLASSES](PHASE_TYPES);  // PhaseType of model/atmosphere/constituent.h
-const int kLobeTypes[CLASSES] = int[CLASSES](LOBE_TYPES);
+const int kPhaseTypes[CLASSES] = LIST(int, CLASSES, PHASE_TYPES);  // PhaseType of model/atmosphere/constituent.h
+const int kLobeTypes[CLASSES] = LIST(int, CLASSES, LOBE_TYPES);
 
 const float bottom_km = float(BOTTOM_KM);
 const float thickness_km = float(THICKNESS_KM);
@@ -70,7 +89,7 @@ float disc_brightness(float distance) {
 }
 
 #ifdef EXACT_FILTER
-// GPUs interpolate in steps of 1/256 of a texel, too coarse where neighbouring points are subtracted.
+// GPUs interpolate in steps of 1/256 of a texel, too coarse where neighbouring points are subtracted; others round the result.
 vec4 look_up(sampler2D table, vec2 at) {
   ivec2 size = textureSize(table, 0);
   vec2 place = clamp(at * vec2(size) - 0.5, vec2(0.0), vec2(size) - 1.0);
@@ -95,10 +114,13 @@ vec4 look_up(sampler2D table, vec2 at) { return texture(table, at); }
 vec4 look_up(sampler3D table, vec3 at) { return texture(table, at); }
 #endif
 
+// The same at all wavelengths.
+vec4 grey(float x) { return vec4(x, x, x, x); }
+
 // Of a class, counted from 0 behind the Rayleigh-like one.
 vec4 class_phase(int c, float nu) {
   vec4 p = phase_parameters[c];
-  if (kPhaseTypes[c] == 2) return vec4(two_lobe_phase(kLobeTypes[c], p.y, p.z, p.w, nu));
+  if (kPhaseTypes[c] == 2) return grey(two_lobe_phase(kLobeTypes[c], p.y, p.z, p.w, nu));
   if (kPhaseTypes[c] == 3 || kPhaseTypes[c] == 5 || kPhaseTypes[c] == 6) {
     float angle = acos(clamp(nu, -1.0, 1.0)) * kInversePi, v = (float(c) + 0.5) / float(kClasses);
     float u = texture_from_unit(angle, float(textureSize(phase_table, 0).x));
@@ -108,8 +130,8 @@ vec4 class_phase(int c, float nu) {
 #endif
     return exp(logarithm);
   }
-  if (kPhaseTypes[c] == 4) return vec4(rayleigh_phase(p.x, nu));
-  return vec4(lobe_phase(kPhaseTypes[c], p.x, nu));
+  if (kPhaseTypes[c] == 4) return grey(rayleigh_phase(p.x, nu));
+  return grey(lobe_phase(kPhaseTypes[c], p.x, nu));
 }
 
 // A point on the view ray, as the tables see it.
@@ -117,6 +139,18 @@ struct Place {
   float h, mu, mu_s;
 };
 
+// A function, because HLSL has no constructors of structures.
+Place place_at(float h, float mu, float mu_s) {
+  Place place;
+  place.h = h;
+  place.mu = mu;
+  place.mu_s = mu_s;
+  return place;
+}
+
+#if defined(CLOSED_FORM) || defined(ONEIL)  // once: a file is included where it is named first
+#include "model/shared/closed_forms.glsl"
+#endif
 #ifdef CLOSED_FORM
 #include "render/shaders/closed_form.glsl"
 #endif
@@ -153,7 +187,7 @@ vec4 sun_transmittance(float h, float mu_s) {
   float mu_horizon = -sqrt(max(1.0 - sin_horizon * sin_horizon, 0.0));
   float half_disc = sin_horizon * kSunRadius;
   float visible = smoothstep(-half_disc, half_disc, mu_s - mu_horizon);
-  if (visible <= 0.0) return vec4(0.0);
+  if (visible <= 0.0) return grey(0.0);
 #ifdef CLOSED_FORM
   return visible * closed_form_sun(h, mu_s);
 #else
@@ -179,8 +213,8 @@ Place place_along(Place from, float nu, float d) {
   float h = max(height_after(bottom_km, from.h, from.mu, d), 0.0);
   float r = bottom_km + h;
   float r0 = bottom_km + from.h;
-  return Place(min(h, thickness_km), clamp((r0 * from.mu + d) / r, -1.0, 1.0),
-               clamp((r0 * from.mu_s + d * nu) / r, -1.0, 1.0));
+  return place_at(min(h, thickness_km), clamp((r0 * from.mu + d) / r, -1.0, 1.0),
+                  clamp((r0 * from.mu_s + d * nu) / r, -1.0, 1.0));
 }
 
 // Without the phase functions of those that scattered last.
@@ -194,7 +228,7 @@ Scattering scaled(Scattering s, vec4 factor) {
   for (int c = 0; c < kClasses; ++c) s.single[c] *= factor;
   return s;
 }
-Scattering scaled(Scattering s, float factor) { return scaled(s, vec4(factor)); }
+Scattering scaled(Scattering s, float factor) { return scaled(s, grey(factor)); }
 
 // Of logarithms.
 Scattering exponential(Scattering s) {
@@ -219,6 +253,14 @@ Scattering look_up_classes(sampler3D rayleigh_like, sampler3D single, vec3 at) {
   return s;
 }
 
+#ifdef ENCODED
+Scattering decoded(Scattering texels, vec2 scale, vec2 offset) {
+  texels.rayleigh_like = texels.rayleigh_like * scale.x + offset.x;
+  for (int c = 0; c < kClasses; ++c) texels.single[c] = texels.single[c] * scale.y + offset.y;
+  return texels;
+}
+#endif
+
 // A whole ray as the tables see it: coordinates of azimuth and sun, 0..1, and the factor of the mean that they hold.
 struct TableRay {
   float azimuth, sun, light;
@@ -229,8 +271,11 @@ TableRay table_ray(Place from, float nu, bool hits_ground) {
   float sun = sun_height(at.h, at.mu_s, bottom_km);
   float length_km = hits_ground ? distance_to_inner_sphere(bottom_km, from.h, from.mu, 0.0)
                                 : distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km);
-  return TableRay(unit_from_azimuth(cosine_of_azimuth(at.mu, at.mu_s, nu)), unit_from_sun(sun, LOWEST_SUN),
-                  length_km * deep_twilight(sun));
+  TableRay ray;
+  ray.azimuth = unit_from_azimuth(cosine_of_azimuth(at.mu, at.mu_s, nu));
+  ray.sun = unit_from_sun(sun, LOWEST_SUN);
+  ray.light = length_km * deep_twilight(sun);
+  return ray;
 }
 
 // What two tables of such texels, as scattering_size and scattering_heights are, hold of a whole ray.
@@ -239,11 +284,11 @@ Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, floa
   float turn = ray.azimuth * (size.y - 1.0);
   float first = min(floor(turn), size.y - 2.0);
   float u_sun = texture_from_unit(ray.sun, size.x);
-  vec3 near = vec3((first + u_sun) / size.y,
+  vec3 left = vec3((first + u_sun) / size.y,
                    texture_from_view(from.h, from.mu, hits_ground, size.z, size.w, bottom_km, thickness_km),
                    height_coordinate(from.h, heights));
-  vec3 far = near + vec3(1.0 / size.y, 0.0, 0.0);
-  return between(look_up_classes(rayleigh_like, single, near), look_up_classes(rayleigh_like, single, far),
+  vec3 right = left + vec3(1.0 / size.y, 0.0, 0.0);
+  return between(look_up_classes(rayleigh_like, single, left), look_up_classes(rayleigh_like, single, right),
                  turn - first);
 }
 
@@ -252,6 +297,9 @@ Scattering scattering(Place from, float nu, bool hits_ground) {
   TableRay ray = table_ray(from, nu, hits_ground);
   Scattering means = ray_texels(rayleigh_like_table, single_table, scattering_size, scattering_heights, from,
                                 hits_ground, ray);
+#ifdef ENCODED
+  means = decoded(means, texel_scale.xy, texel_offset.xy);
+#endif
 #ifdef CHANGES
   Scattering change = ray_texels(rayleigh_like_change, single_change, change_size, change_heights, from, hits_ground, ray);
   means.rayleigh_like += change.rayleigh_like;
@@ -277,8 +325,8 @@ vec4 optical_depth_between(Place a, Place b, bool downward) {
 vec4 transmittance_between(Place a, Place b, bool downward) { return exp(-optical_depth_between(a, b, downward)); }
 
 // Into a path: what its whole ray gathers less what arrives of the rest beyond its end.
-Scattering scattering_before(Scattering all, vec4 transmittance, Scattering rest) {
-  all.rayleigh_like = max(all.rayleigh_like - transmittance * rest.rayleigh_like, 0.0);
-  for (int c = 0; c < kClasses; ++c) all.single[c] = max(all.single[c] - transmittance * rest.single[c], 0.0);
-  return all;
+Scattering scattering_before(Scattering whole, vec4 transmittance, Scattering rest) {
+  whole.rayleigh_like = max(whole.rayleigh_like - transmittance * rest.rayleigh_like, 0.0);
+  for (int c = 0; c < kClasses; ++c) whole.single[c] = max(whole.single[c] - transmittance * rest.single[c], 0.0);
+  return whole;
 }

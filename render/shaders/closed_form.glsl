@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light along straight paths by the closed forms of Nielsen 2003 (NIELSEN) and of Hoffman & Preetham 2002, as
 // model/literature/nielsen.cc and hoffman_preetham.cc compute it, with the ground at its own height. They know no light from
-// below the horizon, no shadow in the air and no space. Included by atmosphere.glsl, which has the constants.
-#include "model/shared/closed_forms.glsl"
+// below the horizon, no shadow in the air and no space. Included by atmosphere.glsl, which has the constants and the formulas.
 
 vec4 closed_form_dimming(float air_m, float aerosol_m) { return exp(-(air_beta * air_m + aerosol_beta * aerosol_m)); }
 

@@ -4,11 +4,15 @@
 // time of a 2D fetch; an input that is the same at a triangle's three corners is free. With FLAT_CONSTANTS a fragment
 // shader's constants come that way, see pixel_ray.glsl.
 // GLSL ES 3.00 has neither bindings nor such blocks of its programs: there constants are uniforms by their names.
+// TABLE is a texture by its unit. HLSL has its own, render/glsl/shader_text.cc.
+#ifndef HLSL
+#define LIST(TYPE, SIZE, VALUES) TYPE[SIZE](VALUES)
+#endif
 #ifdef GL_ES
-#define BINDING(UNIT)
+#define TABLE(UNIT, TYPE, NAME) uniform TYPE NAME;
 #define CONSTANTS(UNIT, NAME, MEMBERS) MEMBERS(uniform)
-#else
-#define BINDING(UNIT) layout(binding = UNIT)
+#elif !defined(HLSL)
+#define TABLE(UNIT, TYPE, NAME) layout(binding = UNIT) uniform TYPE NAME;
 #ifdef FLAT_CONSTANTS
 #define CONSTANTS(UNIT, NAME, MEMBERS) in NAME { MEMBERS(flat) };
 #else

@@ -33,17 +33,30 @@ vec3 color_of(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
 #ifdef DISC
 vec3 square_ray, square_across, square_along;  // of the pixel that seen_at() is asked for
 
+#ifdef REFRACTION
+// The direction in space of a ray to a sun's disc, by its bending: what the eye sees high stands lower.
+vec3 before_refraction(vec3 ray, vec4 bending, vec4 range) {
+  float across = length(ray.xy), zenith = atan(across, ray.z);
+  float from_middle = clamp(zenith - bending.x, range.x, range.y);
+  zenith += exp(bending.y + from_middle * (bending.z + from_middle * bending.w));
+  return vec3(ray.xy * (sin(zenith) / max(across, 1e-6)), cos(zenith));
+}
+#endif
+
 // A sun's disc with its limb darkening, whose mean over the disc is 1, as the mean over a square of the picture about a ray
 // that is not normalised, with the square's sides. x: the disc, y: the share of the square that it covers. By points on
 // rows and columns of 8, the edge softened over their distance.
-vec2 disc(vec3 site_ray, vec3 across, vec3 along, vec3 sun) {
+vec2 disc(vec3 site_ray, vec3 across, vec3 along, int sun) {
   const int kSide = 8;
   float softness = length(across) / (float(kSide) * length(site_ray));
   vec2 sum = vec2(0.0);
   for (int i = 0; i < kSide * kSide; ++i) {
     vec2 place = (vec2(i % kSide, i / kSide) + 0.5) / float(kSide) - 0.5;
     vec3 ray = normalize(site_ray + place.x * across + place.y * along);
-    float away = 2.0 * asin(clamp(0.5 * length(ray - sun), 0.0, 1.0));
+#ifdef REFRACTION
+    ray = before_refraction(ray, bending[2 * sun], bending[2 * sun + 1]);
+#endif
+    float away = 2.0 * asin(clamp(0.5 * length(ray - suns[sun].xyz), 0.0, 1.0));
     float cover = clamp((kSunRadius - away) / softness + 0.5, 0.0, 1.0);
     // Where the covered part has its mean; near the limb, which is steep.
     float inside = clamp((away - 0.3 * (1.0 - cover) * softness) / kSunRadius, 0.0, 1.0);
@@ -110,6 +123,10 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
     path.transmittance = transmittance_between(start, end, ray.hits_ground);
 #ifdef HILLAIRE
     path.in_scatter = radiance(hillaire_march(start, nu, in_air), nu);
+#elif defined(BODARE)
+    path.in_scatter = radiance(bodare_march(start, nu, in_air, ray.hits_ground), nu);
+#elif defined(ONEIL)
+    path.in_scatter = radiance(oneil_sum(start, nu, in_air), nu);
 #else
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     Scattering rest = scattering(end, nu, ray.hits_ground);
@@ -159,7 +176,7 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #endif
   }
 #ifdef DISC
-  vec2 disc_and_cover = disc(square_ray, square_across, square_along, sun);
+  vec2 disc_and_cover = disc(square_ray, square_across, square_along, i);
   path.disc = suns[i].w * clear * path.transmittance * (disc_and_cover.x / kSunSolidAngle);
   path.disc_cover = disc_and_cover.y;
 #endif

@@ -25,9 +25,16 @@ void pass_constants() {
   view.volume_km = volume_km;
   view.slope_variance = slope_variance;
   view.suns = suns;
+#ifdef REFRACTION
+  view.bending = bending;
+#endif
   atmosphere.depolarisation = depolarisation;
   atmosphere.phase_parameters = phase_parameters;
   atmosphere.ground_albedo = ground_albedo;
+#ifdef ENCODED
+  atmosphere.texel_scale = texel_scale;
+  atmosphere.texel_offset = texel_offset;
+#endif
 #ifdef CLOSED_FORM
   atmosphere.air_beta = air_beta;
   atmosphere.aerosol_beta = aerosol_beta;

@@ -9,7 +9,13 @@ layout(binding = 6) uniform sampler3D sky_ray_aerosol;
 
 const vec3 sky_ray_size = vec3(SKY_RAY_SIZE);
 
-Scattering sky_ray_texels(vec3 at) { return look_up_classes(sky_ray_air, sky_ray_aerosol, at); }
+Scattering sky_ray_texels(vec3 at) {
+  Scattering texels = look_up_classes(sky_ray_air, sky_ray_aerosol, at);
+#ifdef ENCODED
+  texels = decoded(texels, texel_scale.zw, texel_offset.zw);
+#endif
+  return texels;
+}
 
 vec3 texture_from_units(vec3 unit) {
   return 0.5 / sky_ray_size + clamp(unit, vec3(0.0), vec3(1.0)) * (1.0 - 1.0 / sky_ray_size);
@@ -48,25 +54,5 @@ Scattering sky_ray_scattering(Place from, float nu) {
 Scattering sky_ray_scattering(Place from, float nu) {
   return sky_ray_texels(texture_from_units(
       vec3(kInversePi * acos(from.mu_s), kInversePi * acos(from.mu), from.h / thickness_km)));
-}
-#elif SKY_RAYS == 4  // O'Neil
-Scattering sky_ray_scattering(Place from, float nu) {
-  const int kSamples = ONEIL_SAMPLES;
-  float step_km = distance_to_outer_sphere(bottom_km, from.h, from.mu, thickness_km) / float(kSamples);
-  vec4 whole = optical_depth_past_ground(from.h, from.mu);
-  Scattering sum;
-  sum.rayleigh_like = vec4(0.0);
-  for (int c = 0; c < kClasses; ++c) sum.single[c] = vec4(0.0);
-  for (int i = 0; i < kSamples; ++i) {
-    Place at = place_along(from, nu, (float(i) + 0.5) * step_km);
-    if (ray_hits_ground(at.h, at.mu_s, bottom_km)) continue;
-    vec4 to_eye = at.mu < 0.0 ? optical_depth_between(from, at, true)
-                              : max(whole - optical_depth_to_top(at.h, at.mu), 0.0);
-    vec4 through = exp(-to_eye - optical_depth_past_ground(at.h, at.mu_s));
-    Scattering here = scattering_at(at.h);
-    sum.rayleigh_like += here.rayleigh_like * through;
-    for (int c = 0; c < kClasses; ++c) sum.single[c] += here.single[c] * through;
-  }
-  return scaled(sum, step_km);
 }
 #endif

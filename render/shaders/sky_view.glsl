@@ -7,9 +7,16 @@
 // Not below, in a branch: files are included once.
 #include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
+#include "model/shared/bodare_mapping.glsl"
 #include "model/shared/bruneton_mapping.glsl"
 #ifdef HILLAIRE
 #include "render/shaders/hillaire.glsl"
+#endif
+#if defined(BODARE) && !defined(VOLUME)
+#include "render/shaders/bodare_march.glsl"
+#endif
+#ifdef ONEIL
+#include "render/shaders/oneil.glsl"
 #endif
 
 const vec3 sky_view_size = vec3(SKY_VIEW_SIZE);  // columns of a sun, rows of rays to the ground, rows of rays to the sky
@@ -36,7 +43,7 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
 }
 
 #if !defined(SKY_VIEW_WRITE) && !defined(VOLUME_WRITE)
-#if defined(SKY_RAYS) && !defined(HILLAIRE)
+#if defined(SKY_RAYS) && !defined(HILLAIRE) && !defined(ONEIL)
 #include "render/shaders/sky_rays.glsl"
 #endif
 layout(binding = 9) uniform sampler2D view_air;      // logarithm of the amplitude; HILLAIRE: radiance of the sky
@@ -61,6 +68,8 @@ WholeRay whole_ray(ViewRay ray, Place start, vec3 sun, float nu, int i) {
                         rayleigh_phase(depolarisation, nu);
   return WholeRay(light, depth);
 #endif
+#elif defined(SKY_RAYS) && defined(ONEIL)
+  return WholeRay(oneil_ray(start, nu), optical_depth_past_ground(ray.h, ray.mu));
 #elif defined(SKY_RAYS)
   return WholeRay(sky_ray_scattering(start, nu), optical_depth_past_ground(ray.h, ray.mu));
 #elif defined(FROM_ABOVE)

@@ -4,6 +4,10 @@
 
 void main() {
   vec3 sun = suns[gl_InstanceID].xyz;
+#ifdef REFRACTION
+  float zenith = bending[2 * gl_InstanceID].x;
+  if (sun.xy != vec2(0.0)) sun = vec3(sin(zenith) * normalize(sun.xy), cos(zenith));
+#endif
   vec3 right = normalize(cross(sun, abs(sun.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   // The disc's edge is softened over a pixel.

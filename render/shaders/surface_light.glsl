@@ -12,7 +12,7 @@ Place where_light_enters(Place at) {
   float impact = r * sqrt(max(1.0 - at.mu_s * at.mu_s, 0.0));
   bool crosses = at.mu_s < 0.0 && impact < top;
   float half_chord = sqrt(max((top - impact) * (top + impact), 0.0));
-  return Place(thickness_km, at.mu, crosses ? -half_chord / top : 1.0);
+  return place_at(thickness_km, at.mu, crosses ? -half_chord / top : 1.0);
 #endif
 }
 

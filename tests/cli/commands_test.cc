@@ -66,6 +66,26 @@ TEST_F(CommandsTest, ManualPagesNameCommandsAndOptions) {
   EXPECT_THAT(unknown.err, HasSubstr("expected one of fit, "));
 }
 
+TEST_F(CommandsTest, TablesAreWrittenWithTheirShadersAndParameters) {
+  const std::string said = output({"tables", "earth-clear", "--size", "tiny", "--format", "ktx2",
+                                   "--primaries", "rec2020", "--out", "sky"});
+  EXPECT_THAT(said, HasSubstr("sky/rayleigh_like.ktx2: 256 x 32 x 16, half\n"));
+  EXPECT_THAT(said, HasSubstr("suns 0 to 88 deg: "));
+  EXPECT_THAT(files(),
+              UnorderedElementsAre("sky", "sky/optical_depth.ktx2", "sky/irradiance.ktx2",
+                                   "sky/rayleigh_like.ktx2", "sky/single.ktx2", "sky/phase.ktx2",
+                                   "sky/tables.json", "sky/sky.glsl", "sky/sky.hlsl"));
+  const json parameters = json::parse(read("sky/tables.json"));
+  EXPECT_EQ(parameters["primaries"], "rec2020");
+  EXPECT_EQ(parameters["tables"][2]["file"], "rayleigh_like.ktx2");
+  EXPECT_THAT(read("sky/sky.glsl"), HasSubstr("linear, Rec. 2020"));
+  expect_refusal({"tables", "earth-clear"}, {"--out", "expected a directory, or --measure alone"});
+  expect_refusal({"tables", "earth-clear", "--out", "x", "--format", "tga"},
+                 {"--format \"tga\": expected one of exr, dds, npy, ktx2"});
+  expect_refusal({"tables", "earth-clear", "--out", "x", "--precision", "8bit"},
+                 {"--precision \"8bit\": expected float or half"});
+}
+
 TEST_F(CommandsTest, SkyMapIsWrittenWithItsSun) {
   EXPECT_THAT(output({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--size", "16", "--out",
                       "sky.hdr", "--sun-file", "sun.json"}),

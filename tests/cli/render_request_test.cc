@@ -57,6 +57,15 @@ TEST(RenderRequest, ADayIsAFilmOfTenSecondsFromAStandingCamera) {
   EXPECT_NEAR(first.camera.azimuth, first.sun.azimuth, 1e-12);  // toward the sun at first
 }
 
+TEST(RenderRequest, TablesByTheirNames) {
+  const RenderRequest r =
+      request({"--out", "x.png", "--table-size", "small", "--table-precision", "8bit"});
+  EXPECT_EQ(r.table_precision, TablePrecision::k8Bit);
+  EXPECT_LT(r.table_sizes.scattering_mu_s, TableSizes{}.scattering_mu_s);
+  EXPECT_EQ(request({"--out", "x.png"}).table_sizes.scattering_mu_s, TableSizes{}.scattering_mu_s);
+  EXPECT_THROW(request({"--out", "x.png", "--table-size", "huge"}), UsageError);
+}
+
 TEST(RenderRequest, StepsAndFramesOfADay) {
   const RenderRequest steps = request(at_zurich(
       {"--date", "2026-06-21", "--time", "22:00..01:10", "--step-min", "30", "--out-dir", "x"}));

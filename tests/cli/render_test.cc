@@ -107,6 +107,23 @@ TEST_F(RenderTest, ASequenceIsKeptContinuedAndRedrawn) {
   EXPECT_THAT(fifth.out, HasSubstr("3 drawn, 0 kept"));
 }
 
+// The statistics say what each frame did for the tables that are renewed over frames.
+TEST_F(RenderTest, TablesAreRenewedOverFrames) {
+  write("fog.json", R"({"skyfit_sequence": 1, "frames_per_second": 10, "keyframes": [
+      {"time_s": 0, "camera": {"view": "space"}},
+      {"time_s": 0.2, "parameters": {"mie.scattering": 3e-5}}]})");
+  const std::vector<std::string> command = {
+      "render",    "--preset", "bodare-2014",     "--sequence", "fog.json", "--model", "bodare",
+      "--out-dir", "film",     "--update-frames", "2",          "--size",   "32x18",   "--stats"};
+  const std::string nowhere = "PATH=" + (folder_ / "no-programs").string();
+  const Outcome first = run(command, {nowhere});
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("table update ms"));
+  EXPECT_THAT(first.out, HasSubstr("update of tables"));
+  EXPECT_THAT(first.out, HasSubstr("3 drawn, 0 kept"));
+  EXPECT_THAT(run(command, {nowhere}).out, HasSubstr("0 drawn, 3 kept"));
+}
+
 TEST_F(RenderTest, AFailingFfmpegIsNamed) {
   write("one.json", R"({"skyfit_sequence": 1, "keyframes": [{"time_s": 0}]})");
   fs::permissions(write("programs/ffmpeg", "#!/bin/sh\necho 'no such encoder' >&2\nexit 3\n"),
@@ -221,6 +238,15 @@ TEST_F(RenderTest, SequencesAndStripsThatCannotBe) {
       {"time_s": 1, "preset": "mars"}]})");
   expect_refusal(sequence + std::vector<std::string>{"planets.json"},
                  {"earth-clear and mars", "planet.bottom_radius_m"});
+  write("fog.json", R"({"skyfit_sequence": 1, "keyframes": [{"time_s": 0}]})");
+  const std::vector<std::string> fog = {"fog.json", "--model", "bodare", "--update-frames"};
+  expect_refusal(sequence + fog + std::vector<std::string>{"3"},
+                 {"--update-frames", "3", "2, 4, 8, 16 or 32"});
+  expect_refusal(
+      sequence + std::vector<std::string>{"fog.json", "--model", "oneil", "--update-frames", "2"},
+      {"--update-frames", "the model bodare"});
+  expect_render_refusal({"--model", "bodare", "--update-frames", "2"},
+                        {"--update-frames", "--out-dir"});
   write("x/frames.json", "{}");
   write("good.json", kSequence);
   expect_refusal(sequence + std::vector<std::string>{"good.json"}, {"x/frames.json", "remove it"});

@@ -60,6 +60,10 @@ class CampaignTest : public ::testing::Test {
     write("plan.json", json);
     return load_plan(folder() / "plan.json");
   }
+  CampaignPlan toml_plan(const std::string& toml) const {
+    write("plan.toml", toml);
+    return load_plan(folder() / "plan.toml");
+  }
   static std::vector<std::string> names(const std::vector<Task>& tasks) {
     std::vector<std::string> list;
     for (const Task& task : tasks) list.push_back(task.name);
@@ -175,6 +179,42 @@ TEST_F(CampaignTest, BadPlansAreRefusedInALine) {
               HasSubstr("a whole number"));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"lobes": {}}})"),
               HasSubstr("options.lobes"));
+}
+
+TEST_F(CampaignTest, APlanMayBeToml) {
+  write("a.csv", "42 -76 2013-05-27T13:00:00Z");
+  const CampaignPlan json = plan(R"({"skyfit_campaign": 1, "inputs": ["*.csv"], "group": "day",
+    "options": {"fix": ["a=1", "b=2"], "lobes": 1, "noise": 0.02, "no-priors": true}})");
+  const CampaignPlan toml = toml_plan(
+      "skyfit_campaign = 1  # of a comment nothing\ninputs = ['*.csv']\ngroup = 'day'\n"
+      "[options]\nlobes = 1\nfix = ['a=1', 'b=2']\nno-priors = true\nnoise = 0.02\n");
+  EXPECT_EQ(toml.options, json.options);
+  EXPECT_EQ(toml.group, json.group);
+  EXPECT_EQ(tasks(toml).at(0).key, tasks(json).at(0).key);
+}
+
+TEST_F(CampaignTest, BadTomlIsRefusedWithItsLine) {
+  const auto complaint = [&](const std::string& text) {
+    try {
+      toml_plan(text);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string begin = "skyfit_campaign = 1\ninputs = ['a']\n";
+  EXPECT_THAT(complaint(begin + "group = 'week'"),
+              HasSubstr("plan.toml:3: group = \"week\": expected one of file"));
+  EXPECT_THAT(complaint(begin + "group = "), HasSubstr("plan.toml:3: expected TOML, got "));
+  EXPECT_THAT(complaint(begin + "inputs = ['b']"), HasSubstr("plan.toml:3: expected TOML, got "));
+  EXPECT_THAT(complaint(begin + "note = 2026-11-29"),
+              HasSubstr("plan.toml:3: note: expected a text in quotes, a finite number"));
+  EXPECT_THAT(complaint(begin + "[options]\nnoise = nan"),
+              HasSubstr("plan.toml:4: options.noise: expected"));
+  EXPECT_THAT(complaint(begin + "[options]\n[options.lobes]"),
+              HasSubstr("plan.toml:4: options.lobes"));
+  EXPECT_THAT(complaint("a = " + std::string(100'000, '[')),
+              HasSubstr("plan.toml:1: expected TOML"));
 }
 
 class RunTest : public CampaignTest {

@@ -13,6 +13,8 @@
 #include "data_refs/references.h"
 #include "fit/exchange/programs.h"
 #include "model/registry.h"
+#include "model/tables/table_precision.h"
+#include "render/engine/table_files.h"
 #include "render/panels.h"
 #include "render/plot/measured_figures.h"
 #include "render/sky_map/projection.h"
@@ -74,6 +76,16 @@ TEST(Documents, NameEveryProgramOfExports) {
   const std::string text = document("docs/exchange.md");
   for (const fit::Program& program : fit::programs())
     expect_in(text, fmt::format("| {} | {} |", program.name, program.meaning));
+}
+
+TEST(Documents, NameEverySizePrecisionAndFormatOfTables) {
+  const std::string rendering = document("docs/rendering.md"), tables = document("docs/tables.md");
+  for (const TableSizesEntry& sizes : table_sizes())
+    expect_in(rendering, fmt::format("| {} | {} |", sizes.name, sizes.meaning));
+  for (const TablePrecisionEntry& precision : table_precisions())
+    expect_in(rendering, fmt::format("| {} | {} |", precision.name, precision.meaning));
+  for (const TableFormatEntry& format : table_formats())
+    expect_in(tables, fmt::format("| {} | {} |", format.name, format.meaning));
 }
 
 TEST(Documents, NameEveryShippedPreset) {

@@ -112,6 +112,38 @@ TEST(Bodare, GroundIrradianceIsTheIntegralOfTheSky) {
   }
 }
 
+// Equation 19 leaves red as it is, and every wavelength where the air is so thin that light is
+// proportional to the coefficients; in haze the approximation is seen in blue, and is a good one by
+// day: figure 11.
+TEST(Bodare, MieFromRayleighIsItselfInRedAndInThinAir) {
+  const auto tables_of = [](const literature::BodareGeometry& geometry, const Atmosphere<double>& a,
+                            double nm) {
+    const auto air = literature::clear_air(geometry.shells(), seeded<0>(a, {}), {nm, 0});
+    return literature::BodareTables<0>(geometry, air, {});
+  };
+  // Of the aerosol at an angle: formed from air over its own.
+  const auto ratios = [&](const Atmosphere<double>& a, double nm) {
+    const literature::BodareGeometry geometry(a);
+    const auto own = tables_of(geometry, a, nm), red = tables_of(geometry, a, 650);
+    auto formed = own, formed_red = red;
+    formed.take_aerosol_from_air(red);
+    formed_red.take_aerosol_from_air(red);
+    const double mu = std::cos(70 * kDegree), mu_s = std::cos(50 * kDegree);
+    const auto aerosol = [&](const literature::BodareTables<0>& tables) {
+      return tables.in_scatter(0, mu, mu_s, false).aerosol.v;
+    };
+    return std::pair(aerosol(formed_red) / aerosol(red), aerosol(formed) / aerosol(own));
+  };
+  constexpr double kRounding = 1e-12, kThin = 1e-3;
+  const auto [red_in_haze, blue_in_haze] = ratios(haze(), 450);
+  EXPECT_NEAR(red_in_haze, 1, kRounding);
+  EXPECT_GT(std::abs(blue_in_haze - 1), 1e-3);
+  EXPECT_NEAR(blue_in_haze, 1, 0.15);
+  Atmosphere<double> thin = haze(0);
+  for (Constituent<double>& c : thin.constituents) c.amount *= 1e-4;
+  EXPECT_NEAR(ratios(thin, 450).second, 1, kThin);
+}
+
 TEST(BodareUpdate, TakesThePublishedNumberOfFrames) {
   for (const auto& [orders, slices, frames] :
        {std::tuple{1, 2, 1}, {2, 2, 4}, {4, 8, 31}, {5, 32, 148}}) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "data_refs/spectra.h"
 #include "model/atmosphere/slant_column.h"
@@ -177,6 +178,48 @@ TEST(ONeil, ZenithByHand) {
   EXPECT_NEAR(radiance("oneil", a, {0, 0, 0, 0}) / expected, 1, 1e-9);
 }
 
+// There the transmittance is the same at every sample, so that the light is the midpoint rule of an
+// exponential: N samples give (x / 2) / sinh(x / 2) of the integral, x = top / (H N). It converges
+// as 1 - x^2 / 24.
+TEST(ONeil, SamplesConvergeToTheIntegral) {
+  const Atmosphere<double> a = oneil_earth();
+  const double h0 = a.at("rayleigh").profile.scale_height_m,
+               top = a.top_radius_m - a.bottom_radius_m,
+               scattered =
+                   h0 * -std::expm1(-top / h0) * std::exp(-(2e-6 + 1e-6) * h0 * std::exp(-0.00287));
+  const auto integral = [&](double air_phase) {
+    return scattered * (2e-6 * air_phase + 1e-6 * Shared<double>{}.cornette_shanks_phase(0.76, 1));
+  };
+  const auto share = [&](int samples) {
+    const double half = 0.5 * top / (h0 * samples);
+    return half / std::sinh(half);
+  };
+  const SkyPoint zenith{0, 0, 0, 0};
+  const double air_phase = Shared<double>{}.rayleigh_phase(0, 1);
+  for (const int samples : {1, 3, 5, 50, 1000}) {
+    EXPECT_NEAR(radiance("oneil:samples=" + std::to_string(samples), a, zenith) /
+                    (integral(air_phase) * share(samples)),
+                1, 1e-9)
+        << samples << " samples";
+  }
+  EXPECT_NEAR(radiance("oneil:samples=1000", a, zenith) / integral(air_phase), 1, 1e-6);
+  EXPECT_NEAR(radiance("oneil:isotropic-air:samples=3", a, zenith) /
+                  (integral(0.25 / std::numbers::pi) * share(3)),
+              1, 1e-9);
+}
+
+// His polynomial stands in for the planet's shadow: by day there is none, in the depth of night it
+// lets nothing through, and without it nothing may stand in.
+TEST(ONeil, WithoutTheTestOfTheShadow) {
+  const Atmosphere<double> a = oneil_earth();
+  const SkyPoint day{0, 40 * kDegree, 60 * kDegree, 1}, night{0, 150 * kDegree, 60 * kDegree, 1},
+      twilight{0, 95 * kDegree, 80 * kDegree, 0};
+  EXPECT_EQ(radiance("oneil:no-shadow", a, day), radiance("oneil", a, day));
+  EXPECT_LT(radiance("oneil:no-shadow", a, night), 1e-12 * radiance("oneil", a, day));
+  EXPECT_GT(radiance("oneil:no-shadow", a, twilight), radiance("oneil", a, twilight));
+  EXPECT_THROW(radiance("oneil:no-shadow", {}, day), std::invalid_argument);
+}
+
 // From space and from inside: where the ray begins makes no difference to the air that it crosses.
 TEST(ONeil, SpaceSeesWhatTheTopSees) {
   Atmosphere<double> a = oneil_earth();
@@ -214,9 +257,12 @@ TEST(Models, HaveNamesThatMakeThem) {
   for (const SkyModelEntry& entry : sky_models())
     EXPECT_EQ(model_named(entry.name)->name(), entry.name);
   for (const char* name :
-       {"nielsen:mean-height", "nielsen:mean-height:rayleigh-phase:sun-through-sky"})
+       {"nielsen:mean-height", "nielsen:mean-height:rayleigh-phase:sun-through-sky",
+        "oneil:samples=3:isotropic-air:no-shadow", "bodare:mie-from-rayleigh"})
     EXPECT_EQ(model_named(name)->name(), name);
-  for (const char* wrong : {"nonsense", "nielsen:nonsense", "nielsen:", "oneil:mean-height"})
+  for (const char* wrong : {"nonsense", "nielsen:nonsense", "nielsen:", "oneil:mean-height",
+                            "oneil:samples", "oneil:samples=", "oneil:samples=N", "oneil:samples=0",
+                            "oneil:samples=1001", "oneil:samples=2.5"})
     EXPECT_THROW(model_named(wrong), std::invalid_argument) << wrong;
 }
 

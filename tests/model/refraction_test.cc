@@ -249,6 +249,23 @@ TEST(Refraction, DerivativesAreThoseOfDifferences) {
   }
 }
 
+// Also on the limb, where the bending changes faster than the zenith angle.
+TEST(Refraction, ApparentZenithIsTheOneThatIsBentToTheTrueOne) {
+  const Atmosphere<double> a = earth();
+  const Refraction refraction(a, kBlue);
+  for (const double height_m : {0.0, 10e3, 400e3}) {
+    const double height = refraction.refractive_height(height_m),
+                 limb = kPi - std::asin(a.bottom_radius_m / (a.bottom_radius_m + height_m));
+    for (const double above : {60.0, 20.0, 1.0, 0.5, 0.2, 0.0, -0.3, -0.5}) {
+      const double true_zenith = limb - above * kDegree,
+                   seen = refraction.apparent_zenith(height, true_zenith);
+      EXPECT_LE(seen, true_zenith);
+      EXPECT_NEAR(seen + refraction.bending(height, seen), true_zenith, 1e-9)
+          << height_m << " m, " << above << " deg above the horizon";
+    }
+  }
+}
+
 TEST(Refraction, WithoutAirThereIsNone) {
   Atmosphere<double> a = earth();
   std::erase_if(a.constituents, [](const auto& c) { return c.name == "rayleigh"; });

@@ -76,6 +76,9 @@ TEST_P(TableCacheOf, AModelGivesBackItsTables) {
   expect_same(second.phase, first.phase);
   expect_same(second.sky_rays.air, first.sky_rays.air);
   expect_same(second.sky_rays.aerosol, first.sky_rays.aerosol);
+  expect_same(second.sky_rays.gathered, first.sky_rays.gathered);
+  EXPECT_EQ(second.sky_rays.oneil.samples, first.sky_rays.oneil.samples);
+  EXPECT_EQ(second.sky_rays.oneil.phase, first.sky_rays.oneil.phase);
   EXPECT_EQ(second.sky_rays.mapping, first.sky_rays.mapping);
   EXPECT_EQ(second.sky_rays.nielsen.sun, first.sky_rays.nielsen.sun);
   ASSERT_EQ(second.sky_rays.limits.has_value(), first.sky_rays.limits.has_value());
@@ -86,8 +89,8 @@ TEST_P(TableCacheOf, AModelGivesBackItsTables) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, TableCacheOf,
-                         ::testing::Values("reference", "oneil", "hillaire",
-                                           "nielsen:sun-through-sky"));
+                         ::testing::Values("reference", "oneil:samples=3:isotropic-air", "hillaire",
+                                           "bodare", "nielsen:sun-through-sky"));
 
 // Every parameter of the atmosphere by its least step, and all that stands beside it.
 TEST(TableCache, AnyOtherInputIsComputed) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light that the air scatters into the paths to the ground, looked up for each pixel and from
-// the volume, is that of the reference; by `hillaire` what that model gathers.
+// the volume, is that of the reference; by `hillaire` and `bodare` what these models
+// gather.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "data_refs/spectra.h"
 #include "model/atmosphere/phase_moments.h"
+#include "model/literature/bodare.h"
 #include "model/literature/hillaire.h"
 #include "model/registry.h"
 #include "model/shared/shared.h"
@@ -194,6 +196,87 @@ TEST(AerialPerspective, OfHillaireIsMarched) {
   EXPECT_LT(worst_pixel, kSameSteps);
   EXPECT_LT(worst_volume, kOtherSteps);
 }
+
+// By `bodare` it is the integral over the path of sunlight and of what the table of gathered light
+// holds, here by Simpson's rule with 2 x 200 steps.
+class AerialPerspectiveOfBodare : public ::testing::TestWithParam<double> {};
+
+TEST_P(AerialPerspectiveOfBodare, IsTheIntegralOfSunAndGatheredLight) {
+  const Preset preset = Planet::with_aerosol(shipped("bodare-2014"), GetParam());
+  const AtmosphereTables tables =
+      compute_tables_of(BodareModel(2), preset.atmosphere,
+                        color_rule(refs::standard_spectral_data()), kSmallTables, 2, {});
+  const literature::BodareGeometry geometry(preset.atmosphere);
+  std::vector<literature::ClearAir<0>> airs;
+  std::vector<std::unique_ptr<literature::BodareTables<0>>> nodes;
+  for (const WavelengthNode& node : tables.color.nodes) {
+    airs.push_back(
+        literature::clear_air(geometry.shells(), seeded<0>(preset.atmosphere, {}), node));
+    nodes.push_back(std::make_unique<literature::BodareTables<0>>(geometry, airs.back(),
+                                                                  std::span<const View>{}));
+  }
+  Renderer renderer;
+  renderer.set_atmosphere(preset, tables);
+  FrameOptions options = options_of("10km", 96, 54);
+  options.layers = true;
+  options.aerial = AerialPerspective::kPerPixel;
+  const Frame by_pixel = renderer.draw(options);
+  options.aerial = AerialPerspective::kVolume;
+  const Frame by_volume = renderer.draw(options);
+  const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
+  const double r0 = geometry.shells().bottom_radius + options.camera.altitude_m;
+  const auto path_light = [&](std::size_t k, const glm::dvec3& ray, double length) {
+    const double nu = glm::dot(ray, sun);
+    const auto& air = airs[k];
+    const PathColumns beyond = geometry.shells().columns_to_top(options.camera.altitude_m, -ray.z);
+    const auto source = [&](double s) {
+      const double r = std::sqrt(r0 * r0 + s * s + 2 * r0 * s * ray.z),
+                   h = std::max(r - geometry.shells().bottom_radius, 0.0),
+                   mu = (r0 * ray.z + s) / r, mu_s = (r0 * sun.z + s * nu) / r;
+      const auto density = air.densities(h);
+      PathColumns path = geometry.shells().columns_to_top(h, std::max(-mu, 0.0));
+      path += -beyond;
+      const double through = std::exp(-air.optical_depth(path).v),
+                   light =
+                       std::exp(-air.optical_depth(geometry.shells().columns_to_top(h, mu_s)).v) +
+                       nodes[k]->gathered(h, mu_s).v;
+      return through * light *
+             (air.air.v * density.air.v * Shared<double>{}.elek_rayleigh_phase(nu) +
+              air.aerosol_scattering.v * density.aerosol.v * phase_value(air.phase, nu).v);
+    };
+    constexpr int kSteps = 200;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double a = length * i / kSteps, b = length * (i + 1) / kSteps;
+      sum += (b - a) / 6 * (source(a) + 4 * source(0.5 * (a + b)) + source(b));
+    }
+    return sum;
+  };
+  int pixels = 0;
+  double worst_pixel = 0, worst_volume = 0;
+  for (std::size_t i = 0; i < by_pixel.depth_m.size(); i += 12) {
+    const glm::dvec3 ray = ray_of(by_pixel, i);
+    if (is_sky(by_pixel, i) || ray.z > -0.06) continue;  // to the ground for certain
+    NodeValues light;
+    for (std::size_t k = 0; k < 4; ++k) light[k] = path_light(k, ray, double{by_pixel.depth_m[i]});
+    const double truth = luminance(tables.color, light);
+    const auto error = [&](const Frame& frame) {
+      return std::abs(luminance_of(frame.layers->in_scatter, i) / truth - 1);
+    };
+    worst_pixel = std::max(worst_pixel, error(by_pixel));
+    worst_volume = std::max(worst_volume, error(by_volume));
+    ++pixels;
+  }
+  std::printf("[ aerial ] %d paths: worst %.2f %% by pixel, %.2f %% from the volume\n", pixels,
+              100 * worst_pixel, 100 * worst_volume);
+  ASSERT_GT(pixels, 80);
+  constexpr double kSixteenSteps = 0.02, kVolumeTexels = 0.03;
+  EXPECT_LT(worst_pixel, kSixteenSteps);
+  EXPECT_LT(worst_volume, kVolumeTexels);
+}
+
+INSTANTIATE_TEST_SUITE_P(AirAndFog, AerialPerspectiveOfBodare,
+                         ::testing::Values(0.0, 3e-4));  // 1/m; 0: the preset's own
 
 INSTANTIATE_TEST_SUITE_P(Views, AerialPerspectiveOf,
                          ::testing::Values(Seen{"earth-clear", "valley", 0, 0, 0},

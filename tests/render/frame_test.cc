@@ -153,6 +153,29 @@ TEST(Frame, MirrorsAboutTheSunsAzimuthInTheSky) {
   EXPECT_GT(compared, 1000);
 }
 
+// Halves round by 1/2048 of their distance from the largest logarithm, light that matters lies
+// within 4 of it; 8 bits have 255 steps over the logarithms' whole range, some 20. The last shows
+// that the renderer is left as it was.
+TEST(Frame, TablesOfFewerBitsAreAsFarOffAsTheirSteps) {
+  const FrameOptions options = options_of("10km", 48, 30);
+  const Frame frame = renderer().draw(options);
+  const auto off = [&](TablePrecision precision) {
+    renderer().set_atmosphere(earth_clear(), small_tables(), precision);
+    const Frame other = renderer().draw(options);
+    WorstPixel worst;
+    for (std::size_t i = 0; i < frame.luminance.size(); ++i)
+      worst.add(frame, i, other.luminance[i] / frame.luminance[i] - 1);
+    worst.print(precision == TablePrecision::k8Bit ? "8 bits" : "float or half");
+    return worst;
+  };
+  const WorstPixel half = off(TablePrecision::kHalf), steps = off(TablePrecision::k8Bit);
+  EXPECT_GT(half.error(), 0);
+  EXPECT_LT(half.error(), 4.0 / 2048);
+  EXPECT_GT(steps.rms(), half.rms());
+  EXPECT_LT(steps.error(), 0.5 * 20 / 255);
+  EXPECT_EQ(off(TablePrecision::kFloat).error(), 0);
+}
+
 TEST(Options, AreRefusedWithNameValueAndRange) {
   const auto refusal = [](FrameOptions options) -> std::string {
     try {

@@ -195,10 +195,12 @@ TEST_F(SharedFormulas, GeometryKeepsItsDigitsNearTheGround) {
   }
 }
 
-void expect_equal_lookups(const AtmosphereTables& tables) {
+void expect_equal_lookups(const AtmosphereTables& made,
+                          TablePrecision precision = TablePrecision::kFloat) {
   Shared<double> shared;
   FrameGraph graph;
-  add_tables(tables, graph);
+  const TableCodes codes = add_tables(made, graph, precision);
+  const AtmosphereTables tables = in_precision(made, precision);
   const auto inputs = rays();
   const std::map<GLuint, const char*> names = {
       {0, "optical_depth"}, {1, "irradiance"},  {2, "rayleigh_like"},  {3, "single"},
@@ -208,7 +210,7 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
     std::vector<float> asked = inputs;
     for (std::size_t i = 3; i < asked.size(); i += 4) asked[i] = which;
     UniformBuffers blocks;
-    std::vector<std::string> defined = atmosphere_defines(tables);
+    std::vector<std::string> defined = atmosphere_defines(tables, codes);
     defined.emplace_back("SKY_RAYS 0");
     return run_glsl("#include \"render/shaders/sky_rays.glsl\"\n",
                     "bool hit = ray_hits_ground(x.x, x.y, bottom_km);\n"
@@ -219,7 +221,7 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
                     "if (x.w == 3.0)\n"
                     "  y = radiance(sky_ray_scattering(Place(thickness_km, x.y, x.z), nu), nu);\n",
                     asked, defined, [&](GLuint program) {
-                      bind_atmosphere(tables, program, blocks);
+                      bind_atmosphere(tables, program, blocks, codes);
                       for (const auto& [unit, name] : names) graph.bind(name, unit);
                     });
   };
@@ -246,7 +248,11 @@ void expect_equal_lookups(const AtmosphereTables& tables) {
 }
 
 TEST_F(SharedFormulas, TableLookups) {
-  expect_equal_lookups(tables_of(shipped("earth-clear"), kSmallTables));
+  const AtmosphereTables tables = tables_of(shipped("earth-clear"), kSmallTables);
+  for (const TablePrecisionEntry& entry : table_precisions()) {
+    SCOPED_TRACE(entry.name);
+    expect_equal_lookups(tables, entry.precision);
+  }
 }
 
 TEST_F(SharedFormulas, TableLookupsOfTwoHenyeyGreensteinLobes) {

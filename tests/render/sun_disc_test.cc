@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "model/atmosphere/refraction.h"
 #include "model/tables/table_lookup.h"
 #include "render/image/glare.h"
 #include "render/image/tone.h"
@@ -145,6 +146,47 @@ TEST(SunDisc, HasADarkerLimb) {
   tone.exposure = metered_exposure(frame);
   const auto bytes = tone_mapped(frame, tone);
   EXPECT_LT(bytes[3 * (50 * 101 + 70) + 1] + 10, bytes[3 * (50 * 101 + 50) + 1]);
+}
+
+// Upper and lower limb of a low sun stand where the bending of their own light has them, from the
+// ground and from space, and the disc keeps its width.
+TEST(SunDisc, IsFlatWhereAirRefractsIt) {
+  constexpr int kSide = 301;
+  const double radius = sun_radius();
+  const Atmosphere<double>& atmosphere = earth_clear().atmosphere;
+  const Refraction refraction(atmosphere, 550);
+  const double pixel = 2 * std::tan(radius) / 100;  // the disc is 100 pixels wide without air
+  for (const auto& [height_m, true_zenith] :
+       {std::pair{2.0, 60 * kDegree}, {2.0, 88 * kDegree}, {2.0, 90 * kDegree}, {400e3, 0.0}}) {
+    const double limb_of_planet =
+        std::numbers::pi -
+        std::asin(atmosphere.bottom_radius_m / (atmosphere.bottom_radius_m + 400e3));
+    const double sun = true_zenith > 0 ? true_zenith : limb_of_planet + 0.2 * kDegree,
+                 height = refraction.refractive_height(height_m);
+    FrameOptions options = options_at(
+        {height_m, refraction.apparent_zenith(height, sun), 0, 2 * std::atan(0.5 * kSide * pixel)},
+        sun, kSide, kSide);
+    options.refraction = true;
+    const Frame frame = renderer().draw(options);
+    std::vector<double> cover(static_cast<std::size_t>(kSide) * kSide, 0);
+    for (const DiscPixel& disc : frame.discs) cover[disc.pixel] = disc.cover;
+    double tall = 0, above = 0, wide = 0;
+    for (int i = 0; i < kSide; ++i) {
+      tall += cover[static_cast<std::size_t>(i) * kSide + kSide / 2];
+      if (i < kSide / 2) above += cover[static_cast<std::size_t>(i) * kSide + kSide / 2];
+      wide += cover[static_cast<std::size_t>(kSide / 2) * kSide + i];
+    }
+    const double seen = options.camera.view_zenith,
+                 top = std::tan(seen - refraction.apparent_zenith(height, sun - radius)) / pixel,
+                 bottom = std::tan(refraction.apparent_zenith(height, sun + radius) - seen) / pixel;
+    std::printf("[ disc   ] %g m, %.2f deg: %.2f px tall, %.2f expected, %.2f wide\n", height_m,
+                sun / kDegree, tall, top + bottom, wide);
+    EXPECT_NEAR(tall, top + bottom, 0.5);
+    EXPECT_NEAR(above + 0.5, top, 0.5);
+    EXPECT_NEAR(wide, 100, 0.5);
+    const bool low = sun > 85 * kDegree;
+    EXPECT_LT(tall, (low ? 0.97 : 1.01) * wide);
+  }
 }
 
 // Illuminance times the function of Vos & van den Berg 1999, eq. 8, far from the disc; and the

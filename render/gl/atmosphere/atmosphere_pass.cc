@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "model/shared/sea.h"
+#include "render/gl/atmosphere/disc_bending.h"
 #include "render/gl/context/shader.h"
 #include "render/gl/context/uniform_block.h"
 #include "render/gl/context/uniforms.h"
@@ -43,6 +44,8 @@ constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 // After those of kAtmosphereReads.
 constexpr GLuint kShadowUnit = 12, kScatteringUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
                  kMaterialUnit = 18;
+// Of kBodare while there is no volume to be read.
+constexpr GLuint kGatheredUnit = kVolumeUnit;
 
 std::vector<std::string> class_defines() {
   return {fmt::format("SKY_CLASS {:.1f}", kSkyClass),
@@ -105,8 +108,9 @@ std::vector<ShaderStage> stages_of(const std::string& path,
 
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = thickness_m(tables);
-  return !is_closed_form(tables.sky_rays.mapping) && options.aerial == AerialPerspective::kVolume &&
-         only_ground && !options.second_sun &&
+  return !is_closed_form(tables.sky_rays.mapping) &&
+         tables.sky_rays.mapping != SkyRayMapping::kONeil &&
+         options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
          options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
 }
 
@@ -119,23 +123,32 @@ bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
 bool AtmosphereView::sees_grains() const { return !only_ground || nearest_m < grainless_m(*this); }
 
 bool AtmospherePass::has_sky_view(const FrameOptions& options) const {
-  if (is_closed_form(tables_.sky_rays.mapping)) return false;
-  const bool hillaire = tables_.sky_rays.mapping == SkyRayMapping::kHillaire;
+  const SkyRayMapping mapping = tables_.sky_rays.mapping;
+  const bool hillaire = mapping == SkyRayMapping::kHillaire;
+  // Closed forms and sums of what is before a surface have no whole rays to the ground.
+  if (is_closed_form(mapping) || mapping == SkyRayMapping::kONeil ||
+      mapping == SkyRayMapping::kBodare)
+    return false;
   return options.camera.altitude_m <= (hillaire ? thickness_m(tables_) : kAbove);
 }
 
 AtmospherePass::AtmospherePass(GraphicsDevice device)
     : device_(device), empty_(make_vertex_array()) {}
 
-void AtmospherePass::set_tables(const AtmosphereTables& tables) {
+void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes& codes) {
+  codes_ = codes;
   tables_.atmosphere = tables.atmosphere;
   tables_.color = tables.color;
   tables_.sizes = tables.sizes;
   tables_.sky_rays.mapping = tables.sky_rays.mapping;
   tables_.sky_rays.nielsen = tables.sky_rays.nielsen;
+  tables_.sky_rays.oneil = tables.sky_rays.oneil;
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
   tables_.phases = tables.phases;
   scattering_coefficients_ = scattering_texture(tables);
+  refraction_.reset();
+  gathered_.reset();
+  if (tables.sky_rays.mapping == SkyRayMapping::kBodare) gathered_ = gathered_texture(tables);
 }
 
 GLuint AtmospherePass::program(const std::string& path, const Defined& defined) {
@@ -147,8 +160,9 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
 }
 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
-  Defined defined = atmosphere_defines(tables_);
+  Defined defined = atmosphere_defines(tables_, codes_);
   if (options.second_sun) defined.push_back("SECOND_SUN");
+  if (options.refraction) defined.push_back("REFRACTION");
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
   return defined;
 }
@@ -168,8 +182,20 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
       {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
   if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
   block.set("suns", std::span<const glm::vec4>(suns));
+  if (options.refraction) {
+    constexpr double kWavelength = 550;  // of which the bending is that of all
+    if (!refraction_) refraction_.emplace(tables_.atmosphere, kWavelength);
+    std::vector<glm::vec4> bending;
+    for (const glm::vec4& sun : suns) {
+      const double zenith = std::atan2(glm::length(glm::dvec2(sun.x, sun.y)), double{sun.z});
+      std::ranges::copy(disc_bending(*refraction_, options.camera.altitude_m, zenith,
+                                     tables_.atmosphere.star.angular_radius_rad()),
+                        std::back_inserter(bending));
+    }
+    block.set("bending", std::span<const glm::vec4>(bending));
+  }
   block.bind(blocks_);
-  bind_atmosphere(tables_, program, blocks_);
+  bind_atmosphere(tables_, program, blocks_, codes_);
 }
 
 void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {
@@ -202,6 +228,7 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
   const GLuint id = program(kFillVolume, defined);
   bind_blocks(id, view);
   glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
+  if (gathered_) glBindTextureUnit(kGatheredUnit, gathered_->id());
   volume_->fill(id);
 }
 
@@ -247,7 +274,11 @@ void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_m
     if (!clouds_) clouds_.emplace();
     clouds_->bind(*view.options.clouds, sky, kCloudUnit, blocks_);
   }
-  if (view.volume(tables_)) volume_->bind(kVolumeUnit);
+  if (view.volume(tables_)) {
+    volume_->bind(kVolumeUnit);
+  } else if (gathered_) {
+    glBindTextureUnit(kGatheredUnit, gathered_->id());
+  }
   const glm::dvec3 camera =
       (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
   view.materials.bind(camera, grainy, kMaterialUnit, blocks_);

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "model/atmosphere/refraction.h"
 #include "render/gl/atmosphere/aerial_volume.h"
 #include "render/gl/atmosphere/atmosphere_tables.h"
 #include "render/gl/atmosphere/clouds.h"
@@ -73,11 +74,12 @@ class AtmospherePass {
   explicit AtmospherePass(GraphicsDevice device);
 
   // The tables' values are read from the textures; the rest is kept.
-  void set_tables(const AtmosphereTables& tables);
+  void set_tables(const AtmosphereTables& tables, const TableCodes& codes);
   const AtmosphereTables& tables() const { return tables_; }  // without values
 
   // Whether whole rays are looked up once a frame: not from high above the air; by Hillaire's
-  // method from everywhere in it; not by closed forms.
+  // method from everywhere in it; not by closed forms, and not where light before surfaces is
+  // summed along the path.
   bool has_sky_view(const FrameOptions& options) const;
   void add_sky_view(const FrameOptions& options, FrameGraph& graph) const;
   void draw_sky_view(const AtmosphereView& view);
@@ -108,11 +110,14 @@ class AtmospherePass {
 
   GraphicsDevice device_;
   AtmosphereTables tables_;  // without the tables' values
+  TableCodes codes_;
   std::map<std::pair<std::string, Defined>, GlProgram> programs_;
   GlVertexArray empty_;
   GlTexture scattering_coefficients_;   // over height
+  std::optional<GlTexture> gathered_;   // of kBodare
   std::optional<AerialVolume> volume_;  // made when first used
   std::optional<Clouds> clouds_;
+  std::optional<Refraction> refraction_;  // of the tables' atmosphere, made when first used
   UniformBuffers blocks_;
 };
 

@@ -9,7 +9,6 @@
 #include "model/literature/evaluate.h"
 #include "model/literature/hillaire_tables.h"
 #include "model/literature/nielsen.h"
-#include "model/literature/oneil.h"
 #include "model/shared/shared.h"
 #include "render/glsl/table_defines.h"
 
@@ -17,7 +16,19 @@ namespace skyfit {
 namespace {
 
 void add(const std::string& name, const Table& table, FrameGraph& graph) {
-  graph.add_table(name, table.width, table.height, table.depth, table.rgba);
+  graph.add_table(name, table.width, table.height, table.depth, GL_RGBA32F, table.rgba.data());
+}
+
+TexelCode add(const std::string& name, const Table& table, TableHolds holds,
+              TablePrecision precision, FrameGraph& graph) {
+  if (precision == TablePrecision::kFloat) {
+    add(name, table, graph);
+    return {};
+  }
+  const EncodedTable texels = encoded(table, holds, precision);
+  graph.add_table(name, texels.width, texels.height, texels.depth,
+                  precision == TablePrecision::kHalf ? GL_RGBA16F : GL_RGBA8, texels.texels.data());
+  return texels.code;
 }
 
 glm::vec4 ground_albedo(const AtmosphereTables& tables) {
@@ -53,6 +64,28 @@ void define_closed_form(const AtmosphereTables& tables, std::vector<std::string>
   if (choices.mean == NielsenMean::kOfHeights) defined.emplace_back("NIELSEN_MEAN_HEIGHT");
   if (choices.phase == NielsenAirPhase::kPublished) defined.emplace_back("NIELSEN_PUBLISHED_PHASE");
   if (choices.sun == NielsenSun::kPublished) defined.emplace_back("NIELSEN_PUBLISHED_SUN");
+}
+
+// What render/shaders/oneil.glsl is compiled for.
+void define_sums(const ONeilChoices& choices, std::vector<std::string>& defined) {
+  defined.emplace_back("ONEIL");
+  defined.push_back(fmt::format("ONEIL_SAMPLES {}", choices.samples));
+  if (choices.depths == ONeilDepths::kPolynomial) defined.emplace_back("ONEIL_POLYNOMIAL");
+  if (choices.phase == ONeilAirPhase::kIsotropic) defined.emplace_back("ONEIL_ISOTROPIC_AIR");
+  if (choices.shadow == ONeilShadow::kNone) defined.emplace_back("ONEIL_NO_SHADOW");
+}
+
+// Of RGBA in single precision.
+GlTexture flat_texture(GLsizei width, GLsizei height, const void* rgba) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  GlTexture texture(id);
+  glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
+  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, rgba);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
 }
 
 }  // namespace
@@ -97,28 +130,32 @@ GlTexture scattering_texture(const AtmosphereTables& tables) {
   }
   const auto width = static_cast<GLsizei>(kHeights),
              height = static_cast<GLsizei>(tables.phases.count() + 1);
-  GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &id);
-  GlTexture texture(id);
-  glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
-  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, values.data());
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
+  return flat_texture(width, height, values.data());
 }
 
-void add_tables(const AtmosphereTables& tables, FrameGraph& graph) {
+GlTexture gathered_texture(const AtmosphereTables& tables) {
+  const Table& gathered = tables.sky_rays.gathered;
+  return flat_texture(gathered.width, gathered.height, gathered.rgba.data());
+}
+
+TableCodes add_tables(const AtmosphereTables& tables, FrameGraph& graph, TablePrecision precision) {
+  const SkyRayMapping mapping = tables.sky_rays.mapping;
+  const auto of_sky_rays = [&](const std::string& name, const Table& table) {
+    return add(name, table, sky_rays_hold(mapping),
+               sky_rays_encoded(mapping) ? precision : TablePrecision::kFloat, graph);
+  };
   add("optical_depth", tables.optical_depth, graph);
   add("irradiance", tables.irradiance, graph);
-  add("rayleigh_like", tables.rayleigh_like, graph);
-  add("single", tables.single, graph);
   add("phase", tables.phase, graph);
-  add("sky_ray_air", tables.sky_rays.air, graph);
-  add("sky_ray_aerosol", tables.sky_rays.aerosol, graph);
+  return {precision,
+          add("rayleigh_like", tables.rayleigh_like, TableHolds::kLogarithms, precision, graph),
+          add("single", tables.single, TableHolds::kLogarithms, precision, graph),
+          of_sky_rays("sky_ray_air", tables.sky_rays.air),
+          of_sky_rays("sky_ray_aerosol", tables.sky_rays.aerosol)};
 }
 
-void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers) {
+void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuffers& buffers,
+                     const TableCodes& codes) {
   std::vector<glm::vec4> parameters;
   for (const auto& p : phase_parameters(tables.phases))
     parameters.emplace_back(p[0], p[1], p[2], p[3]);
@@ -126,11 +163,18 @@ void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuff
   block.set("depolarisation", tables.phases.depolarisation);
   block.set("phase_parameters", std::span<const glm::vec4>(parameters));
   block.set("ground_albedo", ground_albedo(tables));
+  if (codes.precision != TablePrecision::kFloat) {
+    block.set("texel_scale", glm::vec4(codes.rayleigh_like.scale, codes.single.scale,
+                                       codes.sky_ray_air.scale, codes.sky_ray_aerosol.scale));
+    block.set("texel_offset", glm::vec4(codes.rayleigh_like.offset, codes.single.offset,
+                                        codes.sky_ray_air.offset, codes.sky_ray_aerosol.offset));
+  }
   if (is_closed_form(tables.sky_rays.mapping)) set_closed_form(tables, block);
   block.bind(buffers);
 }
 
-std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
+std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables,
+                                            const TableCodes& codes) {
   const glm::ivec3 sky_view = sky_view_size(tables);
   const Table& sky_rays = tables.sky_rays.air;
   std::vector<std::string> defined = table_defines(tables);
@@ -138,8 +182,10 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
       defined.end(),
       {fmt::format("SKY_VIEW_SIZE {}, {}, {}", sky_view.x, sky_view.y, sky_view.z),
        fmt::format("SKY_RAY_SIZE {}, {}, {}", sky_rays.width, sky_rays.height, sky_rays.depth),
-       fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu),
-       fmt::format("ONEIL_SAMPLES {}", ONeilModel::kSamples)});
+       fmt::format("BRUNETON_NU {}", literature::BrunetonSizes::nu)});
+  if (codes.precision != TablePrecision::kFloat) defined.emplace_back("ENCODED");
+  // Mesa rounds what it interpolates between texels of 8 bits to 8 bits again.
+  if (codes.precision == TablePrecision::k8Bit) defined.emplace_back("EXACT_FILTER");
   if (tables.sky_rays.mapping == SkyRayMapping::kHillaire) {
     using Hillaire = literature::HillaireSizes;
     defined.insert(defined.end(),
@@ -147,6 +193,8 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables) {
                     fmt::format("HILLAIRE_SKY_VIEW {}, {}", Hillaire::sky_view_azimuth,
                                 Hillaire::sky_view_rows)});
   }
+  if (tables.sky_rays.mapping == SkyRayMapping::kONeil) define_sums(tables.sky_rays.oneil, defined);
+  if (tables.sky_rays.mapping == SkyRayMapping::kBodare) defined.emplace_back("BODARE");
   if (is_closed_form(tables.sky_rays.mapping)) define_closed_form(tables, defined);
   return defined;
 }

@@ -70,16 +70,19 @@ void FrameGraph::add_target(const std::string& name, GLenum format, int width, i
 }
 
 void FrameGraph::add_table(const std::string& name, int width, int height, int depth,
-                           std::span<const float> rgba) {
+                           GLenum format, const void* texels) {
   const bool flat = depth <= 1;
-  Texture texture{make_texture(flat ? GL_TEXTURE_2D : GL_TEXTURE_3D), GL_RGBA32F, width, height};
+  Texture texture{make_texture(flat ? GL_TEXTURE_2D : GL_TEXTURE_3D), format, width, height};
   const GLuint id = texture.object.id();
+  const GLenum type = format == GL_RGBA8     ? GL_UNSIGNED_BYTE
+                      : format == GL_RGBA16F ? GL_HALF_FLOAT
+                                             : GL_FLOAT;
   if (flat) {
-    glTextureStorage2D(id, 1, GL_RGBA32F, width, height);
-    glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
+    glTextureStorage2D(id, 1, format, width, height);
+    glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RGBA, type, texels);
   } else {
-    glTextureStorage3D(id, 1, GL_RGBA32F, width, height, depth);
-    glTextureSubImage3D(id, 0, 0, 0, 0, width, height, depth, GL_RGBA, GL_FLOAT, rgba.data());
+    glTextureStorage3D(id, 1, format, width, height, depth);
+    glTextureSubImage3D(id, 0, 0, 0, 0, width, height, depth, GL_RGBA, type, texels);
   }
   check_gl("table " + name);
   textures_.insert_or_assign(name, std::move(texture));

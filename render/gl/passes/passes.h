@@ -44,8 +44,9 @@ class FrameGraph {
   // Textures by name; float formats filter linearly and clamp to their edges. A target of the same
   // format and size stays as it is.
   void add_target(const std::string& name, GLenum format, int width, int height);
-  void add_table(const std::string& name, int width, int height, int depth,
-                 std::span<const float> rgba);
+  // `texels`: RGBA of GL_RGBA32F, GL_RGBA16F or GL_RGBA8.
+  void add_table(const std::string& name, int width, int height, int depth, GLenum format,
+                 const void* texels);
 
   // Hands the passes to the device, which runs them in order. Throws std::runtime_error that names
   // the pass: an unknown texture, an incomplete framebuffer, an OpenGL error.

@@ -121,10 +121,9 @@ class GlRenderer final : public FrameDrawer {
     affordable_blocks(view, terrain_->store());
   }
 
-  void set_atmosphere(const AtmosphereTables& tables) override {
+  void set_atmosphere(const AtmosphereTables& tables, TablePrecision precision) override {
     set_ground(tables.atmosphere, tables.color);
-    add_tables(tables, graph_);
-    atmosphere_.set_tables(tables);
+    atmosphere_.set_tables(tables, add_tables(tables, graph_, precision));
   }
 
   double ground_height_m(const std::optional<Site>& site) const override {
