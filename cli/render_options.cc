@@ -14,6 +14,8 @@
 namespace skyfit::cli {
 namespace {
 
+constexpr int kMostOrders = 20;
+
 // Options of one group of the help.
 class Group {
  public:
@@ -269,7 +271,13 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                   "scattering. Below suns of 86 deg neighbouring places are left out (docs/theory)")
       ->type_name("N|all")
       ->transform(CLI::Transformer(std::map<std::string, int>{{"all", 0}}).description(""))
-      ->check(CLI::Range(0, 20).description(""));
+      ->check(CLI::Validator(
+          [](const std::string& text) -> std::string {
+            const bool is_number = CLI::Range(0, kMostOrders)(text).empty();
+            return is_number ? ""
+                             : fmt::format("\"{}\": expected 1 to {}, or all", text, kMostOrders);
+          },
+          ""));
   command.add_option("--out", options.out, "frame.png, frame.exr or frame.npy; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);

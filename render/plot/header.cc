@@ -6,8 +6,10 @@
 namespace skyfit::plot {
 namespace {
 
-constexpr double kTitleToText = 1.45;  // of the widths of their characters, on a screen
 constexpr double kBelow = 10;
+
+// Of the widths of their characters, as of their sizes (font_names()).
+double title_to_text(const Sheet& sheet) { return sheet.on_page() ? 1.25 : 1.55; }
 
 double margin(const Sheet& sheet) { return sheet.on_page() ? 4 : 16; }
 
@@ -19,7 +21,7 @@ Header::Header(const Sheet& sheet, double width_px, const std::string& title,
                const std::string& subtitle, const std::vector<LegendEntry>& legend)
     : title_line_(sheet.on_page() ? 18 : 26) {
   const double width = width_px - 2 * margin(sheet);
-  if (sheet.has_title) title_ = wrapped(title, width / kTitleToText, sheet);
+  if (sheet.has_title) title_ = wrapped(title, width / title_to_text(sheet), sheet);
   if (!subtitle.empty()) subtitle_ = wrapped(subtitle, width, sheet);
   legend_ = legend_rows(legend, width, sheet);
   height_ = margin(sheet) + rows_px(title_.size(), title_line_) +

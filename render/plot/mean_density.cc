@@ -71,12 +71,11 @@ Figure mean_density_figure(const Sheet& sheet) {
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   const double left = sheet.on_page() ? 52 : 80, right = 16, above = 26,
                below = sheet.on_page() ? 42 : 56, panel = sheet.on_page() ? 180 : kPanel;
-  const Header header(
-      sheet, width,
-      "Mean density of a vertical path to ground at 1500 m (Nielsen 2003, figure 5.2)", "",
-      {{Mark::kSolidLine, kReferenceColor, "integral"},
-       {Mark::kSolidLine, kCurveColors[1], "mean of the densities"},
-       {Mark::kDashedLine, kCurveColors[0], "density at the mean height"}});
+  const Header header(sheet, width, "Mean density of a vertical path to ground at 1500 m",
+                      "Nielsen 2003, figure 5.2",
+                      {{Mark::kSolidLine, kReferenceColor, "integral"},
+                       {Mark::kSolidLine, kCurveColors[1], "mean of the densities"},
+                       {Mark::kDashedLine, kCurveColors[0], "density at the mean height"}});
   const double row = above + panel + below;
   Script script(width, header.height_px() + row * static_cast<double>(rows), sheet);
   script.line("set multiplot");
