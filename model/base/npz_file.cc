@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <zip.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -242,8 +242,9 @@ TEST_F(BadInputTest, ADirectoryWithOtherFilesIsNotTouched) {
 TEST_F(BadInputTest, OutputsOfAnotherKind) {
   expect_refusal({"render", "--preset", "earth-clear", "--out", "frame.jpg"},
                  {"--out", "frame.jpg", ".png, .exr or .npy"});
-  expect_refusal({"plot", "x", "--out", "f.svg", "--figure", "pie"},
-                 {"--figure", "pie", "expected one of comparison, polarisation, maps"});
+  expect_refusal(
+      {"plot", "x", "--out", "f.svg", "--figure", "pie"},
+      {"--figure", "pie", "expected one of comparison, polarisation, mean-density, maps"});
   expect_refusal({"plot", "x", "--out", "f.svg", "--style", "poster"},
                  {"--style", "poster", "expected one of paper, slides"});
   expect_refusal({"plot", "x", "--out", "f.svg", "--width-mm", "60", "--font-size", "12"},

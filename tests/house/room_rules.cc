@@ -79,7 +79,7 @@ bool may_include(const std::string& included, bool quoted, const fs::path& top,
 std::span<const RoomRule> room_rules() {
   static const std::vector<RoomRule> rules = {
       {"model/shared", {}, {}, {}},
-      {"model/base", {}, kMath + std::vector<std::string>{"xxhash.h"}, {}},
+      {"model/base", {}, kMath + std::vector<std::string>{"xxhash.h", "zip.h"}, {}},
       {"model/numerics", {}, kMath, {}},
       {"model/geometry", {"model/shared", "model/numerics"}, kMath, {}},
       {"model/atmosphere",
@@ -103,7 +103,7 @@ std::span<const RoomRule> room_rules() {
        kMath,
        {}},
       {"model", kModelRooms, kMath,
-       kMathLibraries + std::vector<std::string>{"dl", "PkgConfig::xxHash"}},
+       kMathLibraries + std::vector<std::string>{"dl", "PkgConfig::xxHash", "PkgConfig::minizip"}},
       {"data_refs", kModelRooms + std::vector<std::string>{"model", "data_refs/image"}, kMath,
        kMathLibraries + std::vector<std::string>{"skyfit::model"}},
       {"data_refs/image",
