@@ -19,6 +19,7 @@
 #include "render/gl/passes/resolve.h"
 #include "render/gl/passes/shadow_pass.h"
 #include "render/gl/terrain/map_ground.h"
+#include "render/gl/terrain/regional_ground.h"
 #include "render/gl/terrain/relief.h"
 #include "render/gl/terrain/terrain_pass.h"
 #include "render/gl/terrain/terrain_view.h"
@@ -184,6 +185,11 @@ class GlRenderer final : public FrameDrawer {
       ground_ = std::make_unique<MapGround>(scene_, radius_m_, color);
       home_ = site_axes({});
     }
+    if (scene_.dems.empty()) return;
+    const bool has_sea = atmosphere.sea || !scene_.height_map.empty();
+    if (!regions_) regions_ = read_regional_maps(scene_, radius_m_, has_sea);
+    ground_ = std::make_unique<RegionalGround>(std::move(ground_), regions_, scene_, radius_m_);
+    home_ = site_axes({regions_->front().centre().latitude, regions_->front().centre().longitude});
   }
 
   SiteAxes axes_of(const std::optional<Site>& site) const {
@@ -389,6 +395,7 @@ class GlRenderer final : public FrameDrawer {
   double radius_m_ = 0;
   NodeValues albedo_{};
   std::unique_ptr<Ground> ground_;
+  RegionalMaps regions_;  // null before the first ground
   SiteAxes home_;  // where the camera stands without a site
   std::optional<TerrainPass> terrain_;
   ObjectPass objects_;
