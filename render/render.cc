@@ -85,6 +85,8 @@ void Renderer::prepare(const FrameOptions& options) {
   if (is_above_ground(options)) drawer_->prepare(raised(options));
 }
 
+std::vector<std::string> Renderer::warnings() const { return drawer_->warnings(); }
+
 double Renderer::ground_height_m(const std::optional<Site>& site) const {
   return drawer_->ground_height_m(site) - basin_depth_m_;
 }

@@ -65,7 +65,8 @@ struct PlacedMesh {
   double altitude_m = 0;  // of the origin, above the bottom radius
   double heading = 0;
   double scale = 1;
-  double reflectance = 0.3;  // where the file names no material: Lambert, of every colour
+  // Where the file names no material, or one that is in no file: Lambert, of every colour.
+  double reflectance = 0.3;
 };
 
 // Heights of a region: a digital elevation model as GeoTIFF, or as .hgt of SRTM. It lies where its
@@ -263,6 +264,10 @@ class Renderer {
   // of it that a frame sees. Throws as they do; a camera below the ground prepares nothing.
   void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color);
   void prepare(const FrameOptions& options);
+
+  // What of the scene could not be drawn as its files ask for, a line each: materials of meshes
+  // that are in no file. Known with the ground.
+  std::vector<std::string> warnings() const;
 
   // Height of the ground above the bottom radius, in metres, at a place or at the coast. Needs an
   // atmosphere or a ground, which know the radius.

@@ -109,8 +109,10 @@ class GlRenderer final : public FrameDrawer {
     }
     if (meshes_.size() < scene_.meshes.size()) {
       for (const PlacedMesh& mesh : scene_.meshes) {
-        meshes_.push_back(ObjectPass::upload_mesh(
-            read_object_mesh(mesh.file, mesh.reflectance, color, scene_.named_files)));
+        const ObjectMesh read =
+            read_object_mesh(mesh.file, mesh.reflectance, color, scene_.named_files);
+        if (!read.warning.empty()) warnings_.push_back(read.warning);
+        meshes_.push_back(ObjectPass::upload_mesh(read));
       }
     }
   }
@@ -127,6 +129,8 @@ class GlRenderer final : public FrameDrawer {
     add_tables(tables, graph_);
     atmosphere_.set_tables(tables);
   }
+
+  std::vector<std::string> warnings() const override { return warnings_; }
 
   double ground_height_m(const std::optional<Site>& site) const override {
     return ground_->height_m(axes_of(site).z, kFinestQuad);
@@ -396,11 +400,12 @@ class GlRenderer final : public FrameDrawer {
   NodeValues albedo_{};
   std::unique_ptr<Ground> ground_;
   RegionalMaps regions_;  // null before the first ground
-  SiteAxes home_;  // where the camera stands without a site
+  SiteAxes home_;         // where the camera stands without a site
   std::optional<TerrainPass> terrain_;
   ObjectPass objects_;
   Materials materials_;
   std::vector<ObjectPass::Model> meshes_;  // of the scene
+  std::vector<std::string> warnings_;      // of their files
   std::optional<ObjectPass::Model> moon_;
   double moon_reflectance_ = 0;
   std::optional<ShadowPass> shadow_pass_;  // made when first used
