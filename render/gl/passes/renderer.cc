@@ -120,8 +120,7 @@ class GlRenderer final : public FrameDrawer {
   void prepare(const FrameOptions& options) override {
     const FrameOptions sampled = affordable(options);
     TerrainView view = view_of(sampled);
-    terrain_->store().begin_frame();
-    affordable_blocks(view, terrain_->store());
+    affordable_blocks(view, {}, terrain_->store());
   }
 
   void set_atmosphere(const AtmosphereTables& tables) override {
@@ -267,14 +266,21 @@ class GlRenderer final : public FrameDrawer {
     current_.projection = make_projection(options.camera, aspect);
     TerrainView view = view_of(options);
     BlockStore& store = terrain_->store();
-    store.begin_frame();
-    const BlockSelection selection = affordable_blocks(view, store);
+    current_.shadows.clear();
+    if (options.shadows) current_.shadows = shadow_views_of(options);
+    std::vector<Planes> casters;
+    for (const ShadowView& shadow : current_.shadows) casters.push_back(shadow.planes);
+    // As fine for the shadows as for the picture: a surface must not shade itself.
+    const std::vector<BlockSelection> selections = affordable_blocks(view, casters, store);
+    const BlockSelection& selection = selections.front();
     statistics.blocks_outside = selection.outside;
     statistics.blocks_behind = selection.behind;
-    current_.shadows.clear();
-    if (options.shadows) prepare_shadows(options, view, ground_distance_m(options));
     statistics.blocks_made = store.take_made();
     terrain_->prepare(selection.blocks, view, current_.blocks);
+    for (std::size_t i = 0; i < casters.size(); ++i) {
+      view.planes = casters[i];
+      terrain_->prepare(selections[i + 1].blocks, view, current_.casters[i]);
+    }
     statistics.triangles = current_.blocks.triangles;
     statistics.blocks_drawn = current_.blocks.blocks;
     statistics.blocks_hidden = current_.blocks.hidden;
@@ -283,15 +289,9 @@ class GlRenderer final : public FrameDrawer {
                                    horizon_m(radius_m_, ground_->highest_m()));
   }
 
-  // The same blocks as in the picture where both see them: a surface must not shade itself.
-  void prepare_shadows(const FrameOptions& options, TerrainView view, double ground_distance_m) {
+  std::vector<ShadowView> shadow_views_of(const FrameOptions& options) const {
     const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
-    current_.shadows = shadow_views(sun, ground_distance_m, ground_->highest_m());
-    for (std::size_t i = 0; i < current_.shadows.size(); ++i) {
-      view.planes = current_.shadows[i].planes;
-      terrain_->prepare(affordable_blocks(view, terrain_->store()).blocks, view,
-                        current_.casters[i]);
-    }
+    return shadow_views(sun, ground_distance_m(options), ground_->highest_m());
   }
 
   void place_objects(const FrameOptions& options, FrameStatistics& statistics) {
