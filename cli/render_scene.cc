@@ -97,6 +97,10 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   if (command.count("--height-map") > 0) {
     scene.height_map = options.height_map;
     require_regular_file(scene.height_map, "an image for --height-map", kMostImageBytes);
+    if (scene.height_map.extension() == ".hgt")
+      throw UsageError(
+          "--height-map", options.height_map,
+          "expected a picture of the whole planet; --dem reads the heights of a region");
   }
   if (command.count("--color-map") > 0) {
     scene.color_map = options.color_map;
