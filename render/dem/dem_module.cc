@@ -177,7 +177,8 @@ class Source {
   }
 
   void expect_few(std::int64_t across, std::int64_t down, std::int64_t most) const {
-    if (across > 0 && down > 0 && across <= most / down) return;
+    if (across <= 0 || down <= 0) fail("georeference: expected a place in latitude and longitude");
+    if (across <= most / down) return;
     fail(fmt::format("{} x {} cells: expected at most {} in all", across, down, most));
   }
 
