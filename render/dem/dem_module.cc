@@ -231,6 +231,7 @@ class Source {
     warp->panSrcBands[0] = band_;
     warp->panDstBands[0] = 1;
     warp->papszWarpOptions = CSLSetNameValue(warp->papszWarpOptions, "INIT_DEST", "NO_DATA");
+    warp->papszWarpOptions = CSLSetNameValue(warp->papszWarpOptions, "NUM_THREADS", "ALL_CPUS");
     constexpr double kWarpBytes = 256e6, kWarpError = 0.05;  // cells
     if (GDALReprojectImage(dataset_.get(), from.c_str(), made.get(), to.c_str(), GRA_Bilinear,
                            kWarpBytes, kWarpError, nullptr, nullptr, warp.get()) != CE_None)
