@@ -3,6 +3,7 @@
 // those to the cone, and beside it those to the sea.
 #include <gtest/gtest.h>
 
+#include "model/atmosphere/lowered_ground.h"
 #include "tests/render/dem_fixture.h"
 #include "tests/render/frame_fixture.h"
 
@@ -48,6 +49,30 @@ TEST_F(RegionalFrame, ShowsTheConeWhereItLies) {
     const double down = std::min(down_to_cone, kAltitude);
     EXPECT_NEAR(depth(row), down * std::hypot(1, t), 130) << row;
   }
+}
+
+// Heights count from the sea's level, also where the ground of the planet lies lower.
+TEST_F(RegionalFrame, ABasinOfThePlanetMovesNoRegion) {
+  const DemFile dem = {40, 40, {6.9, 0.005, 0, 46.1, 0, -0.005}};
+  Scene scene = scene_of({write("basin.tif", dem, [](double, double) { return -1000.0; })});
+  scene.height_map = directory_ / "flat.pgm";
+  std::ofstream map(scene.height_map);
+  map << "P2\n16 8\n255\n";
+  for (int i = 0; i < 16 * 8; ++i) map << (i == 0 ? 255 : 0) << "\n";
+  map.close();
+  scene.lowest_m = -3000;
+  scene.highest_m = 1000;
+  scene.water_level_m = -4000;
+  ASSERT_EQ(basin_depth_m(scene), 3000);
+  Renderer renderer(scene);
+  const AtmosphereTables& tables = small_tables();
+  renderer.set_ground(lowered_by(basin_depth_m(scene), earth_clear().atmosphere), tables.color);
+  const auto height = [&](double latitude) {
+    return renderer.ground_height_m(Site{latitude * kDegree, 7 * kDegree, 0});
+  };
+  constexpr double kRough = 0.5;  // of flat land, at waves of 9 m
+  EXPECT_NEAR(height(46), -1000, kRough);
+  EXPECT_NEAR(height(10), -3000, kRough);
 }
 
 }  // namespace
