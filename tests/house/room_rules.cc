@@ -112,9 +112,9 @@ std::span<const RoomRule> room_rules() {
        kMath + std::vector<std::string>{"OpenImageIO"},
        kMathLibraries + std::vector<std::string>{"OpenImageIO::"}},
       {"fit", kModelRooms + std::vector<std::string>{"model", "data_refs", "fit/exchange/netcdf"},
-       kMath + std::vector<std::string>{"ceres", "glog", "pugixml.hpp"},
-       kMathLibraries +
-           std::vector<std::string>{"skyfit::model", "skyfit::refs", "Ceres::", "pugixml::"}},
+       kMath + std::vector<std::string>{"ceres", "glog", "pugixml.hpp", "toml++"},
+       kMathLibraries + std::vector<std::string>{"skyfit::model", "skyfit::refs",
+                                                 "Ceres::", "pugixml::", "tomlplusplus::"}},
       {"fit/exchange/netcdf",
        {},
        kMath + std::vector<std::string>{"netcdf.h", "hdf5.h"},
