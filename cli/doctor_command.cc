@@ -64,6 +64,7 @@ void run_doctor() {
   bool well = examine("figures (gnuplot)", [] { return program_version("gnuplot", "--version"); });
   well &= examine("frames, software", [] { return renderer_of(GraphicsDevice::kSoftware); });
   examine("frames by EGL, a GPU or Mesa (--gpu)", [] { return renderer_of(GraphicsDevice::kGpu); });
+  well &= examine("digital elevation models", [] { return dem_library(); });
   examine("videos (ffmpeg)", [] { return program_version("ffmpeg", "-version"); });
   print(cache_line());
   if (!well) throw std::runtime_error("something that skyfit needs is missing");

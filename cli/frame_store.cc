@@ -56,10 +56,14 @@ ordered_json json_of(const Scene& scene) {
     meshes.push_back({hash_of_file(mesh.file), mesh.latitude, mesh.longitude, mesh.altitude_m,
                       mesh.heading, mesh.scale, mesh.reflectance});
   }
+  ordered_json dems = ordered_json::array();
+  for (const RegionalDem& dem : scene.dems)
+    dems.push_back({dem.file.filename().string(), hash_of_file(dem.file), dem.band, dem.zero_m});
   return {{"height_map", hash_of_file(scene.height_map)},
           {"range_m", {scene.lowest_m, scene.highest_m}},
           {"color_map", hash_of_file(scene.color_map)},
           {"water_level_m", scene.water_level_m},
+          {"dems", {dems, static_cast<int>(scene.dem_surroundings), scene.dem_edge_m.value_or(-1)}},
           {"meshes", meshes},
           {"textures", scene.textures.string()}};
 }

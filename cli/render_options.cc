@@ -87,6 +87,19 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
               "Height of the sea and of the lowest ground, m; negative: in basins below the\n"
               "bottom radius, into which the air is continued")
       ->capture_default_str();
+  group
+      .option("--dem", options.dems, "FILE[@BAND]",
+              "Digital elevation model of a region: a GeoTIFF, or an .hgt of SRTM, m above the "
+              "sea's level; it lies where its georeference says; may be repeated")
+      ->allow_extra_args(false);
+  group
+      .option("--dem-surroundings", options.dem_surroundings, "planet|sea",
+              "What lies around the regions and where they have no data: the planet's ground, or "
+              "the sea at its level")
+      ->capture_default_str();
+  group.option("--dem-edge-m", options.dem_edge, "LENGTH",
+               "How far beyond its edge a region goes over into its surroundings, m; by default a "
+               "tenth of its shorter side");
   group.option("--textures", options.textures, "DIR",
                "Textures of the ground's materials; missing ones are made and kept there");
   group
@@ -212,6 +225,8 @@ constexpr Pair kNeeds[] = {
     {"--utc-offset-h", "--date"},
     {"--height-range-m", "--height-map"},
     {"--water-level-m", "--height-map"},
+    {"--dem-surroundings", "--dem"},
+    {"--dem-edge-m", "--dem"},
     {"--format", "--out-dir"},
     {"--update-frames", "--out-dir"},
 };

@@ -26,7 +26,8 @@ struct RenderOptions {
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
   std::string moon, second_sun, clouds, wind = "5", atmosphere = "on";
-  std::vector<std::string> meshes;
+  std::vector<std::string> meshes, dems;
+  std::string dem_surroundings = "planet", dem_edge;
   // Picture
   std::string size = "1280x720", aerial = "volume", exposure, exposure_ev = "0", tone = "filmic";
   std::string view_transform = "hue", glare = "eye";

@@ -35,6 +35,35 @@ PlacedMesh parse_mesh(const std::string& text) {
   return mesh;
 }
 
+// A file may have an @ in its name.
+RegionalDem parse_dem(const std::string& text) {
+  RegionalDem dem;
+  dem.file = text;
+  const std::size_t at = text.rfind('@');
+  const std::string band = at == std::string::npos ? "" : text.substr(at + 1);
+  const bool is_number = !band.empty() && band.find_first_not_of("0123456789") == std::string::npos;
+  if (is_number && !fs::exists(dem.file)) {
+    constexpr double kMostBands = 65535;  // of a TIFF
+    const double number = parse_number("--dem", band);
+    if (!(number >= 1 && number <= kMostBands))
+      throw UsageError("--dem", text, "expected FILE@BAND, the band a number from 1 on");
+    dem.band = static_cast<int>(number);
+    dem.file = text.substr(0, at);
+  }
+  require_regular_file(dem.file, "a GeoTIFF or .hgt for --dem", kMostImageBytes);
+  return dem;
+}
+
+void parse_dems(const RenderOptions& options, const CLI::App& command, Scene& scene) {
+  for (const std::string& dem : options.dems) scene.dems.push_back(parse_dem(dem));
+  if (options.dem_surroundings != "planet" && options.dem_surroundings != "sea")
+    throw UsageError("--dem-surroundings", options.dem_surroundings, "expected planet or sea");
+  scene.dem_surroundings =
+      options.dem_surroundings == "sea" ? DemSurroundings::kSea : DemSurroundings::kPlanet;
+  if (command.count("--dem-edge-m") > 0)
+    scene.dem_edge_m = parse_number("--dem-edge-m", options.dem_edge);
+}
+
 void parse_sky_objects(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {
   if (command.count("--moon") > 0) {
     const auto values = parse_tuple("--moon", options.moon, 2, 4,
@@ -68,6 +97,10 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   if (command.count("--height-map") > 0) {
     scene.height_map = options.height_map;
     require_regular_file(scene.height_map, "an image for --height-map", kMostImageBytes);
+    if (scene.height_map.extension() == ".hgt")
+      throw UsageError(
+          "--height-map", options.height_map,
+          "expected a picture of the whole planet; --dem reads the heights of a region");
   }
   if (command.count("--color-map") > 0) {
     scene.color_map = options.color_map;
@@ -80,6 +113,7 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   if (!(scene.lowest_m < scene.highest_m))
     throw UsageError("--height-range-m", options.height_range, "expected LOW..HIGH, LOW < HIGH");
   scene.water_level_m = parse_number("--water-level-m", options.water_level);
+  parse_dems(options, command, scene);
   for (const std::string& mesh : options.meshes) scene.meshes.push_back(parse_mesh(mesh));
   scene.textures = options.textures;
   scene.named_files = named_files();

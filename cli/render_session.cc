@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "cli/light_check.h"
+#include "cli/output.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/lowered_ground.h"
 #include "model/base/whole_file.h"
@@ -90,6 +92,9 @@ Frame RenderSession::draw(const Shot& shot, double time_s,
     time_.done("ground");
   }
   const Preset preset = show(time_s);
+  if (!std::exchange(warned_, true)) {
+    for (const std::string& warning : renderer_.warnings()) warn(warning);
+  }
   Frame drawn = renderer_.draw(placed(shot, preset), progress);
   time_.done("frame: other", drawn.statistics.steps);
   return drawn;

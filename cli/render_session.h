@@ -48,6 +48,7 @@ class RenderSession {
   Renderer renderer_;
   Timeline::Tables shown_;  // what renderer_ has
   bool settled_ = false;    // it has them for all times, and alone
+  bool warned_ = false;     // of what its scene lacks
 };
 
 // Writes PNG or EXR, by the extension.

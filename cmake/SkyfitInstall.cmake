@@ -7,7 +7,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/skyfit)
 
 install(TARGETS skyfit_model skyfit_refs skyfit_fit skyfit_render_glsl skyfit_render skyfit_plot EXPORT skyfit_targets)
 install(TARGETS skyfit COMPONENT program)
-install(TARGETS skyfit_image_module skyfit_netcdf_module skyfit_render_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/skyfit
+install(TARGETS skyfit_dem_module skyfit_image_module skyfit_netcdf_module skyfit_render_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/skyfit
   COMPONENT program)
 install(EXPORT skyfit_targets NAMESPACE skyfit:: FILE skyfit_targets.cmake DESTINATION ${package_dir})
 

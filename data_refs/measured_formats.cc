@@ -8,6 +8,7 @@
 
 #include "data_refs/absorption_bands.h"
 #include "data_refs/aeronet_csv.h"
+#include "data_refs/arm_csphot.h"
 #include "data_refs/csv.h"
 #include "data_refs/eko_csv.h"
 #include "data_refs/measured_sky.h"
@@ -38,7 +39,7 @@ Reference read_text(const SkyFile& file, const ImportOptions& facts) {
   return parse(file.text(), file.name(), facts);
 }
 
-constexpr std::array<MeasuredFormat, 7> kFormats = {{
+constexpr std::array<MeasuredFormat, 8> kFormats = {{
     {kSpectralFolder, "folder of spectra",
      "DATE___HH.MM.SS_-_INDEX____AZIMUTH___ALTITUDE.asd.rad.txt, one a direction; averaged over 5 "
      "nm",
@@ -53,6 +54,12 @@ constexpr std::array<MeasuredFormat, 7> kFormats = {{
      [](const SkyFile& file) { return is_sky_image(file.path()); },
      [](const SkyFile& file, const ImportOptions& facts) {
        return load_sky_image(file.path(), facts);
+     }},
+    {kAlmucantar, "ARM csphotalm", "NetCDF of almucantars of sky radiance",
+     "ARM, header of tmpcsphotalmM1.a1", "arm_csphotalm.nc",
+     [](const SkyFile& file) { return is_netcdf(file.path()); },
+     [](const SkyFile& file, const ImportOptions& facts) {
+       return load_arm_csphot(file.path(), facts);
      }},
     {kPatchScan, "EKO MS-321LR", "the scanner's CSV of 145 patches; its luminances are read",
      "EKO, instruction manual of the MS-321LR, section 7-4", "sky_scan_eko.csv",

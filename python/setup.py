@@ -11,7 +11,8 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 TOP = Path(__file__).resolve().parent.parent
-LIBRARIES = ["_skyfit*.so", "skyfit_image_module.so", "skyfit_render_module.so"]
+LIBRARIES = ["_skyfit*.so", "skyfit_dem_module.so", "skyfit_image_module.so",
+             "skyfit_netcdf_module.so", "skyfit_render_module.so"]
 
 
 class CMakeBuild(build_ext):

@@ -10,6 +10,7 @@
 #include "model/base/npy_file.h"
 #include "model/literature/evaluate.h"
 #include "model/numerics/angles.h"
+#include "render/dem/dem_module.h"
 #include "render/module/module.h"
 
 namespace skyfit {
@@ -47,10 +48,13 @@ Scene above_its_lowest(Scene scene, double by) {
   scene.highest_m += by;
   scene.water_level_m += by;
   for (PlacedMesh& mesh : scene.meshes) mesh.altitude_m += by;
+  for (RegionalDem& dem : scene.dems) dem.zero_m += by;
   return scene;
 }
 
 }  // namespace
+
+std::string dem_library() { return module_named<DemModule>("skyfit_dem_module").library(); }
 
 double basin_depth_m(const Scene& scene) {
   if (scene.height_map.empty()) return 0;
@@ -81,6 +85,8 @@ void Renderer::prepare(const FrameOptions& options) {
   validate(options);
   if (is_above_ground(options)) drawer_->prepare(raised(options));
 }
+
+std::vector<std::string> Renderer::warnings() const { return drawer_->warnings(); }
 
 double Renderer::ground_height_m(const std::optional<Site>& site) const {
   return drawer_->ground_height_m(site) - basin_depth_m_;

@@ -66,7 +66,22 @@ struct PlacedMesh {
   double altitude_m = 0;  // of the origin, above the bottom radius
   double heading = 0;
   double scale = 1;
-  double reflectance = 0.3;  // where the file names no material: Lambert, of every colour
+  // Where the file names no material, or one that is in no file: Lambert, of every colour.
+  double reflectance = 0.3;
+};
+
+// Heights of a region: a digital elevation model as GeoTIFF, or as .hgt of SRTM. It lies where its
+// georeference says; see render/dem/dem_module.h.
+struct RegionalDem {
+  std::filesystem::path file;
+  int band = 0;       // from 1 on; 0: the only one
+  double zero_m = 0;  // where its heights count from, above the bottom radius
+};
+
+// What lies around the regions, and where they have no data.
+enum class DemSurroundings {
+  kPlanet,  // the ground of the planet
+  kSea,     // the sea at its level
 };
 
 // What stands on the planet and stays there.
@@ -81,6 +96,12 @@ struct Scene {
   // slope.
   std::filesystem::path color_map;
   double water_level_m = 0;  // above the bottom radius; a negative one lets the ground lie lower
+  // Regions in the ground above. Heights below the water level are the depth of the sea.
+  std::vector<RegionalDem> dems;
+  DemSurroundings dem_surroundings = DemSurroundings::kPlanet;
+  // How far beyond its edge a region reaches, ever lower above its surroundings; without one: a
+  // tenth of its shorter side.
+  std::optional<double> dem_edge_m;
   std::vector<PlacedMesh> meshes;
   // A directory of the materials' textures; those that are missing are made and saved there. Empty:
   // made and not saved.
@@ -149,6 +170,9 @@ struct FrameOptions {
 // range.
 void validate(const FrameOptions& options);
 void validate(const Scene& scene);
+
+// The library that reads regions, and its version. Throws std::runtime_error where there is none.
+std::string dem_library();
 
 // How far the lowest ground of a scene lies below the bottom radius, >= 0, in metres. Its frames
 // want the tables of the atmosphere lowered_by() this depth (model/atmosphere/lowered_ground.h).
@@ -253,6 +277,10 @@ class Renderer {
   // of it that a frame sees. Throws as they do; a camera below the ground prepares nothing.
   void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color);
   void prepare(const FrameOptions& options);
+
+  // What of the scene could not be drawn as its files ask for, a line each: materials of meshes
+  // that are in no file. Known with the ground.
+  std::vector<std::string> warnings() const;
 
   // Height of the ground above the bottom radius, in metres, at a place or at the coast. Needs an
   // atmosphere or a ground, which know the radius.

@@ -19,6 +19,7 @@ class FrameDrawer {
   virtual void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) = 0;
   virtual void prepare(const FrameOptions& options) = 0;
   virtual void set_atmosphere(const AtmosphereTables& tables, TablePrecision precision) = 0;
+  virtual std::vector<std::string> warnings() const = 0;
   virtual double ground_height_m(const std::optional<Site>& site) const = 0;
   virtual Frame draw(const FrameOptions& options, const std::function<void(double)>& progress) = 0;
   virtual FrameStatistics submit(const FrameOptions& options) = 0;

@@ -146,6 +146,12 @@ void validate(const Scene& scene) {
           scene.highest_m, "more than lowest_m and at most 1e5 m");
   require(within(scene.water_level_m, -kHighest, kHighest), "water_level_m", scene.water_level_m,
           "-1e5 to 1e5 m");
+  if (scene.dem_edge_m)
+    require(within(*scene.dem_edge_m, 0, 1e7), "dem_edge_m", *scene.dem_edge_m, "0 to 1e7 m");
+  for (const RegionalDem& dem : scene.dems) {
+    require(dem.band >= 0, "dem.band", dem.band, "0 or more");
+    require(within(dem.zero_m, -kHighest, kHighest), "dem.zero_m", dem.zero_m, "-1e5 to 1e5 m");
+  }
   for (const PlacedMesh& mesh : scene.meshes) {
     require_place("mesh", mesh.latitude, mesh.longitude);
     require(within(mesh.altitude_m, 0, 1e9), "mesh.altitude_m", mesh.altitude_m, "0 to 1e9 m");

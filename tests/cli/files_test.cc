@@ -156,8 +156,9 @@ TEST_F(FilesTest, PipesAndDevicesAreRefused) {
     expect_refusal({"fit", "--reference", file, "--out", "x"}, {reason});
     expect_refusal({"sky", "--preset", file, "--sun-zenith-deg", "0", "--view-zenith-deg", "0"},
                    {reason});
-    expect_refusal({"render", "--preset", "earth-clear", "--height-map", file, "--out", "x.png"},
-                   {reason});
+    for (const char* option : {"--height-map", "--dem"})
+      expect_refusal({"render", "--preset", "earth-clear", option, file, "--out", "x.png"},
+                     {reason});
     expect_refusal({"render", "--sequence", file, "--out-dir", "x"}, {reason});
   }
 }

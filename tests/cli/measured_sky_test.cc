@@ -50,8 +50,9 @@ TEST_F(MeasuredSkyTest, CheckSaysWhatAScanHolds) {
 
 // Every example, printed as a CSV of samples, is read back as the same sky.
 TEST_F(MeasuredSkyTest, ReferencesPrintEveryFormatForTheOtherCommands) {
-  for (const char* name : {"spectral_scan.csv", "spectral_scan_folder", "sky_scan_145.csv",
-                           "sky_scan_eko.csv", "aeronet_almucantar.csv", "fisheye.exr"}) {
+  for (const char* name :
+       {"spectral_scan.csv", "spectral_scan_folder", "sky_scan_145.csv", "sky_scan_eko.csv",
+        "aeronet_almucantar.csv", "arm_csphotalm.nc", "fisheye.exr"}) {
     json first = summary(kExamples + name);
     write("copy.csv", output({"references", kExamples + name}));
     json second = summary("copy.csv");

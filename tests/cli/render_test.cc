@@ -191,6 +191,18 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--water-level-m", "-3"}, {"--water-level-m", "with --height-map"});
   expect_render_refusal({"--height-map", "heights.png", "--water-level-m", "-1e6"},
                         {"water_level_m", "-1000000"});
+  write("N46E007.hgt", "short");
+  expect_render_refusal({"--height-map", "N46E007.hgt"}, {"--height-map", "--dem reads"});
+  expect_render_refusal({"--dem", "missing.tif"}, {"missing.tif: cannot be read", "--dem"});
+  expect_render_refusal({"--dem", "missing.tif@2"}, {"missing.tif: cannot be read", "--dem"});
+  expect_render_refusal({"--dem", "N46E007.hgt@0"}, {"--dem", "FILE@BAND", "from 1 on"});
+  expect_render_refusal({"--dem", "N46E007.hgt"}, {"N46E007.hgt: cannot be read: expected a name"});
+  expect_render_refusal({"--dem", "heights.png"},
+                        {"heights.png: cannot be read: expected a GeoTIFF or an .hgt of SRTM"});
+  expect_render_refusal({"--dem", "heights.png", "--dem-surroundings", "lava"},
+                        {"--dem-surroundings", "lava", "planet or sea"});
+  expect_render_refusal({"--dem", "heights.png", "--dem-edge-m", "-5"}, {"dem_edge_m", "-5"});
+  expect_render_refusal({"--dem-edge-m", "100"}, {"--dem-edge-m", "with --dem"});
   expect_render_refusal({"--mesh", "tower.obj"}, {"--mesh", "tower.obj", "FILE@LATITUDE"});
   expect_render_refusal({"--mesh", "tower.obj@47,8,0"},
                         {"tower.obj: cannot be read", "--mesh", "No such"});

@@ -77,6 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Example{"spectral_scan_folder", Quantity::kSpectralRadiance, 183, 183, 1, 0.01},
                     Example{"aeronet_almucantar.csv", Quantity::kSpectralRadiance, 295, 231, 2,
                             1e-4},
+                    Example{"arm_csphotalm.nc", Quantity::kSpectralRadiance, 295, 231, 2, 1e-4},
                     Example{"fisheye.exr", Quantity::kLuminance, 573, 550, 1, 0.03},
                     Example{"sky_scan_145.csv", Quantity::kLuminance, 145, 142, 1, 1e-3},
                     Example{"sky_scan_eko.csv", Quantity::kLuminance, 290, 290, 2, 0.01}),

@@ -168,11 +168,31 @@ TEST_F(ObjFiles, ErrorsNameTheFileAndTheLine) {
   EXPECT_EQ(error_of("# one\nv 0 nan 0\n"), ":2: expected three finite numbers, got \"nan\"");
   EXPECT_EQ(error_of("v 0 1e99 0\n"), ":1: expected three finite numbers, got \"1e99\"");
   EXPECT_EQ(error_of("v 0 1\n"), ":1: expected three finite numbers, got \"\"");
-  EXPECT_EQ(error_of(triangle + "usemtl red\nf 1 2 3\n"),
-            ":4: material red is in none of the files of mtllib");
   EXPECT_EQ(error_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"), ": no face has an area");
   EXPECT_THROW(read_object_mesh(directory_ / "missing.obj", 0.3, rule()), std::runtime_error);
   EXPECT_THROW(read_object_mesh(directory_, 0.3, rule()), std::runtime_error);
+}
+
+TEST_F(ObjFiles, AMaterialThatIsMissingIsGreyAndNamed) {
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const std::string file = (directory_ / "mesh.obj").string();
+  const ObjectMesh lost = read(triangle + "mtllib trees.mtl\nusemtl bark\nf 1 2 3\n");
+  EXPECT_EQ(lost.warning, file +
+                              ":5: material \"bark\" is not to be had, for trees.mtl is missing: "
+                              "drawn grey, with the reflectance 0.25");
+  for (const ObjectVertex& vertex : lost.vertices)
+    for (const float value : vertex.reflectance) EXPECT_EQ(value, 0.25f);
+
+  write("own.mtl", "newmtl leaf\nKd 0.1 0.5 0.1\n");
+  const std::string own = "mtllib own.mtl\nusemtl leaf\nf 1 2 3\n";
+  EXPECT_EQ(read(triangle + own).warning, "");
+  const ObjectMesh mixed =
+      read(triangle + own + "usemtl twig\nf 1 2 3\nusemtl bark\nf 1 2 3\nusemtl leaf\nf 1 2 3\n");
+  EXPECT_EQ(mixed.warning, file +
+                               ":7: material \"twig\" and 1 other are in none of the files of "
+                               "mtllib: drawn grey, with the reflectance 0.25");
+  EXPECT_NE(mixed.vertices[mixed.indices[0]].reflectance[1], 0.25f);
+  EXPECT_EQ(mixed.vertices[mixed.indices[3]].reflectance[1], 0.25f);
 }
 
 TEST_F(ObjFiles, MoreThanFiftyMillionTrianglesAreTooMany) {

@@ -60,8 +60,7 @@ class Patches : public ::testing::Test {
  protected:
   Picture picture(const Shot& shot, bool cull) {
     TerrainView view = shot.view;
-    store().begin_frame();
-    const BlockSelection selection = affordable_blocks(view, store());
+    const BlockSelection selection = affordable_blocks(view, {}, store()).front();
     view.cull = cull;
     Picture made;
     terrain_.prepare(selection.blocks, view, made.draw);
@@ -181,6 +180,34 @@ TEST(Coarse, PatchesAreBeyondTheDistance) {
       EXPECT_GE(coarse, 0.8 * beyond) << "level " << blocks[i].block.level;
     }
   }
+}
+
+// Of more blocks than the memory holds, those of the view and of the shadows are made coarser
+// together: all that are chosen are in it.
+TEST(Affordable, BlocksOfAViewAndOfShadowsAreInTheStore) {
+  class Plain final : public Ground {
+   public:
+    double height_m(const glm::dvec3&, double) const override { return 0; }
+    NodeValues reflectance(const glm::dvec3&, double, double, double) const override { return {}; }
+    double rock(const glm::dvec3&, double, double, double) const override { return 0; }
+    double highest_m() const override { return 0; }
+    void add_inputs(CacheKey&) const override {}
+  };
+  const std::unique_ptr<GlContext> context = make_osmesa_context();
+  const Plain plain;
+  BlockStore store(plain, kEarth, nullptr);
+  TerrainView view = shot_of({"a narrow view", 46, 7, 3000, 95, 0, 20}).view;
+  view.highest_m = 0;
+  view.split_ratio = 13;
+  // A square of 60 km about the camera, as of a shadow map.
+  const Planes square = {{1, 0, 0, 30e3}, {-1, 0, 0, 30e3}, {0, 1, 0, 30e3}, {0, -1, 0, 30e3}};
+  std::size_t count = 0;
+  for (const BlockSelection& selection : affordable_blocks(view, std::array{square}, store)) {
+    for (const CubeBlock& block : selection.blocks) EXPECT_NO_THROW(store.first_vertex(block));
+    count += selection.blocks.size();
+  }
+  EXPECT_LT(view.split_ratio, 13) << "the memory is too large for this test";
+  EXPECT_GT(count, 100);
 }
 
 // Ground behind a ridge is hidden from its foot and seen from above it.

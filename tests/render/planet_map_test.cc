@@ -203,7 +203,7 @@ TEST_F(PlanetMapFile, WhatIsNoMapIsNamedInOneLine) {
   EXPECT_THAT(error_of(directory_ / "empty.tif", kHeights), HasSubstr("cannot be read: "));
   EXPECT_THAT(error_of(write("wide.tif", 30, 10, 1, kFloat, noise(300)), kHeights),
               EndsWith("30 x 10 pixels: expected twice as wide as high, or six times for the faces "
-                       "of a cube"));
+                       "of a cube; --dem reads the heights of a region"));
   EXPECT_THAT(error_of(write("tiny.tif", 4, 2, 1, kFloat, noise(8)), kHeights),
               EndsWith("4 x 2 pixels: expected at least 4 rows"));
   EXPECT_THAT(error_of(write("grey.png", 16, 8, 1, OIIO::TypeDesc::UINT8, noise(128)), kColors),

@@ -5,6 +5,7 @@
 #include <hdf5.h>
 #include <netcdf.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -118,11 +119,15 @@ void write(const std::filesystem::path& path, const NetcdfFile& content) {
 
 std::string text_attribute(const OpenFile& file, int variable, const char* name) {
   std::size_t length = 0;
-  if (nc_inq_attlen(file.id(), variable, name, &length) != NC_NOERR) return {};
+  nc_type type = 0;
+  if (nc_inq_att(file.id(), variable, name, &type, &length) != NC_NOERR || type != NC_CHAR)
+    return {};
   std::string text(length, '\0');
   file.check(nc_get_att_text(file.id(), variable, name, text.data()));
   return text;
 }
+
+constexpr std::size_t kMostValues = std::size_t{1} << 28;  // of a variable
 
 NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& content) {
   char name[NC_MAX_NAME + 1];
@@ -137,9 +142,23 @@ NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& con
   for (const int d : dimensions) {
     const auto& [dimension, length] = content.dimensions[static_cast<std::size_t>(d)];
     variable.dimensions.push_back(dimension);
+    if (length > kMostValues / std::max<std::size_t>(size, 1))
+      file.fail(fmt::format("{}: expected at most {} values", name, kMostValues));
     size *= length;
   }
-  if (type == NC_DOUBLE) {
+  if (type == NC_CHAR) {
+    // A text lies along the last dimension.
+    std::string letters(size, '\0');
+    file.check(nc_get_var_text(file.id(), id, letters.data()));
+    const std::size_t length =
+        dimensions.empty() ? 1
+                           : content.dimensions[static_cast<std::size_t>(dimensions.back())].second;
+    std::vector<std::string> values;
+    for (std::size_t i = 0; length > 0 && i < size; i += length)
+      values.emplace_back(letters.substr(i, length).c_str());
+    if (!variable.dimensions.empty()) variable.dimensions.pop_back();
+    variable.values = std::move(values);
+  } else if (type == NC_DOUBLE || type == NC_FLOAT || type == NC_BYTE || type == NC_SHORT) {
     std::vector<double> values(size);
     file.check(nc_get_var_double(file.id(), id, values.data()));
     variable.values = std::move(values);
@@ -155,7 +174,8 @@ NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& con
     nc_free_string(size, texts.data());
     variable.values = std::move(values);
   } else {
-    file.fail(fmt::format("{}: expected doubles, integers or texts", variable.name));
+    file.fail(
+        fmt::format("{}: expected numbers of at most 32 bits, doubles or texts", variable.name));
   }
   return variable;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What netcdf_file.cc calls in skyfit_netcdf_module (model/base/module_file.h), the part of fit/
-// that loads the NetCDF library.
+// What fit/exchange/netcdf_file.cc and data_refs/arm_csphot.cc call in skyfit_netcdf_module
+// (model/base/module_file.h), which loads the NetCDF library.
 #pragma once
 
 #include <filesystem>

@@ -19,6 +19,7 @@
 #include "render/gl/passes/resolve.h"
 #include "render/gl/passes/shadow_pass.h"
 #include "render/gl/terrain/map_ground.h"
+#include "render/gl/terrain/regional_ground.h"
 #include "render/gl/terrain/relief.h"
 #include "render/gl/terrain/terrain_pass.h"
 #include "render/gl/terrain/terrain_view.h"
@@ -108,8 +109,10 @@ class GlRenderer final : public FrameDrawer {
     }
     if (meshes_.size() < scene_.meshes.size()) {
       for (const PlacedMesh& mesh : scene_.meshes) {
-        meshes_.push_back(ObjectPass::upload_mesh(
-            read_object_mesh(mesh.file, mesh.reflectance, color, scene_.named_files)));
+        const ObjectMesh read =
+            read_object_mesh(mesh.file, mesh.reflectance, color, scene_.named_files);
+        if (!read.warning.empty()) warnings_.push_back(read.warning);
+        meshes_.push_back(ObjectPass::upload_mesh(read));
       }
     }
   }
@@ -117,14 +120,15 @@ class GlRenderer final : public FrameDrawer {
   void prepare(const FrameOptions& options) override {
     const FrameOptions sampled = affordable(options);
     TerrainView view = view_of(sampled);
-    terrain_->store().begin_frame();
-    affordable_blocks(view, terrain_->store());
+    affordable_blocks(view, {}, terrain_->store());
   }
 
   void set_atmosphere(const AtmosphereTables& tables, TablePrecision precision) override {
     set_ground(tables.atmosphere, tables.color);
     atmosphere_.set_tables(tables, add_tables(tables, graph_, precision));
   }
+
+  std::vector<std::string> warnings() const override { return warnings_; }
 
   double ground_height_m(const std::optional<Site>& site) const override {
     return ground_->height_m(axes_of(site).z, kFinestQuad);
@@ -183,6 +187,11 @@ class GlRenderer final : public FrameDrawer {
       ground_ = std::make_unique<MapGround>(scene_, radius_m_, color);
       home_ = site_axes({});
     }
+    if (scene_.dems.empty()) return;
+    const bool has_sea = atmosphere.sea || !scene_.height_map.empty();
+    if (!regions_) regions_ = read_regional_maps(scene_, radius_m_, has_sea);
+    ground_ = std::make_unique<RegionalGround>(std::move(ground_), regions_, scene_, radius_m_);
+    home_ = site_axes({regions_->front().centre().latitude, regions_->front().centre().longitude});
   }
 
   SiteAxes axes_of(const std::optional<Site>& site) const {
@@ -256,14 +265,21 @@ class GlRenderer final : public FrameDrawer {
     current_.projection = make_projection(options.camera, aspect);
     TerrainView view = view_of(options);
     BlockStore& store = terrain_->store();
-    store.begin_frame();
-    const BlockSelection selection = affordable_blocks(view, store);
+    current_.shadows.clear();
+    if (options.shadows) current_.shadows = shadow_views_of(options);
+    std::vector<Planes> casters;
+    for (const ShadowView& shadow : current_.shadows) casters.push_back(shadow.planes);
+    // As fine for the shadows as for the picture: a surface must not shade itself.
+    const std::vector<BlockSelection> selections = affordable_blocks(view, casters, store);
+    const BlockSelection& selection = selections.front();
     statistics.blocks_outside = selection.outside;
     statistics.blocks_behind = selection.behind;
-    current_.shadows.clear();
-    if (options.shadows) prepare_shadows(options, view, ground_distance_m(options));
     statistics.blocks_made = store.take_made();
     terrain_->prepare(selection.blocks, view, current_.blocks);
+    for (std::size_t i = 0; i < casters.size(); ++i) {
+      view.planes = casters[i];
+      terrain_->prepare(selections[i + 1].blocks, view, current_.casters[i]);
+    }
     statistics.triangles = current_.blocks.triangles;
     statistics.blocks_drawn = current_.blocks.blocks;
     statistics.blocks_hidden = current_.blocks.hidden;
@@ -272,15 +288,9 @@ class GlRenderer final : public FrameDrawer {
                                    horizon_m(radius_m_, ground_->highest_m()));
   }
 
-  // The same blocks as in the picture where both see them: a surface must not shade itself.
-  void prepare_shadows(const FrameOptions& options, TerrainView view, double ground_distance_m) {
+  std::vector<ShadowView> shadow_views_of(const FrameOptions& options) const {
     const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
-    current_.shadows = shadow_views(sun, ground_distance_m, ground_->highest_m());
-    for (std::size_t i = 0; i < current_.shadows.size(); ++i) {
-      view.planes = current_.shadows[i].planes;
-      terrain_->prepare(affordable_blocks(view, terrain_->store()).blocks, view,
-                        current_.casters[i]);
-    }
+    return shadow_views(sun, ground_distance_m(options), ground_->highest_m());
   }
 
   void place_objects(const FrameOptions& options, FrameStatistics& statistics) {
@@ -388,11 +398,13 @@ class GlRenderer final : public FrameDrawer {
   double radius_m_ = 0;
   NodeValues albedo_{};
   std::unique_ptr<Ground> ground_;
-  SiteAxes home_;  // where the camera stands without a site
+  RegionalMaps regions_;  // null before the first ground
+  SiteAxes home_;         // where the camera stands without a site
   std::optional<TerrainPass> terrain_;
   ObjectPass objects_;
   Materials materials_;
   std::vector<ObjectPass::Model> meshes_;  // of the scene
+  std::vector<std::string> warnings_;      // of their files
   std::optional<ObjectPass::Model> moon_;
   double moon_reflectance_ = 0;
   std::optional<ShadowPass> shadow_pass_;  // made when first used

@@ -58,7 +58,8 @@ MapFile inspect_map(const fs::path& file, int channels) {
     fail(file, found + ": expected at most 1e9");
   const bool cube = std::int64_t{spec.width} == std::int64_t{6} * spec.height;
   if (!cube && std::int64_t{spec.width} != std::int64_t{2} * spec.height) {
-    fail(file, found + ": expected twice as wide as high, or six times for the faces of a cube");
+    fail(file, found + ": expected twice as wide as high, or six times for the faces of a cube" +
+                   (channels == 1 ? "; --dem reads the heights of a region" : ""));
   }
   if (spec.height < kFewestRows)
     fail(file, fmt::format("{}: expected at least {} rows", found, kFewestRows));

@@ -16,13 +16,7 @@ constexpr NodeValues kWater = {0.045, 0.035, 0.025, 0.020};
 constexpr NodeValues kSoil = {0.060, 0.095, 0.125, 0.150};
 constexpr NodeValues kRock = {0.130, 0.150, 0.165, 0.180};
 
-constexpr double kFinest = 0.1;       // no detail below, m
-constexpr double kLongestDetail = 3;  // texels: what the map's splines still show
-constexpr double kDetailSlope = 0.3;  // of every octave of the noise, as a share of the map's
-constexpr double kMostDetail = 0.05;  // of the map's range of heights
-constexpr double kOctaves = 2.1;      // a bound on the sum of octaves of amplitudes 1, 1/2, ...
-constexpr double kRoughness = 0.12;   // of flat land, m, at waves of kRough
-constexpr double kRough = 9;
+constexpr double kFinest = 0.1;  // no detail below, m
 
 }  // namespace
 
@@ -58,25 +52,9 @@ double MapGround::height_m(const glm::dvec3& direction, double resolution_m) con
   const PlanetMap::Sample sample = heights_->at(direction, resolution / radius_m_);
   const double range = highest_m_ - lowest_m_;
   const double height = lowest_m_ + range * sample.value.x;
-  const double detail =
-      detail_m(direction, range * sample.slope, height - water_level_m_, resolution);
+  const double detail = detail_m(scale(), direction * radius_m_, range * sample.slope,
+                                 height - water_level_m_, resolution);
   return std::max({height + detail, lowest_m_, water_level_m_});
-}
-
-// `slope`: of the map, m per texel. Under water there is no roughness of flat land, so that a sea
-// that the map shows as flat stays one.
-double MapGround::detail_m(const glm::dvec3& direction, double slope, double above_water_m,
-                           double resolution_m) const {
-  const double longest = kLongestDetail * heights_->texel_angle() * radius_m_;
-  const glm::dvec3 p = direction * radius_m_;
-  double detail = 0;
-  const double amplitude =
-      std::min(kDetailSlope * kLongestDetail * slope, kMostDetail * (highest_m_ - lowest_m_));
-  if (amplitude > 0) detail += amplitude * fractal_noise(p, longest, resolution_m);
-  const double dry = smoothstep(0, 1, above_water_m);
-  if (dry > 0 && resolution_m < 2 * kRough && kRough < longest)
-    detail += dry * kRoughness * fractal_noise(p + glm::dvec3(31), kRough, resolution_m);
-  return detail;
 }
 
 NodeValues MapGround::reflectance(const glm::dvec3& direction, double height_m, double steepness,
@@ -97,8 +75,11 @@ double MapGround::rock(const glm::dvec3& direction, double height_m, double stee
 }
 
 double MapGround::highest_m() const {
-  const double detail = kOctaves * (kMostDetail * (highest_m_ - lowest_m_) + kRoughness);
-  return std::max(highest_m_ + detail, water_level_m_);
+  return std::max(highest_m_ + most_detail_m(scale()), water_level_m_);
+}
+
+MapScale MapGround::scale() const {
+  return {heights_->texel_angle() * radius_m_, highest_m_ - lowest_m_};
 }
 
 }  // namespace skyfit

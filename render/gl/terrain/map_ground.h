@@ -8,6 +8,7 @@
 
 #include "render/gl/terrain/color_reflectance.h"
 #include "render/gl/terrain/ground.h"
+#include "render/gl/terrain/map_detail.h"
 #include "render/gl/terrain/planet_map.h"
 #include "render/render.h"
 
@@ -44,8 +45,7 @@ class MapGround final : public Ground {
   void add_inputs(CacheKey& key) const override;
 
  private:
-  double detail_m(const glm::dvec3& direction, double slope, double above_water_m,
-                  double resolution_m) const;
+  MapScale scale() const;
 
   double radius_m_, lowest_m_, highest_m_, water_level_m_;
   std::unique_ptr<PlanetMap> heights_;

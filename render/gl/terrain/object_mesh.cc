@@ -25,6 +25,7 @@ struct ObjFile {
   tinyobj::attrib_t elements;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
+  std::string warning;
 };
 
 // Reads the files of mtllib as tinyobj names them, which are those that it found in the line.
@@ -39,18 +40,48 @@ class MaterialFiles : public tinyobj::MaterialReader {
     if (!file)
       throw std::runtime_error(
           fmt::format("{}: mtllib {}: expected {}", mesh_.string(), in_quotes(name), kNamedFile));
-    if (!fs::exists(*file)) return false;  // a material that is used is then missing
+    if (!fs::exists(*file)) {
+      missing_.push_back(excerpt(name));
+      return false;
+    }
     std::istringstream text(read_file(*file, "a file of materials"));
     tinyobj::LoadMtl(numbers, materials, &text, warning, error);
     return true;
   }
 
+  // Those that there are not.
+  const std::vector<std::string>& missing() const { return missing_; }
+
  private:
   const fs::path& mesh_;
   NamedFiles named_;
+  std::vector<std::string> missing_;
 };
 
-ObjFile parsed(const fs::path& file, NamedFiles named) {
+// Of the materials that are in none of the files, in one line; empty where all are.
+std::string missing_materials(const fs::path& mesh, const MaterialUses& uses, const ObjFile& obj,
+                              const std::vector<std::string>& missing_files, double reflectance) {
+  const std::pair<const std::string, int>* first = nullptr;
+  int count = 0;
+  for (const auto& use : uses) {
+    if (std::ranges::find(obj.materials, use.first, &tinyobj::material_t::name) !=
+        obj.materials.end())
+      continue;
+    if (first == nullptr || use.second < first->second) first = &use;
+    ++count;
+  }
+  if (count == 0) return {};
+  const std::string others =
+      count == 1 ? " is" : fmt::format(" and {} other{} are", count - 1, count == 2 ? "" : "s");
+  const std::string files = missing_files.empty() ? "in none of the files of mtllib"
+                                                  : fmt::format("not to be had, for {} is missing",
+                                                                fmt::join(missing_files, ", "));
+  return fmt::format("{}:{}: material {}{} {}: drawn grey, with the reflectance {:.6g}",
+                     mesh.string(), first->second, in_quotes(first->first), others, files,
+                     reflectance);
+}
+
+ObjFile parsed(const fs::path& file, double reflectance, NamedFiles named) {
   std::string joined = with_joined_lines(read_file(file, "a mesh", kMostMeshBytes));
   const MaterialUses uses = check_obj(file, joined);
   ObjFile obj;
@@ -62,12 +93,7 @@ ObjFile parsed(const fs::path& file, NamedFiles named) {
     throw std::runtime_error(
         fmt::format("{}: cannot be read: {}", file.string(), error.substr(0, error.find('\n'))));
   }
-  for (const auto& [name, line] : uses) {
-    if (std::ranges::find(obj.materials, name, &tinyobj::material_t::name) != obj.materials.end())
-      continue;
-    throw std::runtime_error(fmt::format("{}:{}: material {} is in none of the files of mtllib",
-                                         file.string(), line, excerpt(name)));
-  }
+  obj.warning = missing_materials(file, uses, obj, material_files.missing(), reflectance);
   return obj;
 }
 
@@ -164,9 +190,10 @@ class MeshBuilder {
 
 ObjectMesh read_object_mesh(const fs::path& file, double reflectance, const ColorRule& rule,
                             NamedFiles named) {
-  const ObjFile obj = parsed(file, named);
+  const ObjFile obj = parsed(file, reflectance, named);
   const ColorReflectance colors(rule);
   ObjectMesh mesh;
+  mesh.warning = obj.warning;
   for (const tinyobj::material_t& material : obj.materials) {
     const glm::dvec3 color(material.diffuse[0], material.diffuse[1], material.diffuse[2]);
     mesh.materials.push_back({material.name, colors.at(glm::clamp(color, 0.0, 1.0))});

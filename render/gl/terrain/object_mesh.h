@@ -32,12 +32,13 @@ struct ObjectMesh {
   std::vector<ObjectVertex> vertices;
   std::vector<std::uint32_t> indices;     // three for each triangle, counterclockwise from outside
   std::vector<ObjectMaterial> materials;  // the last one, without a name, is that of faces without
+  std::string warning;  // of materials that are in no file; empty: none is missing
 };
 
-// `reflectance`: where the file names no material. Normals are the file's; where it has none, those
-// of the faces, smoothed within a smoothing group. Triangles without an area are left out. Throws
-// std::runtime_error in one line as check_obj() does, and for a material that is in no file or
-// in one that the mesh may not name.
+// `reflectance`: where the file names no material, or one that is in no file. Normals are the
+// file's; where it has none, those of the faces, smoothed within a smoothing group. Triangles
+// without an area are left out. Throws std::runtime_error in one line as check_obj() does, and for
+// a file of materials that the mesh may not name.
 ObjectMesh read_object_mesh(const std::filesystem::path& file, double reflectance,
                             const ColorRule& rule, NamedFiles named = NamedFiles::kInItsFolder);
 

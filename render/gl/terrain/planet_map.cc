@@ -14,6 +14,7 @@
 #include <typeinfo>
 #include <vector>
 
+#include "render/gl/terrain/cubic_spline.h"
 #include "render/gl/terrain/map_file.h"
 #include "render/gl/terrain/map_layout.h"
 
@@ -155,18 +156,6 @@ void smooth_poles(const Code<T, kChannels>& code, Level<T>& level) {
   });
 }
 
-// A place between texels, and the cubic B-spline's weights of the four around it.
-struct Spline {
-  explicit Spline(double u) {
-    const double floor = std::floor(u - 0.5), t = u - 0.5 - floor, s = 1 - t;
-    first = static_cast<int>(floor) - 1;
-    weight = {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6,
-              (4 - 6 * s * s + 3 * s * s * s) / 6, t * t * t / 6};
-  }
-  int first;
-  std::array<double, 4> weight;
-};
-
 template <class Layout, class T, int kChannels>
 class SplineMap final : public PlanetMap {
  public:
@@ -197,7 +186,7 @@ class SplineMap final : public PlanetMap {
     std::size_t fine = 0;
     while (fine + 1 < levels_.size() && texel_of(fine + 1) <= texel) ++fine;
     Sums sums = sums_of(levels_[fine], direction);
-    const double slope = slope_of(sums) * texel_angle() / texel_of(fine);
+    const double slope = spline_slope(sums.value[0], sums.square) * texel_angle() / texel_of(fine);
     if (fine + 1 < levels_.size() && texel > texel_of(fine)) {
       const Sums coarse = sums_of(levels_[fine + 1], direction);
       const double part =
@@ -217,11 +206,6 @@ class SplineMap final : public PlanetMap {
     std::array<double, kChannels> value{};
     double square = 0;  // of the first channel
   };
-
-  // The B-spline's weights have variance 1/3 along each axis: a ramp of slope s gives s^2 / 3.
-  static double slope_of(const Sums& sums) {
-    return std::sqrt(3 * std::max(sums.square - sums.value[0] * sums.value[0], 0.0));
-  }
 
   double texel_of(std::size_t level) const { return Layout::kAngle / levels_[level].rows; }
 
@@ -243,7 +227,7 @@ class SplineMap final : public PlanetMap {
     const MapPlaces places = Layout::places(direction, level.rows);
     for (int i = 0; i < places.count; ++i) {
       const MapPlace& place = places.place[static_cast<std::size_t>(i)];
-      const Spline along(place.u), down(place.v);
+      const CubicSpline along(place.u), down(place.v);
       for (int y = 0; y < 4; ++y) {
         for (int x = 0; x < 4; ++x) {
           const double weight = place.weight * along.weight[static_cast<std::size_t>(x)] *

@@ -49,7 +49,8 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
   return view;
 }
 
-BlockSelection affordable_blocks(TerrainView& view, BlockStore& store) {
+std::vector<BlockSelection> affordable_blocks(TerrainView& view, std::span<const Planes> others,
+                                              BlockStore& store) {
   const HeightsOf heights_of = [&](std::span<const CubeBlock> blocks) {
     store.provide(blocks);
     std::vector<HeightRange> heights;
@@ -57,12 +58,18 @@ BlockSelection affordable_blocks(TerrainView& view, BlockStore& store) {
     return heights;
   };
   for (;;) {
+    store.begin_frame();
     try {
-      return select_blocks(view, heights_of);
+      std::vector<BlockSelection> selections = {select_blocks(view, heights_of)};
+      TerrainView other = view;
+      for (const Planes& planes : others) {
+        other.planes = planes;
+        selections.push_back(select_blocks(other, heights_of));
+      }
+      return selections;
     } catch (const std::length_error&) {
       if (view.split_ratio <= kSmallestRatio) throw;
       view.split_ratio = std::max(0.8 * view.split_ratio, kSmallestRatio);
-      store.begin_frame();
     }
   }
 }

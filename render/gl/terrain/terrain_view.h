@@ -21,8 +21,12 @@ double horizon_m(double radius_m, double height_m);
 TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, const Ground& ground,
                          double radius_m, double ground_distance_m);
 
-// The blocks of a view, in the store; where it asks for more than memory should hold, it is made
-// coarser. Throws std::length_error when even the coarsest has too many.
-BlockSelection affordable_blocks(TerrainView& view, BlockStore& store);
+// The blocks of a view and then, as fine, of what each of the other bounds holds
+// (TerrainView::planes), in the store as a new frame's; where all together are more than memory
+// should hold, the view is made coarser. Throws std::length_error when even the coarsest has too
+// many.
+using Planes = std::vector<glm::dvec4>;
+std::vector<BlockSelection> affordable_blocks(TerrainView& view, std::span<const Planes> others,
+                                              BlockStore& store);
 
 }  // namespace skyfit

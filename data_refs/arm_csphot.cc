@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_refs/arm_csphot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data_refs/photometer_scans.h"
+#include "fit/exchange/netcdf/netcdf_module.h"
+#include "model/base/module_file.h"
+#include "model/base/text.h"
+
+namespace skyfit::refs {
+namespace {
+
+using fit::NetcdfFile;
+using fit::NetcdfVariable;
+
+// The variables of one file.
+class Datastream {
+ public:
+  Datastream(const NetcdfFile& content, std::string_view source)
+      : content_(content), source_(source) {}
+
+  // Of the dimensions, in the unit (any, where it is empty).
+  std::vector<double> numbers(std::string_view name, const std::vector<std::string>& dimensions,
+                              std::string_view unit) const {
+    const auto found = std::ranges::find(content_.variables, name, &NetcdfVariable::name);
+    if (found == content_.variables.end()) {
+      throw std::invalid_argument(fmt::format(
+          "{}: no variable {}: expected almucantars of ARM (csphotalm)", source_, name));
+    }
+    if (found->dimensions != dimensions) {
+      throw std::invalid_argument(fmt::format("{}: {}({}): expected {}({})", source_, name,
+                                              fmt::join(found->dimensions, ", "), name,
+                                              fmt::join(dimensions, ", ")));
+    }
+    if (!unit.empty() && found->units != unit) {
+      throw std::invalid_argument(
+          fmt::format("{}: {} in {}: expected {}", source_, name, in_quotes(found->units), unit));
+    }
+    if (const auto* doubles = std::get_if<std::vector<double>>(&found->values)) return *doubles;
+    if (const auto* integers = std::get_if<std::vector<int>>(&found->values))
+      return {integers->begin(), integers->end()};
+    throw std::invalid_argument(fmt::format("{}: {}: expected numbers", source_, name));
+  }
+
+ private:
+  const NetcdfFile& content_;
+  std::string_view source_;
+};
+
+// "2014-09-01T13:25:59"; throws where a number is no time of this age.
+std::string time_of(double seconds, const std::string& place) {
+  constexpr double kLatest = 4102444800;  // 2100
+  if (!(seconds >= 0 && seconds < kLatest)) {
+    throw std::invalid_argument(
+        fmt::format("{}: {:.9g} s since 1970: expected a time before 2100", place, seconds));
+  }
+  const Instant time{std::chrono::milliseconds(std::llround(1e3 * seconds))};
+  return iso_text(time).substr(0, 19);
+}
+
+std::optional<double> present(double radiance) {
+  if (!std::isfinite(radiance) || radiance < 0) return std::nullopt;
+  return radiance;
+}
+
+struct Almucantars {
+  std::vector<double> seconds, wavelength_um, sun_zenith_deg, azimuth_deg, radiance;
+  double latitude_deg, longitude_deg, elevation_m;
+};
+
+Almucantars almucantars_of(const Datastream& data) {
+  Almucantars read{data.numbers("time_offset", {"time"}, ""),
+                   data.numbers("wavelength", {"time"}, "um"),
+                   data.numbers("zenith", {"time"}, "degree"),
+                   data.numbers("azimuth", {"azimuth"}, "degree"),
+                   data.numbers("alm_rad", {"time", "azimuth"}, "microWatt/(cm^2 * nm * ster)"),
+                   data.numbers("lat", {}, "").front(),
+                   data.numbers("lon", {}, "").front(),
+                   data.numbers("alt", {}, "m").front()};
+  const double base = data.numbers("base_time", {}, "").front();
+  for (double& seconds : read.seconds) seconds += base;
+  return read;
+}
+
+PhotometerLine line_of(const Almucantars& data, std::size_t i, std::string_view source) {
+  PhotometerLine line{
+      fmt::format("{}: time {}", source, i),
+      ScanPath::kAlmucantar,
+      {},
+      std::round(1e6 * data.wavelength_um[i]) / 1e3,  // to what single precision holds
+      {},
+      {}};
+  line.facts.local_time = time_of(data.seconds[i], line.place);
+  line.facts.utc_offset_h = 0;
+  line.facts.latitude_deg = data.latitude_deg;
+  line.facts.longitude_deg = data.longitude_deg;
+  line.facts.elevation_m = data.elevation_m;
+  line.facts.sun_zenith_deg = data.sun_zenith_deg[i];
+  for (std::size_t k = 0; k < data.azimuth_deg.size(); ++k) {
+    line.radiances.emplace_back(data.azimuth_deg[k],
+                                present(data.radiance[i * data.azimuth_deg.size() + k]));
+  }
+  return line;
+}
+
+}  // namespace
+
+bool is_netcdf(const std::filesystem::path& file) {
+  std::array<char, 4> bytes{};
+  std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
+  const std::string_view first(bytes.data(), bytes.size());
+  return first.starts_with("CDF") || first == "\x89HDF";
+}
+
+Reference load_arm_csphot(const std::filesystem::path& file, const ImportOptions& options) {
+  const std::string source = file.string();
+  const NetcdfFile content =
+      module_named<fit::NetcdfModule>("skyfit_netcdf_module").read(std::filesystem::absolute(file));
+  const Almucantars data = almucantars_of({content, source});
+  MeasuredSky sky = photometer_sky(source, options);
+  PhotometerScans scans(options, sky);
+  LeftOut left_out("time");
+  for (std::size_t i = 0; i < data.seconds.size(); ++i)
+    left_out.attempt([&] { scans.add(line_of(data, i, source)); });
+  for (const std::string& note : left_out.notes()) sky.note(note);
+  return sky.finish();
+}
+
+}  // namespace skyfit::refs

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scans of a sun photometer along the almucantar or the principal plane of the sun, in
+// uW cm-2 sr-1 nm-1. Each line is one wavelength with its own time and sun; lines along one path
+// that follow each other within 15 min without repeating a wavelength are a scan.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "data_refs/civil_time.h"
+#include "data_refs/import_options.h"
+#include "data_refs/measured_sky.h"
+#include "data_refs/scan_header.h"
+
+namespace skyfit::refs {
+
+enum class ScanPath {
+  kAlmucantar,      // angles are azimuths from the sun
+  kPrincipalPlane,  // angles count from the sun, upward > 0
+};
+
+struct PhotometerLine {
+  std::string place;  // "file:12", for messages
+  ScanPath path;
+  std::string site;  // empty: not known
+  double wavelength_nm;
+  ImportOptions facts;  // time, place and the sun's zenith angle
+  // By the angle in degrees; nothing where it is missing. A line that has one value throughout
+  // holds no measurement.
+  std::vector<std::pair<double, std::optional<double>>> radiances;
+};
+
+// For the lines of PhotometerScans.
+MeasuredSky photometer_sky(std::string_view source, const ImportOptions& options);
+
+class PhotometerScans {
+ public:
+  // Both outlive it.
+  PhotometerScans(const ImportOptions& options, MeasuredSky& sky) : options_(options), sky_(sky) {}
+
+  // Throws as sun_of_scan() before it adds anything.
+  void add(const PhotometerLine& line);
+
+ private:
+  void place_in_scan(const PhotometerLine& line, const ScanSun& sun);
+
+  const ImportOptions& options_;
+  MeasuredSky& sky_;
+  std::set<double> wavelengths_;  // of the scan
+  std::optional<Instant> last_;
+  ScanPath path_{};
+  std::string site_;
+};
+
+}  // namespace skyfit::refs
