@@ -101,11 +101,12 @@ void draw_figure(const std::filesystem::path& png, const std::string& ordinate_t
                  const std::vector<plot::LegendEntry>& legend) {
   const double left = 90, gap = 16, bottom = 60, width = 300, height = 340;
   const double right = left + width * static_cast<double>(panels.size());
-  plot::Script script(right, bottom + height + 44);
+  plot::Script script(right, bottom + height + 44, {});
   script.line("set multiplot");
   script.begin_axes({0, 0, script.width(), script.height()});
   script.text_label(22, bottom + height / 2, ordinate_title, "center rotate by 90 font ',12'");
-  plot::draw_legend(script, legend, (left + right) / 2, bottom + height + 22);
+  plot::draw_legend(script, plot::legend_rows(legend, right - left, script.sheet()),
+                    (left + right) / 2, bottom + height + 22);
   script.line("set xrange [0:1]; set yrange [0:1]; plot NaN notitle");
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const plot::Box box{left + width * static_cast<double>(i), bottom, width - gap, height};
@@ -113,7 +114,7 @@ void draw_figure(const std::filesystem::path& png, const std::string& ordinate_t
     draw_curves(script, panels[i].curves);
   }
   script.line("unset multiplot");
-  plot::write_figure({script.width(), script.height(), script.text()}, {png});
+  plot::write_figure(plot::figure_of(script), {png});
 }
 
 // %% [hidden]

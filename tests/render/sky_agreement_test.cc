@@ -89,6 +89,8 @@ TEST_P(SkyAgreement, SkyPixelsHaveTheModelsLuminance) {
     cache.emplace(key,
                   compute_tables_of(*model, preset.atmosphere, color_rule(spectra), sizes, 2, {}));
   }
+  static Renderer renderer;  // it keeps its shaders and its ground
+  renderer.set_atmosphere(preset, cache.at(key));
   FrameOptions options;
   options.width = 96;
   options.height = 60;
@@ -98,7 +100,7 @@ TEST_P(SkyAgreement, SkyPixelsHaveTheModelsLuminance) {
   std::vector<SkyPoint> points;  // of all suns: the model then solves its field once
   for (const double sun : suns) {
     options.sun_zenith = sun * kDegree;
-    const Frame frame = render_frame(preset, cache.at(key), options);
+    const Frame frame = renderer.draw(options);
     skies.push_back(sky_pixels(frame, options, preset.atmosphere.bottom_radius_m));
     const std::vector<SkyPoint>& more = skies.back().points;
     ASSERT_FALSE(more.empty());
