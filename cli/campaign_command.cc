@@ -42,6 +42,7 @@ class HowToFit {
     app_.add_option("--model", arguments_.model);
     add_refraction_option(app_, arguments_.refraction);
     add_scalar_option(app_, arguments_.scalar);
+    app_.set_help_flag();
     try {
       std::vector<std::string> reversed(plan.options.rbegin(), plan.options.rend());
       app_.parse(reversed);

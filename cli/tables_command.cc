@@ -29,8 +29,14 @@ struct TablesArguments {
 constexpr double kPercent = 100, kMegabyte = 1e-6;
 
 std::string error_text(const LuminanceError& error) {
+  if (error.compared == 0) return "there is no light";
   return fmt::format("{:.2f} % rms, {:.2f} % at worst", kPercent * error.rms,
                      kPercent * error.worst);
+}
+
+// A column of --measure.
+std::string percent_text(const LuminanceError& error, double LuminanceError::*of) {
+  return error.compared == 0 ? "no light" : fmt::format("{:.2f}", kPercent * error.*of);
 }
 
 AtmosphereTables tables_of(const Preset& preset, const SpectralData& spectra,
@@ -47,7 +53,7 @@ void write(const TablesArguments& arguments, const Preset& preset, const Spectra
     throw UsageError("--precision", arguments.precision, "expected float or half for files");
   const Primaries primaries = parse_primaries(arguments.primaries);
   const TableSizes sizes = parse_table_sizes("--size", arguments.size);
-  const WholeDirectory directory(arguments.out, engine_file_names(format), arguments.force);
+  const WholeDirectory directory(arguments.out, engine_file_names(), arguments.force);
   const AtmosphereTables tables = tables_of(preset, spectra, sizes, arguments.threads);
   const EngineTables engine = engine_tables(preset, tables, precision, primaries);
   directory.publish(
@@ -88,13 +94,15 @@ void measure(const TablesArguments& arguments, const Preset& preset, const Spect
     for (const TablePrecisionEntry& precision : table_precisions()) {
       const TableErrors errors =
           errors_against_tables(in_precision(tables, precision.precision), full);
-      print(fmt::format(
-          "{:<8} {:<9} {:>9.1f}   {:>7.2f} {:>7.2f}   {:>8.2f} {:>7.2f}   {:>7.2f} {:>7.2f}\n",
-          size.name, precision.name,
-          kMegabyte * static_cast<double>(table_bytes(tables, precision.precision)),
-          kPercent * errors.day.rms, kPercent * errors.day.worst, kPercent * errors.twilight.rms,
-          kPercent * errors.twilight.worst, kPercent * errors.in_scatter.rms,
-          kPercent * errors.in_scatter.worst));
+      print(fmt::format("{:<8} {:<9} {:>9.1f}   {:>7} {:>7}   {:>8} {:>7}   {:>7} {:>7}\n",
+                        size.name, precision.name,
+                        kMegabyte * static_cast<double>(table_bytes(tables, precision.precision)),
+                        percent_text(errors.day, &LuminanceError::rms),
+                        percent_text(errors.day, &LuminanceError::worst),
+                        percent_text(errors.twilight, &LuminanceError::rms),
+                        percent_text(errors.twilight, &LuminanceError::worst),
+                        percent_text(errors.in_scatter, &LuminanceError::rms),
+                        percent_text(errors.in_scatter, &LuminanceError::worst)));
     }
   }
 }

@@ -148,7 +148,7 @@ std::span<const SkyModelEntry> sky_models() {
 const SkyModelEntry& sky_model_entry(std::string_view name) {
   std::vector<std::string_view> names;
   for (const SkyModelEntry& entry : sky_models()) {
-    if (entry.name == split(name).front()) return entry;
+    if (entry.name == name.substr(0, name.find(':'))) return entry;
     names.push_back(entry.name);
   }
   throw std::invalid_argument(

@@ -227,8 +227,10 @@ void WholeDirectory::publish(const std::function<void(const fs::path&)>& write) 
   }
   give_usual_permissions(staging);
   if (!fs::exists(directory_)) {
-    fs::create_directories(directory_.parent_path());
-    fs::rename(staging, directory_);
+    std::error_code error;
+    fs::create_directories(directory_.parent_path(), error);
+    if (!error) fs::rename(staging, directory_, error);
+    if (error) fail_to_write(shown_, error.message());
     return;
   }
   // A shell that stands in the directory would be left in the old one.

@@ -212,9 +212,11 @@ EngineTables engine_tables(const Preset& preset, const AtmosphereTables& tables,
   return engine;
 }
 
-std::vector<std::string> engine_file_names(const TableFormatEntry& format) {
+std::vector<std::string> engine_file_names() {
   std::vector<std::string> names = {kJson, kGlsl, kHlsl};
-  for (const TableEntry& entry : kTables) names.push_back(file_name(entry.name, format));
+  for (const TableFormatEntry& format : table_formats()) {
+    for (const TableEntry& entry : kTables) names.push_back(file_name(entry.name, format));
+  }
   return names;
 }
 

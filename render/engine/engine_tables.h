@@ -35,8 +35,9 @@ struct EngineTables {
 EngineTables engine_tables(const Preset& preset, const AtmosphereTables& tables,
                            TablePrecision precision, Primaries primaries);
 
-// Their files: NAME.FORMAT of each table, tables.json, sky.glsl and sky.hlsl.
-std::vector<std::string> engine_file_names(const TableFormatEntry& format);
+// All files that they may be, in any format: NAME.FORMAT of each table, tables.json, sky.glsl and
+// sky.hlsl.
+std::vector<std::string> engine_file_names();
 
 // Into a directory that exists. Throws as the functions of table_files.h.
 void write_engine_tables(const EngineTables& tables, const TableFormatEntry& format,

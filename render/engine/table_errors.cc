@@ -59,11 +59,13 @@ LuminanceError luminance_error(std::span<const double> values, std::span<const d
   LuminanceError error;
   double squares = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!(truth[i] > 0)) continue;
     const double off = std::abs(values[i] / truth[i] - 1);
     squares += off * off;
     error.worst = std::max(error.worst, off);
+    ++error.compared;
   }
-  error.rms = std::sqrt(squares / static_cast<double>(truth.size()));
+  if (error.compared > 0) error.rms = std::sqrt(squares / static_cast<double>(error.compared));
   return error;
 }
 

@@ -10,9 +10,10 @@
 
 namespace skyfit {
 
-// Of |luminance / true luminance - 1|.
+// Of |luminance / true luminance - 1| where there is light.
 struct LuminanceError {
   double rms = 0, worst = 0;
+  std::size_t compared = 0;  // directions with light
 };
 
 LuminanceError luminance_error(std::span<const double> values, std::span<const double> truth);

@@ -69,6 +69,9 @@ TEST_F(BadInputTest, UnknownNames) {
                  {"--sampling", "random", "tregenza"});
   expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", "magic"},
                      {"magic", "reference"});
+  for (const char* nothing : {"", ":"})
+    expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", nothing},
+                       {"expected one of reference"});
   expect_refusal({"render", "--preset", "earth-clear", "--view", "moon", "--out", "frame.png"},
                  {"moon", "ground", "space"});
 }

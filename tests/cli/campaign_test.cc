@@ -80,6 +80,8 @@ TEST_F(CampaignTest, SaysWhatIsWrongWithThePlan) {
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1})"), HasSubstr("inputs"));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"lobe": 1}})"),
               HasSubstr("bad.json: options: "));
+  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"help": true}})"),
+              HasSubstr("bad.json: options: The following argument was not expected: --help"));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"bootstrap": 10}})"),
               HasSubstr("for single fits"));
   EXPECT_THAT(complaint(good, {"--shard", "3/2"}), HasSubstr("--shard \"3/2\": expected K/N"));

@@ -79,6 +79,8 @@ TEST_F(CommandsTest, TablesAreWrittenWithTheirShadersAndParameters) {
   EXPECT_EQ(parameters["primaries"], "rec2020");
   EXPECT_EQ(parameters["tables"][2]["file"], "rayleigh_like.ktx2");
   EXPECT_THAT(read("sky/sky.glsl"), HasSubstr("linear, Rec. 2020"));
+  output({"tables", "earth-clear", "--size", "tiny", "--format", "npy", "--out", "sky"});
+  EXPECT_THAT(files(), ::testing::SizeIs(9)) << "one result in the place of the other";
   expect_refusal({"tables", "earth-clear"}, {"--out", "expected a directory, or --measure alone"});
   expect_refusal({"tables", "earth-clear", "--out", "x", "--format", "tga"},
                  {"--format \"tga\": expected one of exr, dds, npy, ktx2"});

@@ -220,11 +220,11 @@ TEST_F(FilesTest, AFullDiskBehindStdoutIsAnError) {
 
 TEST_F(FilesTest, ASignalLeavesNothing) {
   for (const auto& [signal, status] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
-    const int ended =
-        end_with(signal,
-                 {"render", "--preset", "earth-clear", "--size", "128x128", "--date", "2024-06-21", "--time", "04:00..20:00", "--latitude-deg", "47",
-                  "--longitude-deg", "8", "--frames", "200", "--out-dir", "frames"},
-                 [&] { return fs::exists(folder_ / "frames/frames.json"); });
+    const int ended = end_with(signal,
+                               {"render", "--preset", "earth-clear", "--size", "128x128", "--date",
+                                "2024-06-21", "--time", "04:00..20:00", "--latitude-deg", "47",
+                                "--longitude-deg", "8", "--frames", "200", "--out-dir", "frames"},
+                               [&] { return fs::exists(folder_ / "frames/frames.json"); });
     EXPECT_TRUE(WIFEXITED(ended));
     EXPECT_EQ(WEXITSTATUS(ended), status);
     EXPECT_FALSE(has_temporary());
