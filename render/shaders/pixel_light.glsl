@@ -235,9 +235,14 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   pixel_centre = vec2(pixel) + 0.5;
 #endif
 #ifdef DISC
+  // Not interpolated between the corners of the disc's square: where it is cut off at the picture's edge, slivers of it
+  // have no derivatives.
+  vec2 samples = vec2(textureSize(gbuffer, 0));
+  site_ray = ray_through(2.0 * (vec2(pixel) + 0.5) / samples - 1.0);
+  planet_ray = planet_from_site * site_ray;
   square_ray = site_ray;
-  square_across = dFdx(site_ray);
-  square_along = dFdy(site_ray);
+  square_across = site_from_view * vec3(2.0 * tangent.x / samples.x, 0.0, 0.0);
+  square_along = site_from_view * vec3(0.0, 2.0 * tangent.y / samples.y, 0.0);
 #endif
   float stretch = length(site_ray);
   ViewRay ray = view_ray(site_ray * (1.0 / stretch));

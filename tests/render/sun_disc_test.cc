@@ -129,6 +129,19 @@ TEST(SunDisc, IsRoundInTheLightAndOnADisplay) {
   }
 }
 
+// The square that it is drawn in is cut off on three sides here.
+TEST(SunDisc, OfAGiantStarIsLightAtEveryPixel) {
+  Preset preset = earth_clear();
+  preset.atmosphere.star.angular_diameter_deg = 6;
+  FrameOptions options =
+      options_at({2, kSunZenith - 2 * kDegree, 0, 3 * kDegree}, kSunZenith, 64, 48);
+  options.samples_per_side = 2;
+  const Frame frame = render_frame(preset, tables_of(preset, kSmallTables), options);
+  EXPECT_FALSE(frame.discs.empty());
+  for (std::size_t i = 0; i < frame.luminance.size(); ++i)
+    EXPECT_TRUE(frame.luminance[i] >= 0 && std::isfinite(frame.luminance[i])) << "pixel " << i;
+}
+
 // 1 - u1 (1 - mu) - u2 (1 - mu)^2 over its mean, at the middle and at 0.9 of the radius.
 TEST(SunDisc, HasADarkerLimb) {
   const FrameOptions options = looking_at_sun(22.5, 0, 0, 101);
