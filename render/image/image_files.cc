@@ -159,8 +159,8 @@ void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file
 }
 
 void write_table_file(const EncodedTable& table, const fs::path& file) {
-  const OIIO::TypeDesc type = table.precision == TablePrecision::kHalf ? OIIO::TypeDesc::HALF
-                                                                       : OIIO::TypeDesc::FLOAT;
+  const OIIO::TypeDesc type =
+      table.precision == TablePrecision::kHalf ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
   OIIO::ImageSpec spec(table.width, table.height * table.depth, 4, type);
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");

@@ -69,8 +69,8 @@ void FrameGraph::add_target(const std::string& name, GLenum format, int width, i
   textures_.insert_or_assign(name, std::move(texture));
 }
 
-void FrameGraph::add_table(const std::string& name, int width, int height, int depth,
-                           GLenum format, const void* texels) {
+void FrameGraph::add_table(const std::string& name, int width, int height, int depth, GLenum format,
+                           const void* texels) {
   const bool flat = depth <= 1;
   Texture texture{make_texture(flat ? GL_TEXTURE_2D : GL_TEXTURE_3D), format, width, height};
   const GLuint id = texture.object.id();
