@@ -190,7 +190,7 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
     if (std::ranges::count(kSlices, options.update_frames) == 0)
       throw UsageError("--update-frames", typed, "expected 2, 4, 8, 16 or 32");
     if (options.model != "bodare")
-      throw UsageError("--update-frames", typed, "expected the model bodare");
+      throw UsageError("--update-frames", typed, "expected the model bodare without variants");
   }
   request.update_frames = options.update_frames;
   request.panels = options.panels;
