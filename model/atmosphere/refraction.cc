@@ -208,15 +208,28 @@ double Refraction::refractive_index(double height) const {
 
 // docs/theory (14.6).
 double Refraction::apparent_zenith(double height, double true_zenith) const {
-  constexpr int kSteps = 30;  // each leaves half of the error
+  constexpr int kMostSteps = 50;
+  constexpr double kExact = 1e-11;  // radians
   // The bending grows with the zenith angle, on the limb of the planet faster than the angle
-  // itself.
-  double low = std::max(true_zenith - bending(height, true_zenith), 0.0), high = true_zenith;
-  for (int k = 0; k < kSteps; ++k) {
-    const double middle = 0.5 * (low + high);
-    (middle + bending(height, middle) < true_zenith ? low : high) = middle;
+  // itself, so that the root lies between these two. By the regula falsi, with the weight of an end
+  // that stays halved (Illinois).
+  double high = true_zenith, above = bending(height, high), low = std::max(high - above, 0.0),
+         below = low + bending(height, low) - true_zenith;
+  for (int k = 0; k < kMostSteps && above > kExact && below < -kExact; ++k) {
+    const double between = high - above * (high - low) / (above - below),
+                 off = between + bending(height, between) - true_zenith;
+    if (std::abs(off) < kExact) return between;
+    if (off > 0) {
+      high = between;
+      above = off;
+      below *= 0.5;
+    } else {
+      low = between;
+      below = off;
+      above *= 0.5;
+    }
   }
-  return 0.5 * (low + high);
+  return above < -below ? high : low;
 }
 
 // docs/theory (14.7).
