@@ -92,11 +92,12 @@ void unpack(const FourierModes& pack, int lane, int m, DiffuseField& field) {
   if (m == 0) pack.append_ground_irradiance(lane, field.ground_irradiance);
 }
 
-// Steps of the iteration that couples the suns: where it does not converge, and by day.
+// Steps of the iteration that couples the suns: where it does not converge; by day.
 constexpr int kFewCouplings = 2, kCouplings = 4;
 
-// The share of new light in each: the more, the faster it comes from afar; the less, the stronger
-// the coupling may be. Where much light is scattered high above the ground, all of it diverges.
+// The share of new light in each, docs/theory (7.8). With a large share light comes from afar in
+// fewer steps, with a small one strong coupling converges: where much light is scattered high above
+// the ground, a share of 1 diverges.
 constexpr double kShare = 0.8, kTwilightShare = 0.6;
 
 // In deep twilight, where light comes from a node of the sun grid further, and through one layer

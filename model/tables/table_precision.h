@@ -58,6 +58,20 @@ bool sky_rays_encoded(SkyRayMapping mapping);
 // Of all tables.
 std::size_t table_bytes(const AtmosphereTables& tables, TablePrecision precision);
 
+// A fifth of the texels.
+inline constexpr TableSizes kSmallTableSizes = {.optical_depth_mu = 128,
+                                                .optical_depth_r = 64,
+                                                .irradiance_mu_s = 48,
+                                                .irradiance_r = 12,
+                                                .scattering_r = 32,
+                                                .scattering_ground = 10,
+                                                .scattering_sky = 40,
+                                                .scattering_mu_s = 44,
+                                                .scattering_azimuth = 14,
+                                                .outside_sky = 50,
+                                                .outside_mu_s = 64,
+                                                .outside_azimuth = 24};
+
 struct TableSizesEntry {
   std::string_view name;
   TableSizes sizes;

@@ -13,24 +13,21 @@
 
 #include "model/atmosphere/preset.h"
 #include "model/photometry/photometry.h"
+#include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/page/page_sliders.h"
 
 namespace skyfit {
 
-// Texels of the page's tables.
-inline constexpr TableSizes kPageSizes = {.optical_depth_mu = 128,
-                                          .optical_depth_r = 64,
-                                          .irradiance_mu_s = 48,
-                                          .irradiance_r = 12,
-                                          .scattering_r = 32,
-                                          .scattering_ground = 10,
-                                          .scattering_sky = 40,
-                                          .scattering_mu_s = 44,
-                                          .scattering_azimuth = 14,
-                                          .outside_sky = 4,
-                                          .outside_mu_s = 8,
-                                          .outside_azimuth = 4};
+// Texels of the page's tables: small ones, with hardly any for rays from outside, which it looks up
+// in the others.
+inline constexpr TableSizes kPageSizes = [] {
+  TableSizes sizes = kSmallTableSizes;
+  sizes.outside_sky = 4;
+  sizes.outside_mu_s = 8;
+  sizes.outside_azimuth = 4;
+  return sizes;
+}();
 
 struct SkyPageRequest {
   const Preset& preset;

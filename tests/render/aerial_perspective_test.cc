@@ -143,6 +143,35 @@ TEST_P(AerialPerspectiveOf, PixelsAndOfTheVolumeIsTheReferences) {
   EXPECT_LT(worst_volume, agreement);
 }
 
+// A frame of both kinds of a preset with its tables.
+struct FromTenKilometres {
+  FromTenKilometres(const Preset& preset, const AtmosphereTables& tables) {
+    Renderer renderer;
+    renderer.set_atmosphere(preset, tables);
+    options.layers = true;
+    options.aerial = AerialPerspective::kPerPixel;
+    by_pixel = renderer.draw(options);
+    options.aerial = AerialPerspective::kVolume;
+    by_volume = renderer.draw(options);
+  }
+  FrameOptions options = options_of("10km", 96, 54);
+  Frame by_pixel, by_volume;
+};
+
+// What a model of the literature has in C++, for each of the four wavelengths.
+template <class Tables>
+struct TablesOfNodes {
+  TablesOfNodes(const auto& geometry, const Preset& preset, const ColorRule& color) {
+    for (const WavelengthNode& node : color.nodes) {
+      airs.push_back(
+          literature::clear_air(geometry.shells(), seeded<0>(preset.atmosphere, {}), node));
+      tables.push_back(std::make_unique<Tables>(geometry, airs.back(), std::span<const View>{}));
+    }
+  }
+  std::vector<literature::ClearAir<0>> airs;
+  std::vector<std::unique_ptr<Tables>> tables;
+};
+
 // By `hillaire` it is what its steps gather along the path, for each pixel the same steps as in
 // C++, in the volume others.
 TEST(AerialPerspective, OfHillaireIsMarched) {
@@ -151,42 +180,28 @@ TEST(AerialPerspective, OfHillaireIsMarched) {
   const AtmosphereTables tables = compute_tables_of(HillaireModel(2), preset.atmosphere,
                                                     color_rule(spectra), kSmallTables, 2, {});
   const literature::HillaireGeometry geometry(preset.atmosphere);
-  std::vector<literature::ClearAir<0>> airs;
-  std::vector<std::unique_ptr<literature::HillaireTables<0>>> nodes;
-  for (const WavelengthNode& node : tables.color.nodes) {
-    airs.push_back(
-        literature::clear_air(geometry.shells(), seeded<0>(preset.atmosphere, {}), node));
-    nodes.push_back(std::make_unique<literature::HillaireTables<0>>(geometry, airs.back(),
-                                                                    std::span<const View>{}));
-  }
-  Renderer renderer;
-  renderer.set_atmosphere(preset, tables);
-  FrameOptions options = options_of("10km", 96, 54);
-  options.layers = true;
-  options.aerial = AerialPerspective::kPerPixel;
-  const Frame by_pixel = renderer.draw(options);
-  options.aerial = AerialPerspective::kVolume;
-  const Frame by_volume = renderer.draw(options);
-  const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
+  const FromTenKilometres seen(preset, tables);
+  const TablesOfNodes<literature::HillaireTables<0>> model(geometry, preset, tables.color);
+  const glm::dvec3 sun(std::sin(seen.options.sun_zenith), 0, std::cos(seen.options.sun_zenith));
   int pixels = 0;
   double worst_pixel = 0, worst_volume = 0;
-  for (std::size_t i = 0; i < by_pixel.depth_m.size(); i += 4) {
-    if (is_sky(by_pixel, i)) continue;
-    const glm::dvec3 ray = ray_of(by_pixel, i);
+  for (std::size_t i = 0; i < seen.by_pixel.depth_m.size(); i += 4) {
+    if (is_sky(seen.by_pixel, i)) continue;
+    const glm::dvec3 ray = ray_of(seen.by_pixel, i);
     const double nu = glm::dot(ray, sun);
     NodeValues light;
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto marched =
-          nodes[k]->march(options.camera.altitude_m, ray.z, sun.z, nu, double{by_pixel.depth_m[i]});
-      light[k] = Shared<double>{}.rayleigh_phase(airs[k].depolarisation, nu) * marched.air.v +
-                 phase_value(airs[k].phase, nu).v * marched.aerosol.v + marched.multiple.v;
+      const auto marched = model.tables[k]->march(seen.options.camera.altitude_m, ray.z, sun.z, nu,
+                                                  double{seen.by_pixel.depth_m[i]});
+      light[k] = Shared<double>{}.rayleigh_phase(model.airs[k].depolarisation, nu) * marched.air.v +
+                 phase_value(model.airs[k].phase, nu).v * marched.aerosol.v + marched.multiple.v;
     }
     const double truth = luminance(tables.color, light);
     const auto error = [&](const Frame& frame) {
       return std::abs(luminance_of(frame.layers->in_scatter, i) / truth - 1);
     };
-    worst_pixel = std::max(worst_pixel, error(by_pixel));
-    worst_volume = std::max(worst_volume, error(by_volume));
+    worst_pixel = std::max(worst_pixel, error(seen.by_pixel));
+    worst_volume = std::max(worst_volume, error(seen.by_volume));
     ++pixels;
   }
   std::printf("[ aerial ] %d paths: worst %.2f %% by pixel, %.2f %% from the volume\n", pixels,
@@ -207,28 +222,15 @@ TEST_P(AerialPerspectiveOfBodare, IsTheIntegralOfSunAndGatheredLight) {
       compute_tables_of(BodareModel(2), preset.atmosphere,
                         color_rule(refs::standard_spectral_data()), kSmallTables, 2, {});
   const literature::BodareGeometry geometry(preset.atmosphere);
-  std::vector<literature::ClearAir<0>> airs;
-  std::vector<std::unique_ptr<literature::BodareTables<0>>> nodes;
-  for (const WavelengthNode& node : tables.color.nodes) {
-    airs.push_back(
-        literature::clear_air(geometry.shells(), seeded<0>(preset.atmosphere, {}), node));
-    nodes.push_back(std::make_unique<literature::BodareTables<0>>(geometry, airs.back(),
-                                                                  std::span<const View>{}));
-  }
-  Renderer renderer;
-  renderer.set_atmosphere(preset, tables);
-  FrameOptions options = options_of("10km", 96, 54);
-  options.layers = true;
-  options.aerial = AerialPerspective::kPerPixel;
-  const Frame by_pixel = renderer.draw(options);
-  options.aerial = AerialPerspective::kVolume;
-  const Frame by_volume = renderer.draw(options);
-  const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
-  const double r0 = geometry.shells().bottom_radius + options.camera.altitude_m;
+  const FromTenKilometres seen(preset, tables);
+  const TablesOfNodes<literature::BodareTables<0>> model(geometry, preset, tables.color);
+  const glm::dvec3 sun(std::sin(seen.options.sun_zenith), 0, std::cos(seen.options.sun_zenith));
+  const double r0 = geometry.shells().bottom_radius + seen.options.camera.altitude_m;
   const auto path_light = [&](std::size_t k, const glm::dvec3& ray, double length) {
     const double nu = glm::dot(ray, sun);
-    const auto& air = airs[k];
-    const PathColumns beyond = geometry.shells().columns_to_top(options.camera.altitude_m, -ray.z);
+    const auto& air = model.airs[k];
+    const PathColumns beyond =
+        geometry.shells().columns_to_top(seen.options.camera.altitude_m, -ray.z);
     const auto source = [&](double s) {
       const double r = std::sqrt(r0 * r0 + s * s + 2 * r0 * s * ray.z),
                    h = std::max(r - geometry.shells().bottom_radius, 0.0),
@@ -239,7 +241,7 @@ TEST_P(AerialPerspectiveOfBodare, IsTheIntegralOfSunAndGatheredLight) {
       const double through = std::exp(-air.optical_depth(path).v),
                    light =
                        std::exp(-air.optical_depth(geometry.shells().columns_to_top(h, mu_s)).v) +
-                       nodes[k]->gathered(h, mu_s).v;
+                       model.tables[k]->gathered(h, mu_s).v;
       return through * light *
              (air.air.v * density.air.v * Shared<double>{}.elek_rayleigh_phase(nu) +
               air.aerosol_scattering.v * density.aerosol.v * phase_value(air.phase, nu).v);
@@ -254,17 +256,18 @@ TEST_P(AerialPerspectiveOfBodare, IsTheIntegralOfSunAndGatheredLight) {
   };
   int pixels = 0;
   double worst_pixel = 0, worst_volume = 0;
-  for (std::size_t i = 0; i < by_pixel.depth_m.size(); i += 12) {
-    const glm::dvec3 ray = ray_of(by_pixel, i);
-    if (is_sky(by_pixel, i) || ray.z > -0.06) continue;  // to the ground for certain
+  for (std::size_t i = 0; i < seen.by_pixel.depth_m.size(); i += 12) {
+    const glm::dvec3 ray = ray_of(seen.by_pixel, i);
+    if (is_sky(seen.by_pixel, i) || ray.z > -0.06) continue;  // to the ground for certain
     NodeValues light;
-    for (std::size_t k = 0; k < 4; ++k) light[k] = path_light(k, ray, double{by_pixel.depth_m[i]});
+    for (std::size_t k = 0; k < 4; ++k)
+      light[k] = path_light(k, ray, double{seen.by_pixel.depth_m[i]});
     const double truth = luminance(tables.color, light);
     const auto error = [&](const Frame& frame) {
       return std::abs(luminance_of(frame.layers->in_scatter, i) / truth - 1);
     };
-    worst_pixel = std::max(worst_pixel, error(by_pixel));
-    worst_volume = std::max(worst_volume, error(by_volume));
+    worst_pixel = std::max(worst_pixel, error(seen.by_pixel));
+    worst_volume = std::max(worst_volume, error(seen.by_volume));
     ++pixels;
   }
   std::printf("[ aerial ] %d paths: worst %.2f %% by pixel, %.2f %% from the volume\n", pixels,

@@ -29,6 +29,27 @@ inline AtmosphereTables tables_of(const Preset& preset, const TableSizes& sizes)
                         {});
 }
 
+// Runs a compute program once per vec4 of the inputs and returns its outputs; `bindings` are those
+// of both as storage buffers.
+inline std::vector<float> run_compute(const GlProgram& program, const std::vector<float>& inputs,
+                                      std::pair<GLuint, GLuint> bindings) {
+  const auto bytes = static_cast<GLsizeiptr>(inputs.size() * sizeof(float));
+  GLuint names[2];
+  glCreateBuffers(2, names);
+  const GlBuffer in(names[0]), out(names[1]);
+  glNamedBufferStorage(in.id(), bytes, inputs.data(), 0);
+  glNamedBufferStorage(out.id(), bytes, nullptr, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings.first, in.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings.second, out.id());
+  glUseProgram(program.id());
+  glDispatchCompute(static_cast<GLuint>(inputs.size() / 4), 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<float> outputs(inputs.size());
+  glGetNamedBufferSubData(out.id(), 0, bytes, outputs.data());
+  check_gl("a compute program");
+  return outputs;
+}
+
 // Runs `body` (statements that turn vec4 x into vec4 y) once per input on the GPU. `prepare` sets
 // uniforms, blocks and textures; `defined` as in build_program().
 template <class Prepare>
@@ -45,22 +66,8 @@ std::vector<float> run_glsl(const std::string& includes, const std::string& body
   const ShaderSource source{"test.comp", text};
   const GlProgram program = build_program(
       std::vector<ShaderStage>{{GL_COMPUTE_SHADER, "test.comp"}}, std::span(&source, 1), defined);
-  const auto bytes = static_cast<GLsizeiptr>(inputs.size() * sizeof(float));
-  GLuint names[2];
-  glCreateBuffers(2, names);
-  const GlBuffer in(names[0]), out(names[1]);
-  glNamedBufferStorage(in.id(), bytes, inputs.data(), 0);
-  glNamedBufferStorage(out.id(), bytes, nullptr, 0);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, in.id());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, out.id());
   prepare(program.id());
-  glUseProgram(program.id());
-  glDispatchCompute(static_cast<GLuint>(inputs.size() / 4), 1, 1);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  std::vector<float> outputs(inputs.size());
-  glGetNamedBufferSubData(out.id(), 0, bytes, outputs.data());
-  check_gl("test.comp");
-  return outputs;
+  return run_compute(program, inputs, {0, 1});
 }
 
 inline std::vector<float> run_glsl(const std::string& includes, const std::string& body,
