@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "model/solver/level_grid.h"
 #include "model/solver/rayleigh_stokes.h"
 #include "model/solver/stream_light.h"
 #include "model/solver/sun_grid.h"
@@ -53,8 +54,8 @@ struct DiffuseOptions {
   // Couples the suns in as many steps as a deep twilight takes, whose light all comes from far
   // places; in two where that does not converge.
   bool deep_twilight = false;
-  bool polarised = true;  // with P of the light that air polarises
-  int levels = 28;        // of the grid, without those that layers of the atmosphere add
+  bool polarised = true;        // with P of the light that air polarises
+  int levels = kDefaultLevels;  // of the grid, without those that layers of the atmosphere add
 };
 
 // The first sun of the grid that has light from neighbouring places under their own sun. On a

@@ -15,6 +15,9 @@ struct LevelStencil {
   std::vector<double> share;
 };
 
+// Of a grid, where nothing else is asked for.
+inline constexpr int kDefaultLevels = 28;
+
 class LevelGrid {
  public:
   // `count` levels at h_i = top (i / (count - 1))^3, and those that layers want besides, see

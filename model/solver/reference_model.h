@@ -7,6 +7,7 @@
 #pragma once
 
 #include "model/sky_model.h"
+#include "model/solver/level_grid.h"
 
 namespace skyfit {
 
@@ -15,7 +16,7 @@ struct ReferenceOptions {
   // Of the aerosol's phase function, <= 2 streams. The default, and the streams with it, is doubled
   // for a lobe so narrow that a tenth of its scattering would be cut off.
   int moments = 16;
-  int levels = 28;  // of the diffuse field
+  int levels = kDefaultLevels;  // of the diffuse field
   int threads = 1;
   double tolerance = 3e-3;  // of the azimuth modes that are left out
   // 0: all light. k > 0: only what met air or ground k times; approximate for suns below 86 deg,
