@@ -128,7 +128,10 @@ Outcome outcome_of(const Task& task, const Result& result) {
   return o;
 }
 
-Outcome failure_of(const Task& task, std::string_view reason) {
+Outcome failure_of(const Task& task, std::string reason, const std::filesystem::path& folder) {
+  const std::string prefix = folder.empty() ? "" : (folder / "").string();
+  for (std::size_t at = 0; !prefix.empty() && (at = reason.find(prefix, at)) != std::string::npos;)
+    reason.erase(at, prefix.size());
   Outcome o;
   o.task = task.name;
   o.key = task.key;
