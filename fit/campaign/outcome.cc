@@ -347,7 +347,8 @@ std::string campaign_text(const std::vector<Outcome>& outcomes) {
   for (std::size_t t = 0; t < outcomes.size(); ++t) {
     const Outcome& o = outcomes[t];
     if (!o.reason.empty()) {
-      failed.push_back(fmt::format("  {}: {}", o.task, o.reason));
+      const bool is_named = o.reason.starts_with(o.task);
+      failed.push_back(is_named ? "  " + o.reason : fmt::format("  {}: {}", o.task, o.reason));
       continue;
     }
     if (std::isfinite(o.misfit())) misfits.push_back(o.misfit());
