@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/arguments.h"
+#include "cli/grid_request.h"
 #include "cli/table_options.h"
 #include "model/registry.h"
 
@@ -189,7 +190,7 @@ void add_table_options(CLI::App& command, RenderOptions& options) {
 }
 
 void add_sequence_options(CLI::App& command, RenderOptions& options) {
-  Group group(command, "Sequences and strips");
+  Group group(command, "Sequences, strips and grids");
   group.option("--sequence", options.sequence, "FILE",
                "Keyframes of camera, sun and preset as JSON");
   group.option("--step-min", options.step_min, "MINUTES",
@@ -210,8 +211,24 @@ void add_sequence_options(CLI::App& command, RenderOptions& options) {
       "atmosphere changes: N frames for each order of scattering but the last, which takes "
       "half, and one to gather between them; the picture lags behind by one to three "
       "updates. --stats lists what each frame does for it");
-  group.option("--strip", options.strip, "PARAMETER=LOW..HIGH[:N]",
-               "N frames (5) side by side in which a parameter of the preset varies");
+  const std::string steps = "NAME=LOW..HIGH[:N][:geometric]|NAME=VALUE,..";
+  group
+      .option("--strip", options.strip, steps,
+              "Frames side by side in which a parameter of the preset, or an option, varies: N (5) "
+              "even or geometric steps, or the values of a list. May be repeated: all move "
+              "together, with as many steps each. Options: " +
+                  axis_options())
+      ->allow_extra_args(false);
+  group
+      .option("--rows", options.rows, steps,
+              "Rows of frames, one below the other, in which another parameter or option varies; "
+              "as --strip, with which it makes a grid")
+      ->allow_extra_args(false);
+  group
+      .option("--metering", options.metering, "together|each",
+              "The automatic exposure of a strip or a grid: one, of all frames together, or of "
+              "each frame its own")
+      ->capture_default_str();
 }
 
 struct Pair {
@@ -242,10 +259,6 @@ constexpr Pair kExcludes[] = {
     {"--date", "--sun-azimuth-deg"},
     {"--step-min", "--frames"},
     {"--sequence", "--time"},
-    {"--sequence", "--strip"},
-    {"--strip", "--out-dir"},
-    {"--atmosphere", "--strip"},
-    {"--panels", "--strip"},
     {"--panels", "--out-dir"},
     {"--exposure", "--adaptation-s"},
 };

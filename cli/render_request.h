@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "cli/render_options.h"
-#include "model/atmosphere/parameters.h"
 #include "model/base/content_cache.h"
 #include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/sequence/sequence.h"
 
 namespace skyfit::cli {
-
-struct Strip {
-  Parameter parameter;
-  std::vector<double> values;  // in the parameter's unit
-};
 
 struct RenderRequest {
   Scene scene;
@@ -29,9 +23,8 @@ struct RenderRequest {
   TableSizes table_sizes;
   TablePrecision table_precision = TablePrecision::kFloat;
   FrameOptions frame;  // camera, site and sun are those of the sequence
-  Sequence sequence;   // of one frame for a single picture and a strip
+  Sequence sequence;   // of one frame for a single picture
   bool is_sequence = false;
-  std::optional<Strip> strip;
   ToneOptions tone;
   double adaptation_s = 1;
   std::vector<std::string> out;         // of a picture
@@ -50,5 +43,8 @@ struct RenderRequest {
 // go.
 RenderRequest frame_request(const RenderOptions& options, const CLI::App& command);
 RenderRequest render_request(const RenderOptions& options, const CLI::App& command);
+// That a request has files to go to, of kinds that hold what it asks for. Called once in a process:
+// it takes the standard output where a file goes there.
+void check_outputs(const RenderOptions& options, const RenderRequest& request);
 
 }  // namespace skyfit::cli

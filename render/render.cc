@@ -154,4 +154,6 @@ void write_png(const Frame& frame, const fs::path& file, const ToneOptions& tone
   module().write_png(frame, file, exposed);
 }
 
+void write_png(const FrameGrid& grid, const fs::path& file) { module().write_grid(grid, file); }
+
 }  // namespace skyfit

@@ -220,12 +220,6 @@ struct FrameStatistics {
   std::vector<PassTime> steps = {};
 };
 
-// What a part of a picture shows, "mie.scattering" and "1e-05 1/m"; columns left .. left + width.
-struct Caption {
-  int left = 0, width = 0;
-  std::string name, value;
-};
-
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
 struct Frame {
   int width = 0, height = 0;
@@ -244,8 +238,7 @@ struct Frame {
   std::optional<FrameLayers> layers;
   FrameStatistics statistics;
   std::vector<std::pair<std::string, std::string>>
-      metadata;                   // preset, sun, camera, version; written with the image
-  std::vector<Caption> captions;  // below the picture in a PNG; other files hold the picture alone
+      metadata;  // preset, sun, camera, version; written with the image
 };
 
 // What draws: OSMesa's software or, by EGL, a GPU (or Mesa's software where there is none).
@@ -345,10 +338,36 @@ struct ToneOptions {
   ViewTransform transform = ViewTransform::kHue;
 };
 
-// The automatic exposure of a frame by itself, m^2/cd.
+// The automatic exposure, m^2/cd: of a frame by itself, or of frames that are shown alike, of all
+// their pixels together.
 double metered_exposure(const Frame& frame);
+double metered_exposure(std::span<const Frame* const> frames);
 
 // PNG, 8 bit sRGB, dithered, with the frame's glare.
 void write_png(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone = {});
+
+// What a frame of a grid shows, "mie.scattering" and "1e-05 1/m".
+struct Caption {
+  std::string name, value;
+};
+
+inline constexpr int kGridGap = 4;  // black pixels between the frames of a grid
+
+// Frames in rows and columns as one picture, all of one size, kind and primaries.
+struct FrameGrid {
+  int columns = 1;
+  std::vector<Frame> frames;                                  // row by row
+  std::vector<std::vector<Caption>> captions;                 // of each frame
+  std::vector<ToneOptions> tones;                             // of each frame, with its exposure
+  std::vector<std::pair<std::string, std::string>> metadata;  // beside that of the first frame
+};
+
+// The frames as one, kGridGap apart; without captions, statistics are not kept. Throws
+// std::invalid_argument for frames that do not go together.
+Frame joined(const FrameGrid& grid);
+
+// PNG: each frame as write_png() shows it, its captions in a band below it where its width has room
+// for text of 8 pixels.
+void write_png(const FrameGrid& grid, const std::filesystem::path& file);
 
 }  // namespace skyfit
