@@ -128,6 +128,36 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
   group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
 }
 
+void add_terrain_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Blocks of the ground");
+  group.option(
+      "--lod-constant", options.lod_constant, "C",
+      fmt::format("A block of 33 x 33 vertices is divided while it is nearer than C edges of "
+                  "its triangles, {:.9g} to {:.9g}; by default as fine as the picture shows",
+                  kLeastLodConstant, kLargestLodConstant));
+  group.option(
+      "--terrain-levels", options.terrain_levels, "N",
+      fmt::format("Levels of the planet's six trees of blocks, 1 to {}; by default as many "
+                  "as show details of 0.3 m",
+                  kMostLevels));
+  group
+      .option(
+          "--culling", options.culling, "on|off",
+          "off: blocks that are outside the picture, behind the horizon or behind nearer ground "
+          "are drawn, too")
+      ->capture_default_str();
+  group.flag("--wireframe", options.wireframe, "The edges of the ground's triangles alone");
+  group
+      .option(
+          "--block-boxes", options.block_boxes, "none|level|culling",
+          "Boxes about the blocks, coloured by level (red, orange, yellow, green, cyan, violet in "
+          "turn), or drawn ones green, those outside the picture red, behind the horizon blue")
+      ->capture_default_str();
+  group.option("--overview-m", options.overview, "LENGTH",
+               "The picture is taken from so far above the camera, straight down, and shows the "
+               "blocks that the camera sees");
+}
+
 void add_picture_options(CLI::App& command, RenderOptions& options) {
   Group group(command, "Picture");
   group.option("--size", options.size, "WxH", "Size in pixels")->capture_default_str();
@@ -259,6 +289,8 @@ constexpr Pair kExcludes[] = {
     {"--date", "--sun-azimuth-deg"},
     {"--step-min", "--frames"},
     {"--sequence", "--time"},
+    {"--sequence", "--overview-m"},
+    {"--shadows", "--overview-m"},
     {"--panels", "--out-dir"},
     {"--exposure", "--adaptation-s"},
 };
@@ -323,6 +355,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_camera_options(command, options);
   add_sun_options(command, options);
   add_scene_options(command, options);
+  add_terrain_options(command, options);
   add_picture_options(command, options);
   add_table_options(command, options);
   add_sequence_options(command, options);

@@ -100,6 +100,7 @@ bool Renderer::is_above_ground(const FrameOptions& options) const {
 FrameOptions Renderer::raised(const FrameOptions& options) const {
   FrameOptions raised = options;
   raised.camera.altitude_m += basin_depth_m_;
+  if (raised.terrain.eye) raised.terrain.eye->altitude_m += basin_depth_m_;
   if (raised.clouds) raised.clouds->altitude_m += basin_depth_m_;
   return raised;
 }

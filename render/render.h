@@ -145,6 +145,34 @@ enum class Glare {
   kEye,  // the CIE's point-spread function of the eye, render/image/glare.h
 };
 
+// What the boxes about the blocks of the ground are coloured by.
+enum class BlockColors {
+  kNone,   // no boxes
+  kLevel,  // of drawn blocks, six colours in turn
+  // Drawn: green; outside the frustum: red; behind the planet's horizon: blue.
+  kCulling,
+};
+
+inline constexpr double kLeastLodConstant = 57.6, kLargestLodConstant = 1600;
+inline constexpr int kMostLevels = 30;
+
+// How the blocks of the ground, 33 x 33 vertices each, are chosen and shown (Sperlhofer 2011, table
+// 4-1).
+struct TerrainOptions {
+  // A block is split while it is nearer than this many edges of its triangles, 1/32 of its
+  // arc; 57.6 to 1600: fewer would leave neighbours more than a level apart. Without one: what
+  // FrameOptions::samples_per_quad asks for, and less where it would be too many blocks.
+  std::optional<double> lod_constant = {};
+  // Of each of the six trees: 1 to 30; without one, as many as show details of 0.3 m.
+  std::optional<int> levels = {};
+  bool cull = true;  // otherwise the whole planet is drawn
+  bool wireframe = false;
+  BlockColors boxes = BlockColors::kNone;
+  // Whose blocks they are, at the same site, seen from the picture's camera; without one, its own.
+  // Without shadows.
+  std::optional<Camera> eye = {};
+};
+
 struct FrameOptions {
   int width = 1280, height = 720;
   Camera camera;
@@ -164,6 +192,7 @@ struct FrameOptions {
   Glare glare = Glare::kNone;                // fill Frame::glare
   Primaries primaries = Primaries::kRec709;  // of the light in Frame
   double samples_per_quad = 16;  // side of a terrain quad in the picture, in samples: 1 to 64
+  TerrainOptions terrain;
 };
 
 // Throws std::invalid_argument `render.name = value: must be ...` for the first option out of

@@ -80,6 +80,11 @@ std::optional<double> number_in(const std::string& text) {
   return error == std::errc() && parsed == end ? std::optional(value) : std::nullopt;
 }
 
+// 4 digits, "20000" and "1e-06".
+std::string short_text(double number) {
+  return fmt::format("{}", number_in(fmt::format("{:.4g}", number)).value());
+}
+
 }  // namespace
 
 std::size_t steps_of(const GridAxis& axis) { return axis.empty() ? 1 : axis[0].values.size(); }
@@ -112,7 +117,7 @@ std::vector<Caption> captions_at(const GridAxis& columns, std::size_t column, co
   const auto add = [&](const GridAxis& axis, std::size_t step) {
     for (const auto& [name, caption, unit, values] : axis) {
       const auto number = number_in(values[step]);
-      const std::string value = number ? fmt::format("{:.4g}", *number) : values[step];
+      const std::string value = number ? short_text(*number) : values[step];
       captions.push_back({caption, unit.empty() || unit == "1" ? value : value + " " + unit});
     }
   };

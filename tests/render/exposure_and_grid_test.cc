@@ -91,15 +91,15 @@ TEST(GridAxis, EvenStepsHaveOneDifferenceGeometricOnesOneFactor) {
 
 TEST(GridAxis, IsDescribedWithUnits) {
   const GridAxis columns = {{"ground.albedo", "ground.albedo", "1", {"0.1", "0.123456789"}},
-                            {"altitude-m", "altitude", "m", {"2", "5"}}};
+                            {"altitude-m", "altitude", "m", {"2", "20000"}}};
   const GridAxis rows = {{"model", "model", "", {"bodare", "reference"}}};
-  EXPECT_EQ(described(columns), "ground.albedo [1]: 0.1, 0.123456789; altitude-m [m]: 2, 5");
+  EXPECT_EQ(described(columns), "ground.albedo [1]: 0.1, 0.123456789; altitude-m [m]: 2, 20000");
   EXPECT_EQ(described(rows), "model: bodare, reference");
   EXPECT_EQ(steps_of({}), 1u);
   const std::vector<Caption> captions = captions_at(columns, 1, rows, 0);
   ASSERT_EQ(captions.size(), 3u);
   EXPECT_EQ(captions[0].value, "0.1235");
-  EXPECT_EQ(captions[1].name + " " + captions[1].value, "altitude 5 m");
+  EXPECT_EQ(captions[1].name + " " + captions[1].value, "altitude 20000 m");
   EXPECT_EQ(captions[2].value, "bodare");
 }
 

@@ -63,7 +63,7 @@ class Patches : public ::testing::Test {
     const BlockSelection selection = affordable_blocks(view, {}, store()).front();
     view.cull = cull;
     Picture made;
-    terrain_.prepare(selection.blocks, view, made.draw);
+    terrain_.prepare(selection.blocks, view, view.altitude_m, made.draw);
     add_gbuffer(kWidth, kHeight, graph_);
     graph_.run(std::array{Pass{"terrain", {}, kGBuffer, [&] {
                                  clear_gbuffer();
