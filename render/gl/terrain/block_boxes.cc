@@ -14,17 +14,36 @@ glm::dvec3 corner(const Box& box, unsigned i) {
           (i & 4) != 0 ? box.high.z : box.low.z};
 }
 
-void add_lines(const Box& box, const glm::dvec3& camera, const glm::dvec3& sun,
-               const NodeValues& reflectance, ObjectMesh& mesh) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  std::array<float, 4> shared{};
-  for (std::size_t k = 0; k < 4; ++k) shared[k] = static_cast<float>(reflectance[k]);
-  for (unsigned i = 0; i < 8; ++i)
-    mesh.vertices.push_back({glm::vec3(1e-3 * (corner(box, i) - camera)), glm::vec3(sun), shared});
-  for (std::uint32_t i = 0; i < 8; ++i)
-    for (const std::uint32_t axis : {1u, 2u, 4u})
-      if ((i & axis) == 0) mesh.indices.insert(mesh.indices.end(), {first + i, first + (i | axis)});
-}
+// Of a line, so that what lies below the bottom radius can be left out: no ground may be before it.
+constexpr std::uint32_t kParts = 16;
+
+struct Lines {
+  double radius_m;
+  glm::dvec3 camera, sun;
+  ObjectMesh mesh;
+
+  void add(const Box& box, const NodeValues& reflectance) {
+    for (unsigned i = 0; i < 8; ++i)
+      for (const unsigned axis : {1u, 2u, 4u})
+        if ((i & axis) == 0) add(corner(box, i), corner(box, i | axis), reflectance);
+  }
+
+ private:
+  void add(const glm::dvec3& from, const glm::dvec3& to, const NodeValues& reflectance) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    std::array<float, 4> shared{};
+    for (std::size_t k = 0; k < 4; ++k) shared[k] = static_cast<float>(reflectance[k]);
+    bool was_above = false;
+    for (std::uint32_t part = 0; part <= kParts; ++part) {
+      const glm::dvec3 point = glm::mix(from, to, part / static_cast<double>(kParts));
+      const bool above = glm::length(point) >= radius_m;
+      mesh.vertices.push_back({glm::vec3(1e-3 * (point - camera)), glm::vec3(sun), shared});
+      if (part > 0 && (above || was_above))
+        mesh.indices.insert(mesh.indices.end(), {first + part - 1, first + part});
+      was_above = above;
+    }
+  }
+};
 
 }  // namespace
 
@@ -41,20 +60,19 @@ glm::dvec3 level_color(int level) {
 ObjectMesh block_boxes(const BoxedBlocks& blocks, const TerrainView& view, double camera_m,
                        BlockColors colors, const glm::dvec3& sun, const ColorReflectance& color) {
   const glm::dmat3 site_from_planet = view.axes.site_from_planet();
-  const glm::dvec3 camera(0, 0, view.radius_m + camera_m);
-  ObjectMesh mesh;
+  Lines lines{view.radius_m, {0, 0, view.radius_m + camera_m}, sun, {}};
   const auto add = [&](std::span<const MeasuredNode> nodes, const auto& color_of) {
     for (const auto& [block, heights] : nodes)
-      add_lines(block_box(block, heights, site_from_planet, view.radius_m), camera, sun,
-                color.at(color_of(block)), mesh);
+      lines.add(block_box(block, heights, site_from_planet, view.radius_m),
+                color.at(color_of(block)));
   };
   const bool by_level = colors == BlockColors::kLevel;
   add(blocks.drawn,
       [&](const CubeBlock& block) { return by_level ? level_color(block.level) : kDrawn; });
-  if (by_level) return mesh;
+  if (by_level) return lines.mesh;
   add(blocks.selection.outside, [](const CubeBlock&) { return kOutside; });
   add(blocks.selection.behind, [](const CubeBlock&) { return kBehind; });
-  return mesh;
+  return lines.mesh;
 }
 
 }  // namespace skyfit
