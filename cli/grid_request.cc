@@ -274,7 +274,7 @@ std::string axis_options() {
 }
 
 GridRequest grid_request(const RenderOptions& options, const CLI::App& command) {
-  for (const char* option : {"--sequence", "--panels"})
+  for (const char* option : {"--sequence", "--panels", "--stokes"})
     if (command.count(option) > 0)
       throw UsageError(option, command.get_option(option)->results().front(),
                        "expected without --strip and --rows");

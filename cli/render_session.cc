@@ -14,6 +14,7 @@
 #include "model/registry.h"
 #include "model/tables/table_cache.h"
 #include "render/panels.h"
+#include "render/sky_map/frame_polarisation.h"
 
 namespace skyfit::cli {
 
@@ -100,8 +101,17 @@ Frame RenderSession::draw(const Shot& shot, double time_s, const FrameOptions& o
   if (!std::exchange(warned_, true)) {
     for (const std::string& warning : renderer_.warnings()) warn(warning);
   }
-  Frame drawn = renderer_.draw(placed(shot, preset, options), progress);
+  const FrameOptions frame = placed(shot, preset, options);
+  Frame drawn = renderer_.draw(frame, progress);
   time_.done("frame: other", drawn.statistics.steps);
+  if (request_.stokes) {
+    add_polarisation(*model_, drawn_atmosphere(preset),
+                     luminance_rule(refs::spectral_data_of(preset.atmosphere)),
+                     frame.camera.altitude_m + basin_depth_m(request_.scene), frame,
+                     *request_.stokes, drawn);
+    drawn.metadata.emplace_back("skyfit:stokes", stokes_convention(*request_.stokes));
+    time_.done("polarisation");
+  }
   return drawn;
 }
 

@@ -60,9 +60,10 @@ source_of() { # ID TITLE
 begin() {
   pictures=()
   commands=""
+  table=""
 }
 
-# figure TITLE WHAT-IS-TO-BE-SEEN CAPTION...: with the pictures since begin, each with its caption.
+# figure TITLE WHAT-IS-TO-BE-SEEN CAPTION...: with the pictures, or a table, since begin, each with its caption.
 figure() {
   local title=$1 seen=$2 i
   shift 2
@@ -73,6 +74,7 @@ figure() {
         "${pictures[$i]}" "$(escaped <<<"$title")" "$(escaped <<<"${1-}")"
       shift || true
     done
+    [[ -z $table ]] || printf '<pre>%s</pre>\n' "$table"
     printf '</div>\n<details><summary>Commands</summary><pre>%s</pre></details></section>\n' "$(escaped <<<"$commands")"
   } >>"$page"
 }
@@ -122,6 +124,30 @@ source_of s11 "Sperlhofer 2011: tables of Bruneton and Neyret, deferred shading"
 text "Tables 4-1 and 4-2: the atmosphere" "The published coefficients as a preset, and what they amount to." check sperlhofer-2011
 
 begin
+picture s11-4-23-eye "${s11[@]}" --model bruneton --view 10km --block-boxes culling "${small[@]}"
+picture s11-4-23-outside "${s11[@]}" --model bruneton --view 10km --block-boxes culling --overview-m 1e6 "${small[@]}"
+picture s11-4-23-levels "${s11[@]}" --model bruneton --view 10km --block-boxes level --overview-m 4e4 "${small[@]}"
+figure "4-23: culling" "Only the blocks of the view's frustum are drawn. Boxes of drawn blocks are green, of those outside the frustum red, behind the horizon blue." \
+  "from the camera" "from 1000 km above it" "from 40 km above it, boxes by level"
+
+# draw_times VIEW: triangles, and the time of the pass that draws them, over the constant of division.
+draw_times() {
+  "$skyfit" render "${timed[@]}" --view "$1" --out "$scratch/times.png" | awk -v view="$1" '
+    $1 ~ /^[0-5]$/ && NF > 7 { triangles[$1] = $2; blocks[$1] = $3; ms[$1] = $8 }
+    END { for (i = 0; i < 6; ++i)
+            printf "%-8s %5d %8s %11d %8d %10.1f\n", view, 60 + 30 * (i % 3), i < 3 ? "on" : "off", triangles[i], blocks[i], ms[i] }'
+}
+timed=("${s11[@]}" --model bruneton --strip lod-constant=60,90,120 --rows "culling=on,off" --stats "${small[@]}")
+begin
+table="view         C  culling   triangles   blocks    draw ms"$'\n'
+for view in valley 10km orbit; do
+  table+=$(draw_times "$view")$'\n'
+  commands+="skyfit render ${timed[*]} --view $view --out times.png"$'\n'
+done
+figure "4-25: time over the constant of division, with and without culling" \
+  "Culling gains most near the ground. The time is that of the pass that draws the ground, by the software renderer, once."
+
+begin
 picture s11-4-44 "${s11[@]}" --model bruneton --view ground --rows altitude-m=6000e3,400e3,30e3,2e3 --rows pitch-deg=-56,-17,-4,2 \
   --strip sun-zenith-deg=84,30 --metering each "${small[@]}"
 figure "4-44: from space to the ground, sunset and midday" "No jump anywhere on the way down." "bruneton; each its own exposure"
@@ -139,9 +165,9 @@ grid 4-46 "4-46: Rayleigh scattering, half to twice" "Less scattering: a darker 
 grid 4-47 "4-47: scale height of the air, 2 to 10 km" "How far up the air reaches." \
   rayleigh.scale_height=2000,6000,10000 altitude-m=2000,5000,20000 --pitch-deg -4 --azimuth-deg 120
 grid 4-48 "4-48: Mie scattering, towards the sun" "A larger halo near the ground, hardly any effect higher up." \
-  mie.scattering=2e-6,4e-6,8e-6 altitude-m=1000,3000,5000 --pitch-deg 20
+  mie.scattering=2e-6,4e-6,8e-6 altitude-m=1000,3000,5000 --pitch-deg 20 --glare none --exposure-ev 1
 grid 4-49 "4-49: scale height of the aerosol, 1 to 4 km, towards the sun" "The halo now reaches greater heights." \
-  mie.scale_height=1000,2000,4000 altitude-m=1000,3000,5000 --pitch-deg 20
+  mie.scale_height=1000,2000,4000 altitude-m=1000,3000,5000 --pitch-deg 20 --glare none --exposure-ev 1
 
 begin
 for k in 1e-4 3e-4 1e-3; do
@@ -312,7 +338,7 @@ figure "4g, 4h: Mars without dust, from space and in a valley" "Another colour b
 cat >>"$page" <<'HTML'
 <h2 id="missing">What is not shown</h2>
 <ul>
-<li>Sperlhofer: the terrain and its levels (4-11 to 4-25), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
+<li>Sperlhofer: the terrain (4-11 to 4-17), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
 <code>--tone clip</code>), an object half in the air (4-50), and the three repairs (5-1 to 5-3):
 the renderer has no options for them.</li>
 <li>Bodare and Sandberg: the update over frames as frames (12; <code>--update-frames</code> draws them), the seam of the difference of

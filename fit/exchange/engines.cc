@@ -41,13 +41,9 @@ std::vector<Parameter> amounts() {
   return {Parameter::kRayleighScattering, Parameter::kMieScattering};
 }
 
-std::vector<Parameter> amounts_and_lobe() {
-  return {Parameter::kRayleighScattering, Parameter::kMieScattering, Parameter::kMiePhaseG};
-}
-
 constexpr PhaseType kHg = PhaseType::kHenyeyGreenstein, kCs = PhaseType::kCornetteShanks;
 
-constexpr std::array<Engine, 5> kEngines = {{
+constexpr std::array<Engine, 4> kEngines = {{
     {"unreal", "Unreal Engine, component SkyAtmosphere (JSON of its properties)", ".json", kHg,
      [](EngineAtmosphere&) {}, aerosol, unreal_text, read_unreal},
     {"unity", "Unity HDRP, Physically Based Sky (JSON of its properties)", ".json", kCs,
@@ -56,8 +52,6 @@ constexpr std::array<Engine, 5> kEngines = {{
      [](EngineAtmosphere&) {}, aerosol, bruneton_text, read_bruneton},
     {"blender", "Blender, sky texture node of the Nishita type (Python)", ".py", kCs,
      restrict_to_blender, amounts, blender_text, read_blender},
-    {"threejs", "three.js, object Sky (JavaScript)", ".js", kHg, restrict_to_threejs,
-     amounts_and_lobe, threejs_text, read_threejs},
 }};
 
 }  // namespace

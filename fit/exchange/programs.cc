@@ -39,6 +39,8 @@ std::vector<Program> all_programs() {
                       return read ? std::optional(atmosphere_of(*read)) : std::nullopt;
                     }});
   }
+  list.push_back({"threejs", "three.js, object Sky (JavaScript)", ".js", false, false,
+                  export_threejs, read_threejs});
   list.push_back({"radiance",
                   "Radiance, sun, sky and ground of one hour (.rad and three .dat)",
                   ".rad",

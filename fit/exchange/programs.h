@@ -67,6 +67,9 @@ const Program* program_of(std::string_view text);
 Exported export_radiance(const ExportRequest& request);
 Exported export_mitsuba(const ExportRequest& request);
 Exported export_godot(const ExportRequest& request);
+Exported export_threejs(const ExportRequest& request);
+std::optional<Atmosphere<double>> read_threejs(std::string_view text, std::string_view source,
+                                               std::vector<std::string>& notes);
 Exported export_calcmysky(const ExportRequest& request);
 std::optional<Atmosphere<double>> read_calcmysky(std::string_view text, std::string_view source,
                                                  std::vector<std::string>& notes);

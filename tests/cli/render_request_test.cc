@@ -69,6 +69,16 @@ TEST(RenderRequest, ADayIsAFilmOfTenSecondsFromAStandingCamera) {
   EXPECT_NEAR(first.camera.azimuth, first.sun.azimuth, 1e-12);  // toward the sun at first
 }
 
+TEST(RenderRequest, PolarisationIsThatOfTheReferenceInAnExr) {
+  EXPECT_EQ(request({"--stokes", "--out", "x.exr"}).stokes, PolarisationAngle::kClockwise);
+  EXPECT_EQ(request({"--stokes", "--iau", "--out", "x.exr"}).stokes, PolarisationAngle::kIau);
+  EXPECT_FALSE(request({"--out", "x.exr"}).stokes);
+  EXPECT_THROW(request({"--stokes", "--out", "x.png"}), UsageError);
+  for (const auto& [option, value] :
+       {std::pair("--model", "bruneton"), {"--clouds", "0.4"}, {"--orders", "2"}})
+    EXPECT_THROW(request({"--stokes", option, value, "--out", "x.exr"}), UsageError) << option;
+}
+
 TEST(RenderRequest, TablesByTheirNames) {
   const RenderRequest r =
       request({"--out", "x.png", "--table-size", "small", "--table-precision", "8bit"});
@@ -181,6 +191,40 @@ TEST(GridRequest, DaysAndTimesMoveTheSun) {
   EXPECT_NEAR(zenith_deg(1), 47.4 - 23.44, 0.02);
   EXPECT_NEAR(zenith_deg(3), 47.4 + 23.44, 0.1);  // the equation of time differs by 4 minutes
   EXPECT_GT(zenith_deg(0), zenith_deg(1));
+}
+
+TEST(GridRequest, HasNoSequencesPanelsOrPolarisation) {
+  for (const char* option : {"--stokes", "--panels"})
+    EXPECT_THROW(grid_of({option, "--strip", "mie.scattering=1e-6..8e-6"}), UsageError) << option;
+  EXPECT_THROW(grid_of({"--sequence", "day.json", "--rows", "altitude-m=1,2"}), UsageError);
+}
+
+TEST(GridRequest, BlocksOfTheGroundMayVary) {
+  const GridRequest grid = grid_of(
+      {"--strip", "lod-constant=60,120", "--rows", "culling=on,off", "--overview-m", "1e5"});
+  ASSERT_EQ(grid.cells.size(), 4u);
+  EXPECT_EQ(grid.cells[1].frame.terrain.lod_constant, 120);
+  EXPECT_TRUE(grid.cells[1].frame.terrain.cull);
+  EXPECT_FALSE(grid.cells[2].frame.terrain.cull);
+  EXPECT_EQ(grid.cells[3].sequence.keyframes.front().camera.overview_m, 1e5);
+}
+
+TEST(RenderRequest, BlocksOfTheGround) {
+  const RenderRequest r = request({"--lod-constant", "80", "--terrain-levels", "7", "--wireframe",
+                                   "--block-boxes", "level", "--out", "x.png"});
+  EXPECT_EQ(r.frame.terrain.lod_constant, 80);
+  EXPECT_EQ(r.frame.terrain.levels, 7);
+  EXPECT_TRUE(r.frame.terrain.cull);
+  EXPECT_TRUE(r.frame.terrain.wireframe);
+  EXPECT_EQ(r.frame.terrain.boxes, BlockColors::kLevel);
+  for (const auto& [option, value] : {std::pair("--lod-constant", "50"),
+                                      {"--lod-constant", "far"},
+                                      {"--terrain-levels", "0"},
+                                      {"--culling", "yes"},
+                                      {"--block-boxes", "red"},
+                                      {"--overview-m", "0"}})
+    EXPECT_THROW(request({option, value, "--out", "x.png"}), UsageError) << option;
+  EXPECT_THROW(request({"--overview-m", "1e5", "--shadows", "--out", "x.png"}), UsageError);
 }
 
 TEST(GridRequest, AnotherModelIsAnotherSession) {

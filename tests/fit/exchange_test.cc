@@ -205,5 +205,62 @@ TEST(Godot, PropertiesGiveTheSkyWithinTheLoss) {
   EXPECT_LT(loss.rms_percent, 40);
 }
 
+// The uniform that a line of the .js sets.
+double threejs_value(const std::string& text, const std::string& name) {
+  const std::string before = "uniforms['" + name + "'].value = ";
+  const std::size_t at = text.find(before);
+  EXPECT_NE(at, text.npos) << name;
+  return std::stod(text.substr(at + before.size()));
+}
+
+// Sky.js, from the uniforms in the file, has the loss that the file states.
+TEST(Threejs, UniformsGiveTheSkyWithinTheLoss) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const Exported written = exported(preset, "threejs", 0.7, 1);
+  const std::string& text = written.files.at(0).text;
+  const double rayleigh = threejs_value(text, "rayleigh"),
+               mie = threejs_value(text, "turbidity") * threejs_value(text, "mieCoefficient"),
+               g = threejs_value(text, "mieDirectionalG");
+  const std::size_t unit = text.find("mapping, is ");
+  ASSERT_NE(unit, text.npos);
+  const double brightness = std::stod(text.substr(unit + 12));
+  constexpr double kPi = std::numbers::pi, kLambda[] = {680e-9, 550e-9, 450e-9},
+                   kRayleigh[] = {5.8045e-6, 1.35629e-5, 3.02659e-5}, kK[] = {0.686, 0.678, 0.666},
+                   kNight[] = {0, 0.0003, 0.00075};
+  const std::vector<SkyPoint> points = six_skies();
+  std::vector<Xyz> shown;
+  for (const SkyPoint& p : points) {
+    const double zenith_deg = p.view_zenith * 180 / kPi, nu = std::cos(angle_from_sun(p)),
+                 mass =
+                     1 / (std::cos(p.view_zenith) + 0.15 * std::pow(93.885 - zenith_deg, -1.253)),
+                 sun = 1000 * std::max(0.0, 1 - std::exp((p.sun_zenith - kPi / 1.95) / 1.5)),
+                 low = std::pow(1 - std::cos(p.sun_zenith), 5);
+    Rgb rgb{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double r = rayleigh * kRayleigh[k],
+                   m = 0.434 * 0.2e-17 * mie * kPi * std::pow(2 * kPi / kLambda[k], 2) * kK[k],
+                   through = std::exp(-(r * 8.4e3 + m * 1.25e3) * mass);
+      const double in = sun *
+                        (r * 3 / (16 * kPi) * (1 + std::pow(nu / 2 + 0.5, 2)) +
+                         m * (1 - g * g) / (4 * kPi) * std::pow(1 + g * g - 2 * g * nu, -1.5)) /
+                        (r + m);
+      const double light =
+          std::pow(in * (1 - through), 1.5) * std::lerp(1.0, std::sqrt(in * through), low);
+      rgb[k] = brightness * std::pow((light + 0.1 * through) * 0.04 + kNight[k], 1 / 2.4);
+    }
+    shown.push_back(xyz_of_srgb(rgb));
+  }
+  const SkyLoss loss = color_loss(
+      points, sky_colors(scalar(), xyz_rule(spectra()), preset.atmosphere, points), shown);
+  double rms = 0;
+  ASSERT_EQ(std::sscanf(written.loss.c_str(), "luminance RMS %lf %%", &rms), 1) << written.loss;
+  EXPECT_NEAR(loss.rms_percent, rms, 0.05);
+  EXPECT_LT(rms, 30);
+
+  std::vector<std::string> notes;
+  ASSERT_TRUE(read_threejs(text, "sky.js", notes));
+  EXPECT_THAT(notes, ::testing::Contains(HasSubstr("another sky")));
+}
+
 }  // namespace
 }  // namespace skyfit::fit

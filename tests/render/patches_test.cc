@@ -67,7 +67,7 @@ class Patches : public ::testing::Test {
     add_gbuffer(kWidth, kHeight, graph_);
     graph_.run(std::array{Pass{"terrain", {}, kGBuffer, [&] {
                                  clear_gbuffer();
-                                 terrain_.draw(made.draw, shot.projection, view.axes);
+                                 terrain_.draw(made.draw, shot.projection, view.axes, false);
                                }}});
     made.depth = graph_.read_rows("depth", GL_DEPTH_COMPONENT, 1, 0, kHeight);
     made.gbuffer = graph_.read_back_words("gbuffer");
@@ -187,7 +187,8 @@ TEST(Coarse, PatchesAreBeyondTheDistance) {
 TEST(Affordable, BlocksOfAViewAndOfShadowsAreInTheStore) {
   class Plain final : public Ground {
    public:
-    double height_m(const glm::dvec3&, double) const override { return 0; }
+    Elevation elevation(const glm::dvec3&, double) const override { return {0, 1}; }
+    std::optional<NodeValues> water_reflectance() const override { return std::nullopt; }
     NodeValues reflectance(const glm::dvec3&, double, double, double) const override { return {}; }
     double rock(const glm::dvec3&, double, double, double) const override { return 0; }
     double highest_m() const override { return 0; }

@@ -23,8 +23,8 @@ struct BoxedBlocks {
 glm::dvec3 level_color(int level);
 
 // Twelve lines of each box, as far as they are above the bottom radius (two indices a piece), in
-// kilometres from the camera `camera_m` above the
-// bottom radius, along the axes of the view's site. `sun`: unit vector along them.
+// kilometres from the camera `camera_m` above the bottom radius, along the axes of the view's site.
+// `sun`: unit vector along them.
 // BlockColors::kLevel: those of drawn blocks; kCulling: theirs green, of nodes outside the frustum
 // red, of nodes behind the horizon blue.
 ObjectMesh block_boxes(const BoxedBlocks& blocks, const TerrainView& view, double camera_m,
