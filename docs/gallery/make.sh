@@ -126,9 +126,9 @@ text "Tables 4-1 and 4-2: the atmosphere" "The published coefficients as a prese
 begin
 picture s11-4-23-eye "${s11[@]}" --model bruneton --view 10km --block-boxes culling "${small[@]}"
 picture s11-4-23-outside "${s11[@]}" --model bruneton --view 10km --block-boxes culling --overview-m 1e6 "${small[@]}"
-picture s11-4-23-levels "${s11[@]}" --model bruneton --view 10km --block-boxes level --overview-m 4e4 "${small[@]}"
+picture s11-4-23-levels "${s11[@]}" --model bruneton --view 10km --block-boxes level --overview-m 3e5 "${small[@]}"
 figure "4-23: culling" "Only the blocks of the view's frustum are drawn. Boxes of drawn blocks are green, of those outside the frustum red, behind the horizon blue." \
-  "from the camera" "from 1000 km above it" "from 40 km above it, boxes by level"
+  "from the camera" "from 1000 km above it" "from 300 km above it, boxes by level"
 
 # draw_times VIEW: triangles, and the time of the pass that draws them, over the constant of division.
 draw_times() {

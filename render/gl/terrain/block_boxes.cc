@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/gl/terrain/block_boxes.h"
 
+#include <algorithm>
 #include <array>
 
 namespace skyfit {
 namespace {
 
-constexpr glm::dvec3 kDrawn(0.05, 0.8, 0.05), kOutside(0.9, 0.04, 0.04), kBehind(0.08, 0.15, 0.9);
+constexpr glm::dvec3 kDrawn(0.05, 0.8, 0.05), kOutside(0.9, 0.04, 0.04), kBehind(0.35, 0.5, 1.0);
 
 // Corner i of a box is high along the axes whose bits i has.
 glm::dvec3 corner(const Box& box, unsigned i) {
@@ -14,7 +15,8 @@ glm::dvec3 corner(const Box& box, unsigned i) {
           (i & 4) != 0 ? box.high.z : box.low.z};
 }
 
-// Of a line, so that what lies below the bottom radius can be left out: no ground may be before it.
+// Of a line, so that what the sphere of the bottom radius hides can be left out: no ground may have
+// been drawn before it.
 constexpr std::uint32_t kParts = 16;
 
 struct Lines {
@@ -29,18 +31,25 @@ struct Lines {
   }
 
  private:
+  // The way from the camera stays outside of the sphere.
+  bool is_seen(const glm::dvec3& point) const {
+    const glm::dvec3 way = point - camera;
+    const double share = std::clamp(-glm::dot(camera, way) / glm::dot(way, way), 0.0, 1.0);
+    return glm::length(camera + share * way) >= radius_m;
+  }
+
   void add(const glm::dvec3& from, const glm::dvec3& to, const NodeValues& reflectance) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     std::array<float, 4> shared{};
     for (std::size_t k = 0; k < 4; ++k) shared[k] = static_cast<float>(reflectance[k]);
-    bool was_above = false;
+    bool was_seen = false;
     for (std::uint32_t part = 0; part <= kParts; ++part) {
       const glm::dvec3 point = glm::mix(from, to, part / static_cast<double>(kParts));
-      const bool above = glm::length(point) >= radius_m;
+      const bool seen = is_seen(point);
       mesh.vertices.push_back({glm::vec3(1e-3 * (point - camera)), glm::vec3(sun), shared});
-      if (part > 0 && (above || was_above))
+      if (seen && was_seen)
         mesh.indices.insert(mesh.indices.end(), {first + part - 1, first + part});
-      was_above = above;
+      was_seen = seen;
     }
   }
 };
@@ -53,7 +62,7 @@ glm::dvec3 level_color(int level) {
                                                   {0.8, 0.8, 0.05},
                                                   {0.05, 0.8, 0.05},
                                                   {0.05, 0.6, 0.8},
-                                                  {0.3, 0.1, 0.9}}};
+                                                  {0.55, 0.3, 1.0}}};
   return kColors[static_cast<std::size_t>(level) % kColors.size()];
 }
 

@@ -22,7 +22,7 @@ struct BoxedBlocks {
 // Linear sRGB: of a drawn block by its level, six in turn.
 glm::dvec3 level_color(int level);
 
-// Twelve lines of each box, as far as they are above the bottom radius (two indices a piece), in
+// Twelve lines of each box, without what the bottom sphere hides (two indices a piece), in
 // kilometres from the camera `camera_m` above the bottom radius, along the axes of the view's site.
 // `sun`: unit vector along them.
 // BlockColors::kLevel: those of drawn blocks; kCulling: theirs green, of nodes outside the frustum
