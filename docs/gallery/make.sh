@@ -132,8 +132,8 @@ figure "4-23: culling" "Only the blocks of the view's frustum are drawn. Boxes o
 
 # draw_times VIEW: triangles, and the time of the pass that draws them, over the constant of division.
 draw_times() {
-  "$skyfit" render "${timed[@]}" --view "$1" --out "$scratch/times.png" | awk -v view="$1" '
-    $1 ~ /^[0-5]$/ && NF > 7 { triangles[$1] = $2; blocks[$1] = $3; ms[$1] = $8 }
+  for _ in 1 2 3; do "$skyfit" render "${timed[@]}" --view "$1" --out "$scratch/times.png"; done | awk -v view="$1" '
+    $1 ~ /^[0-5]$/ && NF > 7 { triangles[$1] = $2; blocks[$1] = $3; if (!($1 in ms) || $8 < ms[$1]) ms[$1] = $8 }
     END { for (i = 0; i < 6; ++i)
             printf "%-8s %5d %8s %11d %8d %10.1f\n", view, 60 + 30 * (i % 3), i < 3 ? "on" : "off", triangles[i], blocks[i], ms[i] }'
 }
@@ -145,7 +145,7 @@ for view in valley 10km orbit; do
   commands+="skyfit render ${timed[*]} --view $view --out times.png"$'\n'
 done
 figure "4-25: time over the constant of division, with and without culling" \
-  "Culling gains most near the ground. The time is that of the pass that draws the ground, by the software renderer, once."
+  "Culling gains most near the ground. The time is that of the pass that draws the ground, by the software renderer, the least of three runs."
 
 begin
 picture s11-4-44 "${s11[@]}" --model bruneton --view ground --rows altitude-m=6000e3,400e3,30e3,2e3 --rows pitch-deg=-56,-17,-4,2 \
