@@ -22,8 +22,8 @@ int leaves_and_culled(const FrameStatistics& s) {
 }
 
 TEST(Culling, ChangesNoPixel) {
-  const Frame with = renderer().draw(valley());
-  const Frame without = renderer().draw(valley({.cull = false}));
+  const Frame with = renderer().draw(valley({.lod_constant = 60, .levels = 11}));
+  const Frame without = renderer().draw(valley({.lod_constant = 60, .levels = 11, .cull = false}));
   EXPECT_EQ(without.statistics.blocks_outside, 0);
   EXPECT_EQ(without.statistics.blocks_behind, 0);
   EXPECT_EQ(without.statistics.blocks_hidden, 0);
@@ -37,7 +37,7 @@ TEST(Culling, ChangesNoPixel) {
 TEST(LodConstant, DividesMoreBlocksTheLargerItIs) {
   const auto leaves = [](double constant) {
     return renderer()
-        .draw(valley({.lod_constant = constant, .levels = 8, .cull = false}))
+        .draw(valley({.lod_constant = constant, .levels = 7, .cull = false}))
         .statistics.blocks_drawn;
   };
   const int coarse = leaves(60), fine = leaves(120);
@@ -99,7 +99,7 @@ TEST(Overview, ShowsTheBlocksOfTheEye) {
 TEST(Boxes, AndWireframeLeaveNoTraceInTheNextFrame) {
   const Frame before = renderer().draw(valley());
   const Frame lines =
-      renderer().draw(valley({.lod_constant = 60, .levels = 10, .wireframe = true}));
+      renderer().draw(valley({.lod_constant = 60, .levels = 11, .wireframe = true}));
   const Frame boxes = draw_layers(valley({.boxes = BlockColors::kCulling}));
   const Frame after = renderer().draw(valley());
   EXPECT_EQ(after.luminance, before.luminance);
