@@ -177,9 +177,7 @@ ReadDensity read_density(const AtmoReader& reader, const Section& s) {
                   &length) == 3 &&
       whole()) {
     read.factor = a;
-    read.profile.type = ProfileType::kTent;
-    read.profile.peak_m = b;
-    read.profile.half_width_m = c;
+    set_tent(b, c, read.profile);
     return read;
   }
   double low_edge, edge;

@@ -39,10 +39,10 @@ std::string listed(const Spectrum16& values) {
 }
 
 Code density_code(const VerticalProfile<double>& profile, double factor) {
+  if (const auto tent = tent_of(profile))
+    return {fmt::format("return {}*max(0.0,1.0-abs(altitude-{})/{});", number(factor),
+                        number(tent->peak_m), number(tent->half_width_m))};
   switch (profile.type) {
-    case ProfileType::kTent:
-      return {fmt::format("return {}*max(0.0,1.0-abs(altitude-{})/{});", number(factor),
-                          number(profile.peak_m), number(profile.half_width_m))};
     case ProfileType::kLayer: {
       // Its lower edge is as wide as the ground allows (model/atmosphere/profile.cc).
       constexpr double kSharp_m = 1e-3;
@@ -53,6 +53,7 @@ Code density_code(const VerticalProfile<double>& profile, double factor) {
           number(factor), number(profile.base_m), number(low), number(profile.top_m),
           number(edge))};
     }
+    case ProfileType::kCorners:
     case ProfileType::kTabulated: {
       const Profile shape(profile);
       const std::vector<double>&x = shape.table().heights(), &y = shape.table().densities();

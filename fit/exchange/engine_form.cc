@@ -44,16 +44,16 @@ Depths depths_of(const Atmosphere<double>& atmosphere, const Constituents& list,
   return sum;
 }
 
-// Of the constituent of that profile with the largest optical depth; nothing: none has it.
-std::optional<VerticalProfile<double>> largest(const Atmosphere<double>& atmosphere,
-                                               const Constituents& list,
-                                               const SpectralData& spectra, ProfileType type) {
+// Of the constituent with the largest optical depth whose profile is such a one; nothing: none is.
+std::optional<VerticalProfile<double>> largest(
+    const Atmosphere<double>& atmosphere, const Constituents& list, const SpectralData& spectra,
+    bool (*is_such)(const VerticalProfile<double>& profile)) {
   std::optional<VerticalProfile<double>> found;
   double most = 0;
   for (const Constituent<double>* c : list) {
     const double tau = depth(atmosphere, *c, spectra, 550);
     const VerticalProfile<double> profile = own_profile(atmosphere, *c);
-    if (profile.type != type || tau < most) continue;
+    if (!is_such(profile) || tau < most) continue;
     found = profile;
     most = tau;
   }
@@ -134,13 +134,17 @@ Atmosphere<double> engine_form(const Atmosphere<double>& atmosphere, const Spect
   engine.bottom_radius_m = atmosphere.bottom_radius_m;
   engine.top_radius_m = atmosphere.top_radius_m;
   engine.lobe = lobe;
-  if (const auto p = largest(atmosphere, air, spectra, ProfileType::kExponential))
+  const auto is_exponential = [](const VerticalProfile<double>& p) {
+    return p.type == ProfileType::kExponential;
+  };
+  if (const auto p = largest(atmosphere, air, spectra, is_exponential))
     engine.rayleigh_scale_height_m = p->scale_height_m;
-  if (const auto p = largest(atmosphere, aerosols, spectra, ProfileType::kExponential))
+  if (const auto p = largest(atmosphere, aerosols, spectra, is_exponential))
     engine.mie_scale_height_m = p->scale_height_m;
-  if (const auto p = largest(atmosphere, absorbers, spectra, ProfileType::kTent)) {
-    engine.tent_peak_m = p->peak_m;
-    engine.tent_half_width_m = p->half_width_m;
+  if (const auto p = largest(atmosphere, absorbers, spectra,
+                             [](const auto& profile) { return tent_of(profile).has_value(); })) {
+    engine.tent_peak_m = tent_of(*p)->peak_m;
+    engine.tent_half_width_m = tent_of(*p)->half_width_m;
   }
   const Depths of_air = depths_of(atmosphere, air, spectra),
                of_aerosols = depths_of(atmosphere, aerosols, spectra),
@@ -148,9 +152,7 @@ Atmosphere<double> engine_form(const Atmosphere<double>& atmosphere, const Spect
   engine.rayleigh_scattering = over(of_air.scattering, engine.rayleigh_scale_height_m);
   engine.mie_scattering = over(of_aerosols.scattering, engine.mie_scale_height_m);
   VerticalProfile<double> tent;
-  tent.type = ProfileType::kTent;
-  tent.peak_m = engine.tent_peak_m;
-  tent.half_width_m = engine.tent_half_width_m;
+  set_tent(engine.tent_peak_m, engine.tent_half_width_m, tent);
   engine.absorption = over(of_absorbers.extinction, Profile(tent).vertical_column().value);
   engine.g = lobe_of(atmosphere, aerosols, spectra, lobe, engine.g);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -185,8 +187,9 @@ EngineAtmosphere engine_atmosphere(const Atmosphere<double>& atmosphere) {
     engine.ground_albedo[k] = ground_albedo_at(atmosphere, kEngineWavelengths_nm[k]);
   if (const Constituent<double>* absorber = atmosphere.find("absorber")) {
     engine.absorption = coefficients(*absorber);
-    engine.tent_peak_m = absorber->profile.peak_m;
-    engine.tent_half_width_m = absorber->profile.half_width_m;
+    const Tent tent = tent_of(absorber->profile).value();
+    engine.tent_peak_m = tent.peak_m;
+    engine.tent_half_width_m = tent.half_width_m;
   }
   return engine;
 }
@@ -219,9 +222,7 @@ Atmosphere<double> atmosphere_of(const EngineAtmosphere& engine) {
     absorber.name = "absorber";
     absorber.amount_type = AmountType::kExtinction;
     absorber.single_scattering_albedo = 0;
-    absorber.profile.type = ProfileType::kTent;
-    absorber.profile.peak_m = engine.tent_peak_m;
-    absorber.profile.half_width_m = engine.tent_half_width_m;
+    set_tent(engine.tent_peak_m, engine.tent_half_width_m, absorber.profile);
     set_coefficients(engine.absorption, absorber);
     a.constituents.push_back(absorber);
   }

@@ -98,11 +98,16 @@ void validate(const Atmosphere<double>& atmosphere, const VerticalProfile<double
       return expect(profile.scale_height_m >= kLeastHeight && profile.scale_height_m <= kMostHeight,
                     path + ".scale_height_m", profile.scale_height_m,
                     fmt::format("a height from {} to {} m", kLeastHeight, kMostHeight));
-    case ProfileType::kTent:
-      expect(profile.half_width_m >= kLeastHeight, path + ".half_width_m", profile.half_width_m,
-             fmt::format("a height >= {} m", kLeastHeight));
-      return expect(profile.peak_m >= profile.half_width_m, path + ".peak_m", profile.peak_m,
-                    fmt::format("a height >= half_width_m = {} m", profile.half_width_m));
+    case ProfileType::kCorners: {
+      const CornerProfile& kind = corner_profiles()[profile.corners];
+      for (std::size_t i = 0; i < kind.numbers.size(); ++i)
+        expect(std::isfinite(profile.numbers[i]), fmt::format("{}.{}", path, kind.numbers[i].field),
+               profile.numbers[i], "a finite number");
+      if (const auto wrong = kind.problem(profile.numbers))
+        expect(false, fmt::format("{}.{}", path, kind.numbers[wrong->number].field),
+               profile.numbers[wrong->number], wrong->expected);
+      return;
+    }
     case ProfileType::kLayer:
       expect(profile.base_m >= 0, path + ".base_m", profile.base_m, "a height >= 0 m");
       expect(profile.top_m >= profile.base_m + kLeastHeight, path + ".top_m", profile.top_m,

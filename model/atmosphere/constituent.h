@@ -7,9 +7,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "model/atmosphere/corner_profiles.h"
 #include "model/atmosphere/dry_air.h"
 #include "model/atmosphere/linear_profile.h"
 #include "model/atmosphere/size_distribution.h"
@@ -58,7 +60,7 @@ std::string_view phase_kind(PhaseType type);
 
 enum class ProfileType {
   kExponential,  // exp(-h / scale_height)
-  kTent,         // 0 at peak - half_width, 1 at the peak, 0 at peak + half_width
+  kCorners,      // linear between corners that numbers give, corner_profiles.h
   kLayer,        // 1 from base to top, with edges that are kLayerEdge of the thickness wide
   kTabulated,    // linear between heights, 0 above the last
   kSameAs,       // that of another constituent
@@ -75,13 +77,31 @@ using TabulatedProfile = std::shared_ptr<const LinearProfile>;
 template <class T>
 struct VerticalProfile {
   ProfileType type = ProfileType::kExponential;
-  T scale_height_m{8000.0};                   // kExponential
-  T base_m{0.0}, top_m{1000.0};               // kLayer
-  double peak_m = 25e3, half_width_m = 15e3;  // kTent
-  TabulatedProfile table = nullptr;           // kTabulated
-  std::string of{};  // kSameAs, kSquareOf: a constituent with a profile of its own
+  T scale_height_m{8000.0};          // kExponential
+  T base_m{0.0}, top_m{1000.0};      // kLayer
+  std::size_t corners = 0;           // kCorners: of corner_profiles(),
+  ProfileNumbers numbers{};          // and its numbers
+  TabulatedProfile table = nullptr;  // kTabulated
+  std::string of{};                  // kSameAs, kSquareOf: a constituent with a profile of its own
   bool operator==(const VerticalProfile&) const = default;
 };
+
+template <class T>
+void set_tent(double peak_m, double half_width_m, VerticalProfile<T>& profile) {
+  profile.type = ProfileType::kCorners;
+  profile.corners = corner_profile_named("tent");
+  profile.numbers = {peak_m, half_width_m};
+}
+
+struct Tent {
+  double peak_m, half_width_m;
+};
+template <class T>
+std::optional<Tent> tent_of(const VerticalProfile<T>& profile) {
+  if (profile.type != ProfileType::kCorners || profile.corners != corner_profile_named("tent"))
+    return {};
+  return Tent{profile.numbers[0], profile.numbers[1]};
+}
 
 // What the number `amount` of a constituent is.
 enum class AmountType {
@@ -180,7 +200,7 @@ Constituent<T> standard_ozone() {
   c.amount_type = AmountType::kColumn;
   c.amount = T(300.0);
   c.single_scattering_albedo = T(0.0);
-  c.profile.type = ProfileType::kTent;
+  set_tent(25e3, 15e3, c.profile);
   return c;
 }
 

@@ -14,7 +14,11 @@ namespace {
 VerticalProfile<double> raised(VerticalProfile<double> profile, double by) {
   profile.base_m += by;
   profile.top_m += by;
-  profile.peak_m += by;
+  if (profile.type == ProfileType::kCorners) {
+    const std::vector<ProfileNumber>& numbers = corner_profiles()[profile.corners].numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (numbers[i].is_height) profile.numbers[i] += by;
+  }
   if (profile.table) {
     TwoColumns corners{{0.0}, {profile.table->densities().front()}};
     for (std::size_t i = 0; i < profile.table->heights().size(); ++i) {

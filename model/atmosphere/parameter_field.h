@@ -77,8 +77,8 @@ Constituent<T> with_scalar(const Constituent<double>& c) {
   s.single_scattering_albedo = T(c.single_scattering_albedo);
   s.albedo_spectrum = c.albedo_spectrum;
   s.profile = {
-      c.profile.type,   T(c.profile.scale_height_m), T(c.profile.base_m), T(c.profile.top_m),
-      c.profile.peak_m, c.profile.half_width_m,      c.profile.table,     c.profile.of};
+      c.profile.type,    T(c.profile.scale_height_m), T(c.profile.base_m), T(c.profile.top_m),
+      c.profile.corners, c.profile.numbers,           c.profile.table,     c.profile.of};
   s.phase = {c.phase.type,           T(c.phase.g),
              T(c.phase.g1),          T(c.phase.g2),
              T(c.phase.weight),      c.phase.lobe,

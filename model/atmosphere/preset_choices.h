@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names by which a preset calls the kinds of phase functions and profiles.
+// The names by which a preset calls the kinds of phase functions and profiles; those of
+// corner_profiles() join them.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <array>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -30,9 +32,8 @@ inline constexpr std::array<Named<PhaseType>, 7> kPhaseTypes = {
      {"tabulated-by-wavelength", PhaseType::kByWavelength},
      {"size-distribution", PhaseType::kSizeDistribution}}};
 inline constexpr std::array<Named<PhaseType>, 2> kLobeTypes = {kPhaseTypes[0], kPhaseTypes[1]};
-inline constexpr std::array<Named<ProfileType>, 6> kProfileTypes = {
+inline constexpr std::array<Named<ProfileType>, 5> kProfileTypes = {
     {{"exponential", ProfileType::kExponential},
-     {"tent", ProfileType::kTent},
      {"layer", ProfileType::kLayer},
      {"tabulated", ProfileType::kTabulated},
      {"same-as", ProfileType::kSameAs},
@@ -45,15 +46,18 @@ inline constexpr std::array<Named<StarSpectrum>, 3> kStarSpectra = {
      {"black-body", StarSpectrum::kBlackBody},
      {"tabulated", StarSpectrum::kTabulated}}};
 
+// `others`: names that are choices, too, and have been looked for.
 template <class Enum, std::size_t N>
 Enum read_choice(const PresetReader& object, std::string_view field,
-                 const std::array<Named<Enum>, N>& choices) {
+                 const std::array<Named<Enum>, N>& choices,
+                 std::span<const std::string_view> others = {}) {
   const std::string text = object.text(field);
   std::string names;
   for (const auto& choice : choices) {
     if (choice.name == text) return choice.value;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", choice.name);
   }
+  for (const std::string_view name : others) names += fmt::format(", {}", name);
   object.fail_value(field, "one of " + names);
 }
 

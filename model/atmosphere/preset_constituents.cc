@@ -130,16 +130,28 @@ void read_albedo(const PresetReader& object, const PresetTables& tables, Constit
 
 VerticalProfile<double> read_profile(const PresetReader& object, const PresetTables& tables) {
   VerticalProfile<double> profile;
-  profile.type = read_choice(object, "type", kProfileTypes);
+  const std::string type = object.text("type");
+  const auto kinds = corner_profiles();
+  if (const auto kind = std::ranges::find(kinds, type, &CornerProfile::name); kind != kinds.end()) {
+    profile.type = ProfileType::kCorners;
+    profile.corners = static_cast<std::size_t>(kind - kinds.begin());
+    std::vector<std::string_view> fields = {"type"};
+    for (std::size_t i = 0; i < kind->numbers.size(); ++i) {
+      fields.push_back(kind->numbers[i].field);
+      profile.numbers[i] = object.number(kind->numbers[i].field);
+    }
+    object.expect_only(fields);
+    return profile;
+  }
+  std::vector<std::string_view> names;
+  for (const CornerProfile& kind : kinds) names.push_back(kind.name);
+  profile.type = read_choice(object, "type", kProfileTypes, names);
   switch (profile.type) {
     case ProfileType::kExponential:
       object.expect_only({"type", "scale_height_m"});
       profile.scale_height_m = object.number("scale_height_m");
       break;
-    case ProfileType::kTent:
-      object.expect_only({"type", "peak_m", "half_width_m"});
-      profile.peak_m = object.number("peak_m");
-      profile.half_width_m = object.number("half_width_m");
+    case ProfileType::kCorners:  // is above
       break;
     case ProfileType::kLayer:
       object.expect_only({"type", "base_m", "top_m"});
@@ -231,12 +243,19 @@ ordered_json amount_to_json(const Constituent<double>& c) {
 }
 
 ordered_json to_json(const VerticalProfile<double>& profile) {
+  if (profile.type == ProfileType::kCorners) {
+    const CornerProfile& kind = corner_profiles()[profile.corners];
+    ordered_json json = {{"type", kind.name}};
+    for (std::size_t i = 0; i < kind.numbers.size(); ++i)
+      json[std::string(kind.numbers[i].field)] = profile.numbers[i];
+    return json;
+  }
   const std::string_view type = name_of(profile.type, kProfileTypes);
   switch (profile.type) {
     case ProfileType::kExponential:
       return {{"type", type}, {"scale_height_m", profile.scale_height_m}};
-    case ProfileType::kTent:
-      return {{"type", type}, {"peak_m", profile.peak_m}, {"half_width_m", profile.half_width_m}};
+    case ProfileType::kCorners:  // is above
+      break;
     case ProfileType::kLayer:
       return {{"type", type}, {"base_m", profile.base_m}, {"top_m", profile.top_m}};
     case ProfileType::kTabulated:

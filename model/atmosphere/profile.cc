@@ -74,14 +74,10 @@ Profile::Profile(const VerticalProfile<double>& profile) {
     case ProfileType::kExponential:
       scale_height_ = profile.scale_height_m;
       return;
-    case ProfileType::kTent: {
-      const double low = profile.peak_m - profile.half_width_m,
-                   high = profile.peak_m + profile.half_width_m;
-      TwoColumns tent = {{low, profile.peak_m, high}, {0, 1, 0}};
-      if (low > 0) tent = {{0, low, profile.peak_m, high}, {0, 0, 1, 0}};
-      table_ = std::make_shared<const LinearProfile>(std::move(tent));
+    case ProfileType::kCorners:
+      table_ = std::make_shared<const LinearProfile>(
+          corner_profiles()[profile.corners].corners(profile.numbers));
       return;
-    }
     case ProfileType::kLayer: {
       base_ = profile.base_m;
       top_ = profile.top_m;

@@ -39,8 +39,8 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
     require_same(same_table(x.albedo_spectrum, y.albedo_spectrum),
                  x.name + ".single_scattering_albedo");
     require_same(x.profile.type == y.profile.type && x.profile.of == y.profile.of &&
-                     x.profile.peak_m == y.profile.peak_m &&
-                     x.profile.half_width_m == y.profile.half_width_m &&
+                     x.profile.corners == y.profile.corners &&
+                     x.profile.numbers == y.profile.numbers &&
                      same_table(x.profile.table, y.profile.table),
                  x.name + ".profile");
     require_same(x.phase.type == y.phase.type, x.name + ".phase.type");

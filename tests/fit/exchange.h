@@ -7,6 +7,7 @@
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
+#include "fit/exchange/engines.h"
 #include "fit/exchange/programs.h"
 #include "model/atmosphere/preset.h"
 #include "model/registry.h"
@@ -33,6 +34,12 @@ inline Exported exported(const Preset& preset, std::string_view to, double zenit
                                   .sun_azimuth = azimuth,
                                   .file = "folder/sky.x",
                                   .write_sky_map = {}});
+}
+
+inline EngineAtmosphere restricted(const Atmosphere<double>& atmosphere, const Engine& engine) {
+  EngineAtmosphere form = engine_atmosphere(engine_form(atmosphere, spectra(), engine.lobe));
+  engine.restrict_to(form);
+  return form;
 }
 
 }  // namespace skyfit::fit

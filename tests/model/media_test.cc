@@ -196,6 +196,40 @@ Atmosphere<double> hazy() {
 const std::vector<SkyPoint> kPoints = {
     {0, 0.5, 0.8, 0.3}, {0, 1.3, 1.45, 0}, {0, 1.3, 1.2, kPi}, {8e3, 1.0, 2.0, 1.0}};
 
+// Kinds of corner_profiles(): each has a column, is 0 at its end and says what is wrong by field.
+struct Corners {
+  const char* kind;
+  ProfileNumbers numbers;
+  double column, inside, outside;  // heights of density 1 and 0
+  ProfileNumbers wrong;
+  std::size_t wrong_number;
+};
+class EveryCornerProfile : public ::testing::TestWithParam<Corners> {};
+
+TEST_P(EveryCornerProfile, HasItsClosedForm) {
+  const Corners& c = GetParam();
+  VerticalProfile<double> given;
+  given.type = ProfileType::kCorners;
+  given.corners = corner_profile_named(c.kind);
+  given.numbers = c.numbers;
+  const Profile profile(given);
+  EXPECT_NEAR(profile.vertical_column().value, c.column, 1e-9 * c.column);
+  EXPECT_NEAR(profile.density(c.inside).value, 1, 1e-12);
+  EXPECT_EQ(profile.density(c.outside).value, 0);
+  const CornerProfile& kind = corner_profiles()[given.corners];
+  EXPECT_FALSE(kind.problem(c.numbers));
+  ASSERT_TRUE(kind.problem(c.wrong));
+  EXPECT_EQ(kind.problem(c.wrong)->number, c.wrong_number);
+}
+
+TEST(CornerProfiles, AreAllTested) { EXPECT_EQ(corner_profiles().size(), 2u); }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, EveryCornerProfile,
+    ::testing::Values(Corners{"tent", {25e3, 15e3}, 15e3, 25e3, 40.1e3, {25e3, 26e3}, 0},
+                      Corners{
+                          "mixed-layer", {1200, 2000}, 1200 + 400, 600, 2001, {1200, 1200}, 1}));
+
 TEST(TabulatedSky, IsThatOfTheFormulasTheTableWasMadeOf) {
   constexpr double kPhaseSteps = 5e-5;      // of 0.25 deg
   constexpr double kProfileSteps = 1.5e-3;  // of 300 pieces, 6e-4 of the column

@@ -62,7 +62,7 @@ TEST(Preset, ReadsEveryField) {
   EXPECT_EQ(preset.atmosphere.at("rayleigh").angstrom_exponent, 4.08);
   EXPECT_EQ(preset.atmosphere.at("mie").amount, 4e-6);
   EXPECT_EQ(preset.atmosphere.at("mie").phase.g, 0.76);
-  EXPECT_EQ(preset.atmosphere.at("ozone").profile.type, ProfileType::kTent);
+  EXPECT_EQ(preset.atmosphere.at("ozone").profile.type, ProfileType::kCorners);
   EXPECT_EQ(preset.atmosphere.ground_albedo, 0.1);
   EXPECT_TRUE(preset.fit.is_null());
 }
@@ -70,7 +70,7 @@ TEST(Preset, ReadsEveryField) {
 TEST(Preset, RoundTripIsExactForEveryPhaseAndProfile) {
   for (const PhaseType type :
        {PhaseType::kCornetteShanks, PhaseType::kHenyeyGreenstein, PhaseType::kTwoLobe}) {
-    for (const ProfileType profile : {ProfileType::kTent, ProfileType::kSameAs}) {
+    for (const ProfileType profile : {ProfileType::kCorners, ProfileType::kSameAs}) {
       Preset preset;
       preset.name = "a \"quoted\" name, caf\xc3\xa9";
       preset.atmosphere.at("mie").phase.type = type;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Skies of programs that are a formula of their own: from the numbers in the file it has the loss
+// that the file states.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "fit/exchange/programs.h"
+#include "fit/exchange/reduction.h"
+#include "fit/exchange/srgb.h"
+#include "tests/fit/exchange.h"
+
+namespace skyfit::fit {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A property of a .tres, or a channel of its colour.
+double godot_value(const std::string& text, const std::string& name, std::size_t channel = 0) {
+  const std::size_t at = text.find("\n" + name + " = ");
+  EXPECT_NE(at, text.npos) << name;
+  std::string value =
+      text.substr(at + name.size() + 4, text.find('\n', at + 1) - at - name.size() - 4);
+  if (!value.starts_with("Color(")) return std::stod(value);
+  double rgb[3];
+  EXPECT_EQ(std::sscanf(value.c_str(), "Color(%lf, %lf, %lf", &rgb[0], &rgb[1], &rgb[2]), 3);
+  const double v = rgb[channel];  // sRGB (IEC 61966-2-1), which Godot makes linear
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+// The engine's formula, from the numbers in the file, has the loss that the file states.
+TEST(Godot, PropertiesGiveTheSkyWithinTheLoss) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const double zenith = 0.7;
+  const Exported written = exported(preset, "godot", zenith, 1);
+  const std::string& text = written.files.at(0).text;
+  const XyzRule rule = xyz_rule(spectra());
+  const double beam =
+      irradiance_color(scalar().irradiance(preset.atmosphere, rule.nodes, 0, zenith, {}),
+                       kDirectNormal, rule, std::vector<double>(rule.nodes.size(), 1))[1];
+  const std::vector<SkyPoint> points = six_skies();
+  const double g = godot_value(text, "mie_eccentricity");
+  std::vector<Xyz> shown;
+  for (const SkyPoint& p : points) {
+    Rgb rgb{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double r = 1e-4 * godot_value(text, "rayleigh_coefficient") *
+                       godot_value(text, "rayleigh_color", k),
+                   m = 4.34e-4 * godot_value(text, "turbidity") *
+                       godot_value(text, "mie_coefficient") * godot_value(text, "mie_color", k);
+      const double c = std::cos(p.view_zenith), nu = std::cos(angle_from_sun(p)),
+                   mass = 1 / (c + 0.15 * std::pow(3.885 + 54.5 * c, -1.253)),
+                   through = std::exp(-(r * 8.4e3 + m * 1.25e3) * mass),
+                   energy = 0.757 * std::cos(p.sun_zenith);
+      const double in =
+          energy *
+          (r * 3 / (16 * std::numbers::pi) * (1 + std::pow(nu / 2 + 0.5, 2)) +
+           m * (1 - g * g) / (4 * std::numbers::pi) * std::pow(1 + g * g - 2 * g * nu, -1.5)) /
+          (r + m);
+      const double low = std::pow(1 - std::cos(p.sun_zenith), 5);
+      const double light =
+          std::pow(in * (1 - through), 1.5) * std::lerp(1.0, std::sqrt(in * through), low);
+      rgb[k] = godot_value(text, "energy_multiplier") * std::pow(light, 1 / 2.4) * beam /
+               std::numbers::pi;
+    }
+    shown.push_back(xyz_of_srgb(rgb));
+  }
+  const SkyLoss loss =
+      color_loss(points, sky_colors(scalar(), rule, preset.atmosphere, points), shown);
+  EXPECT_EQ(loss_text(loss), written.loss);
+  EXPECT_LT(loss.rms_percent, 40);
+}
+
+// The uniform that a line of the .js sets.
+double threejs_value(const std::string& text, const std::string& name) {
+  const std::string before = "uniforms['" + name + "'].value = ";
+  const std::size_t at = text.find(before);
+  EXPECT_NE(at, text.npos) << name;
+  return std::stod(text.substr(at + before.size()));
+}
+
+// Sky.js, from the uniforms in the file, has the loss that the file states.
+TEST(Threejs, UniformsGiveTheSkyWithinTheLoss) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const Exported written = exported(preset, "threejs", 0.7, 1);
+  const std::string& text = written.files.at(0).text;
+  const double rayleigh = threejs_value(text, "rayleigh"),
+               mie = threejs_value(text, "turbidity") * threejs_value(text, "mieCoefficient"),
+               g = threejs_value(text, "mieDirectionalG");
+  const std::size_t unit = text.find("mapping, is ");
+  ASSERT_NE(unit, text.npos);
+  const double brightness = std::stod(text.substr(unit + 12));
+  constexpr double kPi = std::numbers::pi, kLambda[] = {680e-9, 550e-9, 450e-9},
+                   kRayleigh[] = {5.8045e-6, 1.35629e-5, 3.02659e-5}, kK[] = {0.686, 0.678, 0.666},
+                   kNight[] = {0, 0.0003, 0.00075};
+  const std::vector<SkyPoint> points = six_skies();
+  std::vector<Xyz> shown;
+  for (const SkyPoint& p : points) {
+    const double zenith_deg = p.view_zenith * 180 / kPi, nu = std::cos(angle_from_sun(p)),
+                 mass =
+                     1 / (std::cos(p.view_zenith) + 0.15 * std::pow(93.885 - zenith_deg, -1.253)),
+                 sun = 1000 * std::max(0.0, 1 - std::exp((p.sun_zenith - kPi / 1.95) / 1.5)),
+                 low = std::pow(1 - std::cos(p.sun_zenith), 5);
+    Rgb rgb{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double r = rayleigh * kRayleigh[k],
+                   m = 0.434 * 0.2e-17 * mie * kPi * std::pow(2 * kPi / kLambda[k], 2) * kK[k],
+                   through = std::exp(-(r * 8.4e3 + m * 1.25e3) * mass);
+      const double in = sun *
+                        (r * 3 / (16 * kPi) * (1 + std::pow(nu / 2 + 0.5, 2)) +
+                         m * (1 - g * g) / (4 * kPi) * std::pow(1 + g * g - 2 * g * nu, -1.5)) /
+                        (r + m);
+      const double light =
+          std::pow(in * (1 - through), 1.5) * std::lerp(1.0, std::sqrt(in * through), low);
+      rgb[k] = brightness * std::pow((light + 0.1 * through) * 0.04 + kNight[k], 1 / 2.4);
+    }
+    shown.push_back(xyz_of_srgb(rgb));
+  }
+  const SkyLoss loss = color_loss(
+      points, sky_colors(scalar(), xyz_rule(spectra()), preset.atmosphere, points), shown);
+  double rms = 0;
+  ASSERT_EQ(std::sscanf(written.loss.c_str(), "luminance RMS %lf %%", &rms), 1) << written.loss;
+  EXPECT_NEAR(loss.rms_percent, rms, 0.05);
+  EXPECT_LT(rms, 30);
+
+  std::vector<std::string> notes;
+  ASSERT_TRUE(read_threejs(text, "sky.js", notes));
+  EXPECT_THAT(notes, ::testing::Contains(HasSubstr("another sky")));
+}
+
+}  // namespace
+}  // namespace skyfit::fit
