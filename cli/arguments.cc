@@ -77,7 +77,9 @@ void parse_pairs(std::string_view option, const std::vector<std::string>& texts,
 }  // namespace
 
 UsageError::UsageError(std::string_view option, std::string_view text, std::string_view expected)
-    : std::invalid_argument(fmt::format("{} \"{}\": {}", option, text, expected)) {}
+    : std::invalid_argument(fmt::format("{} \"{}\": {}", option, text, expected)),
+      option_(option),
+      expected_(expected) {}
 
 double parse_number(std::string_view option, std::string_view text) {
   const auto value = finite_number(text);

@@ -21,6 +21,12 @@ namespace skyfit::cli {
 class UsageError : public std::invalid_argument {
  public:
   UsageError(std::string_view option, std::string_view text, std::string_view expected);
+
+  const std::string& option() const { return option_; }
+  const std::string& expected() const { return expected_; }
+
+ private:
+  std::string option_, expected_;
 };
 
 // A line per row of a registry, its name and its meaning, for help texts.

@@ -78,7 +78,12 @@ ordered_json json_of(const FrameOptions& frame) {
                        {"refraction", frame.refraction},
                        {"primaries", static_cast<int>(frame.primaries)},
                        {"glare", static_cast<int>(frame.glare)},
-                       {"layers", frame.layers}};
+                       {"layers", frame.layers},
+                       {"lod_constant", frame.terrain.lod_constant.value_or(0)},
+                       {"levels", frame.terrain.levels.value_or(0)},
+                       {"cull", frame.terrain.cull},
+                       {"wireframe", frame.terrain.wireframe},
+                       {"boxes", static_cast<int>(frame.terrain.boxes)}};
   if (const auto& sun = frame.second_sun)
     json["second_sun"] = {sun->zenith, sun->azimuth, sun->irradiance};
   if (const auto& moon = frame.moon)
@@ -92,7 +97,8 @@ ordered_json json_of(const FrameOptions& frame) {
 ordered_json json_of(const CameraPose& pose) {
   ordered_json json = {{"altitude_m", pose.altitude_m},   {"above_ground", pose.above_ground},
                        {"view_zenith", pose.view_zenith}, {"azimuth", pose.azimuth},
-                       {"from_north", pose.from_north},   {"vertical_fov", pose.vertical_fov}};
+                       {"from_north", pose.from_north},   {"vertical_fov", pose.vertical_fov},
+                       {"overview_m", pose.overview_m}};
   if (pose.place) json["place"] = {pose.place->latitude, pose.place->longitude};
   if (const auto& target = pose.look_at)
     json["look_at"] = {target->place.latitude, target->place.longitude, target->altitude_m};

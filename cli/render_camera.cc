@@ -67,6 +67,9 @@ CameraPose parse_camera(const RenderOptions& options, const CLI::App& command,
   }
   if (given("--field-of-view-deg"))
     pose.vertical_fov = parse_angle("--field-of-view-deg", options.field_of_view, 1, 150);
+  if (given("--overview-m"))
+    pose.overview_m =
+        parse_number_within("--overview-m", options.overview, 1, 1e9, "a height in metres");
   validate(pose);
   return pose;
 }

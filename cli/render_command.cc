@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `skyfit render`: pictures, strips and sequences of a planet under a preset's atmosphere.
+// `skyfit render`: pictures, strips, grids and sequences of a planet under a preset's atmosphere.
 #include <fmt/format.h>
 
 #include <memory>
@@ -23,11 +23,13 @@ std::string view_list() {
 }
 
 void run_render(const RenderOptions& options, const CLI::App& command) {
+  if (!options.strip.empty() || !options.rows.empty()) {
+    render_grid(grid_request(options, command));
+    return;
+  }
   const RenderRequest request = render_request(options, command);
   if (request.is_sequence) {
     render_sequence(request);
-  } else if (request.strip) {
-    render_strip(request);
   } else {
     render_picture(request);
   }
@@ -52,7 +54,9 @@ void add_render_command(CLI::App& app) {
       "  skyfit render --preset earth-clear --latitude-deg 47 --longitude-deg 8 --heading-deg 60\n"
       "         --date 2026-06-21 --time 03:00..20:00 --out-dir day\n"
       "  skyfit render --preset earth-clear --strip mie.scattering=1e-6..8e-5:4 --size 320x240\n"
-      "         --out strip.png");
+      "         --out strip.png\n"
+      "  skyfit render --preset earth-clear --strip mie.scattering=2e-6,4e-6,8e-6\n"
+      "         --rows altitude-m=1000,3000,5000 --size 320x180 --out grid.png --out grid.exr");
   command->callback([options, command] { run_render(*options, *command); });
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/arguments.h"
+#include "cli/grid_request.h"
 #include "cli/table_options.h"
 #include "model/registry.h"
 
@@ -127,6 +128,36 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
   group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
 }
 
+void add_terrain_options(CLI::App& command, RenderOptions& options) {
+  Group group(command, "Blocks of the ground");
+  group.option(
+      "--lod-constant", options.lod_constant, "C",
+      fmt::format("A block of 33 x 33 vertices is divided while it is nearer than C edges of "
+                  "its triangles, {:.9g} to {:.9g}; by default as fine as the picture shows",
+                  kLeastLodConstant, kLargestLodConstant));
+  group.option(
+      "--terrain-levels", options.terrain_levels, "N",
+      fmt::format("Levels of the planet's six trees of blocks, 1 to {}; by default as many "
+                  "as show details of 0.3 m",
+                  kMostLevels));
+  group
+      .option(
+          "--culling", options.culling, "on|off",
+          "off: blocks that are outside the picture, behind the horizon or behind nearer ground "
+          "are drawn, too")
+      ->capture_default_str();
+  group.flag("--wireframe", options.wireframe, "The edges of the ground's triangles alone");
+  group
+      .option(
+          "--block-boxes", options.block_boxes, "none|level|culling",
+          "Boxes about the blocks, coloured by level (red, orange, yellow, green, cyan, violet in "
+          "turn), or drawn ones green, those outside the picture red, behind the horizon blue")
+      ->capture_default_str();
+  group.option("--overview-m", options.overview, "LENGTH",
+               "The picture is taken from so far above the camera, straight down, and shows the "
+               "blocks that the camera sees");
+}
+
 void add_picture_options(CLI::App& command, RenderOptions& options) {
   Group group(command, "Picture");
   group.option("--size", options.size, "WxH", "Size in pixels")->capture_default_str();
@@ -189,7 +220,7 @@ void add_table_options(CLI::App& command, RenderOptions& options) {
 }
 
 void add_sequence_options(CLI::App& command, RenderOptions& options) {
-  Group group(command, "Sequences and strips");
+  Group group(command, "Sequences, strips and grids");
   group.option("--sequence", options.sequence, "FILE",
                "Keyframes of camera, sun and preset as JSON");
   group.option("--step-min", options.step_min, "MINUTES",
@@ -210,8 +241,24 @@ void add_sequence_options(CLI::App& command, RenderOptions& options) {
       "atmosphere changes: N frames for each order of scattering but the last, which takes "
       "half, and one to gather between them; the picture lags behind by one to three "
       "updates. --stats lists what each frame does for it");
-  group.option("--strip", options.strip, "PARAMETER=LOW..HIGH[:N]",
-               "N frames (5) side by side in which a parameter of the preset varies");
+  const std::string steps = "NAME=LOW..HIGH[:N][:geometric]|NAME=VALUE,..";
+  group
+      .option("--strip", options.strip, steps,
+              "Frames side by side in which a parameter of the preset, or an option, varies: N (5) "
+              "even or geometric steps, or the values of a list. May be repeated: all move "
+              "together, with as many steps each. Options: " +
+                  axis_options())
+      ->allow_extra_args(false);
+  group
+      .option("--rows", options.rows, steps,
+              "Rows of frames, one below the other, in which another parameter or option varies; "
+              "as --strip, with which it makes a grid")
+      ->allow_extra_args(false);
+  group
+      .option("--metering", options.metering, "together|each",
+              "The automatic exposure of a strip or a grid: one, of all frames together, or of "
+              "each frame its own")
+      ->capture_default_str();
 }
 
 struct Pair {
@@ -242,16 +289,13 @@ constexpr Pair kExcludes[] = {
     {"--date", "--sun-azimuth-deg"},
     {"--step-min", "--frames"},
     {"--sequence", "--time"},
-    {"--sequence", "--strip"},
-    {"--strip", "--out-dir"},
-    {"--atmosphere", "--strip"},
-    {"--panels", "--strip"},
+    {"--sequence", "--overview-m"},
+    {"--shadows", "--overview-m"},
     {"--panels", "--out-dir"},
     {"--exposure", "--adaptation-s"},
     {"--stokes", "--scalar"},
     {"--stokes", "--orders"},
     {"--stokes", "--clouds"},
-    {"--stokes", "--strip"},
 };
 
 }  // namespace
@@ -320,6 +364,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_camera_options(command, options);
   add_sun_options(command, options);
   add_scene_options(command, options);
+  add_terrain_options(command, options);
   add_picture_options(command, options);
   add_table_options(command, options);
   add_sequence_options(command, options);

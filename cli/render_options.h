@@ -20,13 +20,17 @@ struct RenderOptions {
   // Sun
   std::string sun_zenith, sun_azimuth, date, time, utc_offset = "0";
   // Several frames
-  std::string sequence, step_min, frames_per_second = "24", out_dir, format = "png", strip;
-  std::string adaptation = "1";
+  std::string sequence, step_min, frames_per_second = "24", out_dir, format = "png";
+  std::string adaptation = "1", metering = "together";
+  std::vector<std::string> strip, rows;
   int frames = 0, update_frames = 0;  // 0: not typed
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
   std::string moon, second_sun, clouds, wind = "5", atmosphere = "on";
   std::vector<std::string> meshes, dems;
+  std::string lod_constant, culling = "on", block_boxes = "none", overview;
+  int terrain_levels = 0;  // 0: not typed
+  bool wireframe = false;
   std::string dem_surroundings = "planet", dem_edge;
   // Picture
   std::string size = "1280x720", aerial = "volume", exposure, exposure_ev = "0", tone = "filmic";

@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kStripFrames = 5, kMostStripFrames = 64;
-
 Sequence load_sequence(const std::string& file, const Keyframe& start) {
   const std::string text = read_file(file, "a sequence (JSON)");
   const fs::path folder = fs::path(file).parent_path();
@@ -38,33 +36,6 @@ Sequence load_sequence(const std::string& file, const Keyframe& start) {
     return preset_named(path->string());
   };
   return parse_sequence(text, file, start, {preset, parse_instant});
-}
-
-Strip parse_strip(const std::string& text, const Preset& preset) {
-  constexpr std::string_view kForm =
-      "PARAMETER=LOW..HIGH or PARAMETER=LOW..HIGH:N in the parameter's unit";
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos)
-    throw UsageError("--strip", text, fmt::format("expected {}", kForm));
-  Strip strip{parse_parameters("--strip", text.substr(0, equals)).front(), {}};
-  if (!has_parameter(preset.atmosphere, strip.parameter))
-    throw UsageError("--strip", text, fmt::format("expected a parameter that {} has", preset.name));
-  auto [low, high] = parse_ends("--strip", text.substr(equals + 1), kForm);
-  double count = kStripFrames;
-  if (const std::size_t colon = high.find(':'); colon != std::string::npos) {
-    count = parse_number("--strip", high.substr(colon + 1));
-    high.resize(colon);
-  }
-  if (!(count >= 2 && count <= kMostStripFrames) || count != std::floor(count))
-    throw UsageError("--strip", text, fmt::format("expected 2 to {} frames", kMostStripFrames));
-  const double first = parse_number("--strip", low), last = parse_number("--strip", high);
-  for (int i = 0; i < static_cast<int>(count); ++i) {
-    strip.values.push_back(std::lerp(first, last, i / (count - 1)));
-    Atmosphere<double> atmosphere = preset.atmosphere;
-    set_parameter(atmosphere, strip.parameter, strip.values.back());
-    validate(atmosphere);
-  }
-  return strip;
 }
 
 // Every camera that the request holds, as far as it can be judged before there is a ground.
@@ -88,6 +59,7 @@ void require_mode(const CLI::App& command, bool is_day, bool is_sequence) {
     require(option, is_day, "expected with --time FROM..TO");
   for (const char* option : {"--adaptation-s", "--format"})
     require(option, is_sequence, "expected with a sequence (--sequence, or --time FROM..TO)");
+  require("--metering", false, "expected with --strip or --rows");
 }
 
 std::vector<std::string> parse_formats(const std::string& text) {
@@ -95,42 +67,6 @@ std::vector<std::string> parse_formats(const std::string& text) {
   if (text == "exr") return {".exr"};
   if (text == "png,exr" || text == "exr,png") return {".png", ".exr"};
   throw UsageError("--format", text, "expected png, exr or png,exr");
-}
-
-void check_outputs(const RenderOptions& options, const RenderRequest& request) {
-  const auto is_exr = [](const std::string& name) { return name.ends_with(".exr"); };
-  if (request.is_sequence) {
-    if (!options.out.empty())
-      throw UsageError("--out", options.out.front(), "expected --out-dir for a sequence");
-    if (options.out_dir.empty())
-      throw UsageError("--out-dir", "", "expected a directory for the frames of a sequence");
-  } else {
-    if (!options.out_dir.empty())
-      throw UsageError("--out-dir", options.out_dir,
-                       "expected a sequence (--sequence, or --time FROM..TO)");
-    if (options.out.empty())
-      throw UsageError("--out", "", "expected name.png, name.exr or name.npy");
-    if (options.panels && std::ranges::any_of(options.out, is_stdout))
-      throw UsageError("--panels", "true", "expected files: panels are written beside --out");
-    require_output_files(options.out, {".png", ".exr", ".npy"});
-  }
-  const auto is_linear = [](const std::string& name) {
-    return name.ends_with(".exr") || name.ends_with(".npy");
-  };
-  const std::vector<std::string>& names = request.is_sequence ? request.extensions : request.out;
-  const bool has_exr = std::ranges::any_of(names, is_exr);
-  const auto require_exr = [&](bool wanted, const char* option, const std::string& value) {
-    if (wanted && !has_exr) throw UsageError(option, value, "expected an output that ends in .exr");
-  };
-  const bool has_png =
-      std::ranges::any_of(options.out, [](const auto& name) { return name.ends_with(".png"); });
-  if (options.panels && !has_png)
-    throw UsageError("--panels", "true", "expected an output that ends in .png");
-  require_exr(options.layers, "--layers", "true");
-  require_exr(options.stokes, "--stokes", "true");
-  if (request.frame.primaries != Primaries::kRec709 && std::ranges::none_of(names, is_linear))
-    throw UsageError("--primaries", options.primaries,
-                     "expected an output that ends in .exr or .npy");
 }
 
 }  // namespace
@@ -158,10 +94,6 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
     request.sequence = parse_day(options, command, start);
   } else {
     request.sequence.keyframes = {start};
-  }
-  if (command.count("--strip") > 0) {
-    if (is_day) throw UsageError("--strip", options.strip, "expected no sequence beside it");
-    request.strip = parse_strip(options.strip, start.preset);
   }
   if (options.atmosphere == "off") {
     for (Keyframe& keyframe : request.sequence.keyframes) {
@@ -209,6 +141,42 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
     request.cache_trouble = kNoCachePlace;
   }
   return request;
+}
+
+void check_outputs(const RenderOptions& options, const RenderRequest& request) {
+  const auto is_exr = [](const std::string& name) { return name.ends_with(".exr"); };
+  if (request.is_sequence) {
+    if (!options.out.empty())
+      throw UsageError("--out", options.out.front(), "expected --out-dir for a sequence");
+    if (options.out_dir.empty())
+      throw UsageError("--out-dir", "", "expected a directory for the frames of a sequence");
+  } else {
+    if (!options.out_dir.empty())
+      throw UsageError("--out-dir", options.out_dir,
+                       "expected a sequence (--sequence, or --time FROM..TO)");
+    if (options.out.empty())
+      throw UsageError("--out", "", "expected name.png, name.exr or name.npy");
+    if (options.panels && std::ranges::any_of(options.out, is_stdout))
+      throw UsageError("--panels", "true", "expected files: panels are written beside --out");
+    require_output_files(options.out, {".png", ".exr", ".npy"});
+  }
+  const auto is_linear = [](const std::string& name) {
+    return name.ends_with(".exr") || name.ends_with(".npy");
+  };
+  const std::vector<std::string>& names = request.is_sequence ? request.extensions : request.out;
+  const bool has_exr = std::ranges::any_of(names, is_exr);
+  const auto require_exr = [&](bool wanted, const char* option, const std::string& value) {
+    if (wanted && !has_exr) throw UsageError(option, value, "expected an output that ends in .exr");
+  };
+  const bool has_png =
+      std::ranges::any_of(options.out, [](const auto& name) { return name.ends_with(".png"); });
+  if (options.panels && !has_png)
+    throw UsageError("--panels", "true", "expected an output that ends in .png");
+  require_exr(options.layers, "--layers", "true");
+  require_exr(options.stokes, "--stokes", "true");
+  if (request.frame.primaries != Primaries::kRec709 && std::ranges::none_of(names, is_linear))
+    throw UsageError("--primaries", options.primaries,
+                     "expected an output that ends in .exr or .npy");
 }
 
 RenderRequest render_request(const RenderOptions& options, const CLI::App& command) {

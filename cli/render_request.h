@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cli/render_options.h"
-#include "model/atmosphere/parameters.h"
 #include "model/base/content_cache.h"
 #include "model/polarisation.h"
 #include "model/tables/table_precision.h"
@@ -16,11 +15,6 @@
 #include "render/sequence/sequence.h"
 
 namespace skyfit::cli {
-
-struct Strip {
-  Parameter parameter;
-  std::vector<double> values;  // in the parameter's unit
-};
 
 struct RenderRequest {
   Scene scene;
@@ -31,9 +25,8 @@ struct RenderRequest {
   TablePrecision table_precision = TablePrecision::kFloat;
   std::optional<PolarisationAngle> stokes;  // also the polarisation of the sky
   FrameOptions frame;                       // camera, site and sun are those of the sequence
-  Sequence sequence;                        // of one frame for a single picture and a strip
+  Sequence sequence;                        // of one frame for a single picture
   bool is_sequence = false;
-  std::optional<Strip> strip;
   ToneOptions tone;
   double adaptation_s = 1;
   std::vector<std::string> out;         // of a picture
@@ -52,5 +45,8 @@ struct RenderRequest {
 // go.
 RenderRequest frame_request(const RenderOptions& options, const CLI::App& command);
 RenderRequest render_request(const RenderOptions& options, const CLI::App& command);
+// That a request has files to go to, of kinds that hold what it asks for. Called once in a process:
+// it takes the standard output where a file goes there.
+void check_outputs(const RenderOptions& options, const RenderRequest& request);
 
 }  // namespace skyfit::cli

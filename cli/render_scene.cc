@@ -90,6 +90,32 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
   }
 }
 
+TerrainOptions parse_terrain(const RenderOptions& options, const CLI::App& command) {
+  TerrainOptions terrain;
+  if (command.count("--lod-constant") > 0)
+    terrain.lod_constant =
+        parse_number_within("--lod-constant", options.lod_constant, kLeastLodConstant,
+                            kLargestLodConstant, "edges of triangles");
+  if (command.count("--terrain-levels") > 0) {
+    if (options.terrain_levels < 1 || options.terrain_levels > kMostLevels)
+      throw UsageError("--terrain-levels", std::to_string(options.terrain_levels),
+                       fmt::format("expected 1 to {}", kMostLevels));
+    terrain.levels = options.terrain_levels;
+  }
+  if (options.culling != "on" && options.culling != "off")
+    throw UsageError("--culling", options.culling, "expected on or off");
+  terrain.cull = options.culling == "on";
+  terrain.wireframe = options.wireframe;
+  if (options.block_boxes == "level") {
+    terrain.boxes = BlockColors::kLevel;
+  } else if (options.block_boxes == "culling") {
+    terrain.boxes = BlockColors::kCulling;
+  } else if (options.block_boxes != "none") {
+    throw UsageError("--block-boxes", options.block_boxes, "expected none, level or culling");
+  }
+  return terrain;
+}
+
 }  // namespace
 
 Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
@@ -142,6 +168,7 @@ FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) 
   frame.glare = options.glare == "eye" ? Glare::kEye : Glare::kNone;
   frame.primaries = parse_primaries(options.primaries);
   parse_sky_objects(options, command, frame);
+  frame.terrain = parse_terrain(options, command);
   validate(frame);
   return frame;
 }

@@ -56,8 +56,8 @@ AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
                        compute);
 }
 
-FrameOptions RenderSession::placed(const Shot& shot, const Preset& preset) const {
-  FrameOptions frame = request_.frame;
+FrameOptions RenderSession::placed(const Shot& shot, const Preset& preset,
+                                   FrameOptions frame) const {
   place_camera(
       shot.camera, shot.sun, preset.atmosphere.bottom_radius_m,
       [&](const std::optional<Site>& site) { return renderer_.ground_height_m(site); }, frame);
@@ -84,25 +84,30 @@ Preset RenderSession::show(double time_s) {
 
 Frame RenderSession::draw(const Shot& shot, double time_s,
                           const std::function<void(double)>& progress) {
+  return draw(shot, time_s, request_.frame, progress);
+}
+
+Frame RenderSession::draw(const Shot& shot, double time_s, const FrameOptions& options,
+                          const std::function<void(double)>& progress) {
   if (!timeline_) return draw_updated(shot, time_s, progress);
   // Before the first frame of an atmosphere that stays, while its tables are made.
   if (const Preset* preset = timeline_->steady(); preset != nullptr && !settled_) {
     renderer_.set_ground(drawn_atmosphere(*preset),
                          color_rule(refs::spectral_data_of(preset->atmosphere)));
-    renderer_.prepare(placed(shot, *preset));
+    renderer_.prepare(placed(shot, *preset, options));
     time_.done("ground");
   }
   const Preset preset = show(time_s);
   if (!std::exchange(warned_, true)) {
     for (const std::string& warning : renderer_.warnings()) warn(warning);
   }
-  const FrameOptions options = placed(shot, preset);
-  Frame drawn = renderer_.draw(options, progress);
+  const FrameOptions frame = placed(shot, preset, options);
+  Frame drawn = renderer_.draw(frame, progress);
   time_.done("frame: other", drawn.statistics.steps);
   if (request_.stokes) {
     add_polarisation(*model_, drawn_atmosphere(preset),
                      luminance_rule(refs::spectral_data_of(preset.atmosphere)),
-                     options.camera.altitude_m + basin_depth_m(request_.scene), options,
+                     frame.camera.altitude_m + basin_depth_m(request_.scene), frame,
                      *request_.stokes, drawn);
     drawn.metadata.emplace_back("skyfit:stokes", stokes_convention(*request_.stokes));
     time_.done("polarisation");
@@ -130,7 +135,7 @@ Frame RenderSession::draw_updated(const Shot& shot, double time_s,
     shown_ = now.tables;
     time_.done("tables to the renderer");
   }
-  Frame drawn = renderer_.draw(placed(shot, now.preset), progress);
+  Frame drawn = renderer_.draw(placed(shot, now.preset, request_.frame), progress);
   time_.done("frame: other", drawn.statistics.steps);
   drawn.statistics.passes.insert(drawn.statistics.passes.begin(), {"table update", now.update_ms});
   drawn.metadata.emplace_back("skyfit:table_blend", fmt::format("{:.9g}", now.blend));

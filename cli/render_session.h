@@ -29,11 +29,14 @@ class RenderSession {
                 double first_time_s, TimeAccount& time, Report report);
 
   Frame draw(const Shot& shot, double time_s, const std::function<void(double)>& progress);
+  // With other options than the request's.
+  Frame draw(const Shot& shot, double time_s, const FrameOptions& options,
+             const std::function<void(double)>& progress);
 
  private:
   AtmosphereTables tables_of(const Preset& preset) const;
   Atmosphere<double> drawn_atmosphere(const Preset& preset) const;
-  FrameOptions placed(const Shot& shot, const Preset& preset) const;
+  FrameOptions placed(const Shot& shot, const Preset& preset, FrameOptions frame) const;
   Preset show(double time_s);
   Frame draw_updated(const Shot& shot, double time_s, const std::function<void(double)>& progress);
 

@@ -29,7 +29,7 @@ const std::map<std::string, std::string>& refused_options() {
   static const std::map<std::string, std::string> refused = [] {
     std::map<std::string, std::string> names;
     for (const char* name : {"sequence", "step_min", "frames", "frames_per_second", "out_dir",
-                             "format", "adaptation_s", "strip"})
+                             "format", "adaptation_s", "strip", "rows", "metering"})
       names[name] = "expected in `skyfit render` alone: render() draws one frame";
     names["out"] = "expected in the save() of the frame";
     names["stats"] = "expected in `skyfit render` alone";

@@ -100,6 +100,7 @@ bool Renderer::is_above_ground(const FrameOptions& options) const {
 FrameOptions Renderer::raised(const FrameOptions& options) const {
   FrameOptions raised = options;
   raised.camera.altitude_m += basin_depth_m_;
+  if (raised.terrain.eye) raised.terrain.eye->altitude_m += basin_depth_m_;
   if (raised.clouds) raised.clouds->altitude_m += basin_depth_m_;
   return raised;
 }
@@ -153,5 +154,7 @@ void write_png(const Frame& frame, const fs::path& file, const ToneOptions& tone
   if (!exposed.exposure) exposed.exposure = metered_exposure(frame);
   module().write_png(frame, file, exposed);
 }
+
+void write_png(const FrameGrid& grid, const fs::path& file) { module().write_grid(grid, file); }
 
 }  // namespace skyfit

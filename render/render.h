@@ -145,6 +145,34 @@ enum class Glare {
   kEye,  // the CIE's point-spread function of the eye, render/image/glare.h
 };
 
+// What the boxes about the blocks of the ground are coloured by.
+enum class BlockColors {
+  kNone,   // no boxes
+  kLevel,  // of drawn blocks, six colours in turn
+  // Drawn: green; outside the frustum: red; behind the planet's horizon: blue.
+  kCulling,
+};
+
+inline constexpr double kLeastLodConstant = 57.6, kLargestLodConstant = 1600;
+inline constexpr int kMostLevels = 30;
+
+// How the blocks of the ground, 33 x 33 vertices each, are chosen and shown (Sperlhofer 2011, table
+// 4-1).
+struct TerrainOptions {
+  // A block is split while it is nearer than this many edges of its triangles, 1/32 of its
+  // arc; 57.6 to 1600: fewer would leave neighbours more than a level apart. Without one: what
+  // FrameOptions::samples_per_quad asks for, and less where it would be too many blocks.
+  std::optional<double> lod_constant = {};
+  // Of each of the six trees: 1 to 30; without one, as many as show details of 0.3 m.
+  std::optional<int> levels = {};
+  bool cull = true;  // otherwise the whole planet is drawn
+  bool wireframe = false;
+  BlockColors boxes = BlockColors::kNone;
+  // Whose blocks they are, at the same site, seen from the picture's camera; without one, its own.
+  // Without shadows.
+  std::optional<Camera> eye = {};
+};
+
 struct FrameOptions {
   int width = 1280, height = 720;
   Camera camera;
@@ -164,6 +192,7 @@ struct FrameOptions {
   Glare glare = Glare::kNone;                // fill Frame::glare
   Primaries primaries = Primaries::kRec709;  // of the light in Frame
   double samples_per_quad = 16;  // side of a terrain quad in the picture, in samples: 1 to 64
+  TerrainOptions terrain;
 };
 
 // Throws std::invalid_argument `render.name = value: must be ...` for the first option out of
@@ -228,12 +257,6 @@ struct FrameStatistics {
   std::vector<PassTime> steps = {};
 };
 
-// What a part of a picture shows, "mie.scattering" and "1e-05 1/m"; columns left .. left + width.
-struct Caption {
-  int left = 0, width = 0;
-  std::string name, value;
-};
-
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
 struct Frame {
   int width = 0, height = 0;
@@ -253,8 +276,7 @@ struct Frame {
   std::optional<FramePolarisation> polarisation;  // of add_polarisation()
   FrameStatistics statistics;
   std::vector<std::pair<std::string, std::string>>
-      metadata;                   // preset, sun, camera, version; written with the image
-  std::vector<Caption> captions;  // below the picture in a PNG; other files hold the picture alone
+      metadata;  // preset, sun, camera, version; written with the image
 };
 
 // What draws: OSMesa's software or, by EGL, a GPU (or Mesa's software where there is none).
@@ -355,10 +377,36 @@ struct ToneOptions {
   ViewTransform transform = ViewTransform::kHue;
 };
 
-// The automatic exposure of a frame by itself, m^2/cd.
+// The automatic exposure, m^2/cd: of a frame by itself, or of frames that are shown alike, of all
+// their pixels together.
 double metered_exposure(const Frame& frame);
+double metered_exposure(std::span<const Frame* const> frames);
 
 // PNG, 8 bit sRGB, dithered, with the frame's glare.
 void write_png(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone = {});
+
+// What a frame of a grid shows, "mie.scattering" and "1e-05 1/m".
+struct Caption {
+  std::string name, value;
+};
+
+inline constexpr int kGridGap = 4;  // black pixels between the frames of a grid
+
+// Frames in rows and columns as one picture, all of one size, kind and primaries.
+struct FrameGrid {
+  int columns = 1;
+  std::vector<Frame> frames;                                  // row by row
+  std::vector<std::vector<Caption>> captions;                 // of each frame
+  std::vector<ToneOptions> tones;                             // of each frame, with its exposure
+  std::vector<std::pair<std::string, std::string>> metadata;  // beside that of the first frame
+};
+
+// The frames as one, kGridGap apart; without captions, statistics are not kept. Throws
+// std::invalid_argument for frames that do not go together.
+Frame joined(const FrameGrid& grid);
+
+// PNG: each frame as write_png() shows it, its captions in a band below it where its width has room
+// for text of 8 pixels.
+void write_png(const FrameGrid& grid, const std::filesystem::path& file);
 
 }  // namespace skyfit

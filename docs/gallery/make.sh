@@ -25,6 +25,14 @@ picture() {
   pictures+=("$name")
 }
 
+# both NAME MODEL ARGUMENTS: the picture by the source's model and by the reference.
+both() {
+  local name=$1 model=$2
+  shift 2
+  picture "$name-${model//:/-}" --model "$model" "$@"
+  picture "$name-reference" "$@"
+}
+
 # panel NAME PANEL ARGUMENTS: one part of a frame, as `skyfit render --panels` writes it.
 panel() {
   local name=$1 part=$2
@@ -52,9 +60,10 @@ source_of() { # ID TITLE
 begin() {
   pictures=()
   commands=""
+  table=""
 }
 
-# figure TITLE WHAT-IS-TO-BE-SEEN CAPTION...: with the pictures since begin, each with its caption.
+# figure TITLE WHAT-IS-TO-BE-SEEN CAPTION...: with the pictures, or a table, since begin, each with its caption.
 figure() {
   local title=$1 seen=$2 i
   shift 2
@@ -65,6 +74,7 @@ figure() {
         "${pictures[$i]}" "$(escaped <<<"$title")" "$(escaped <<<"${1-}")"
       shift || true
     done
+    [[ -z $table ]] || printf '<pre>%s</pre>\n' "$table"
     printf '</div>\n<details><summary>Commands</summary><pre>%s</pre></details></section>\n' "$(escaped <<<"$commands")"
   } >>"$page"
 }
@@ -114,39 +124,51 @@ source_of s11 "Sperlhofer 2011: tables of Bruneton and Neyret, deferred shading"
 text "Tables 4-1 and 4-2: the atmosphere" "The published coefficients as a preset, and what they amount to." check sperlhofer-2011
 
 begin
-for altitude in 6000e3 400e3 30e3 2e3; do
-  case $altitude in 6000e3) pitch=-56 ;; 400e3) pitch=-17 ;; 30e3) pitch=-4 ;; *) pitch=2 ;; esac
-  for sun in 84 30; do
-    picture "s11-4-44-${altitude}-${sun}" "${s11[@]}" --model bruneton --view ground --altitude-m "$altitude" \
-      --pitch-deg "$pitch" --sun-zenith-deg "$sun" "${small[@]}"
-  done
-done
-figure "4-44: from space to the ground, sunset and midday" "No jump anywhere on the way down." \
-  "6000 km, low sun" "6000 km, midday" "400 km, low sun" "400 km, midday" "30 km, low sun" "30 km, midday" "2 km, low sun" "2 km, midday"
+picture s11-4-23-eye "${s11[@]}" --model bruneton --view 10km --block-boxes culling "${small[@]}"
+picture s11-4-23-outside "${s11[@]}" --model bruneton --view 10km --block-boxes culling --overview-m 1e6 "${small[@]}"
+picture s11-4-23-levels "${s11[@]}" --model bruneton --view 10km --block-boxes level --overview-m 3e5 "${small[@]}"
+figure "4-23: culling" "Only the blocks of the view's frustum are drawn. Boxes of drawn blocks are green, of those outside the frustum red, behind the horizon blue." \
+  "from the camera" "from 1000 km above it" "from 300 km above it, boxes by level"
 
-# grid ID TITLE SEEN PARAMETER=LOW..HIGH ALTITUDES ARGUMENTS: a strip for each altitude, by both models.
+# draw_times VIEW: triangles, and the time of the pass that draws them, over the constant of division; the first column, in
+# which shaders are compiled, is left out.
+draw_times() {
+  for _ in 1 2 3; do "$skyfit" render "${timed[@]}" --view "$1" --out "$scratch/times.png"; done | awk -v view="$1" '
+    $1 ~ /^[0-7]$/ && NF > 7 { triangles[$1] = $2; blocks[$1] = $3; if (!($1 in ms) || $8 < ms[$1]) ms[$1] = $8 }
+    END { for (i = 0; i < 8; ++i)
+            if (i % 4) printf "%-8s %5d %8s %11d %8d %10.1f\n", view, 30 + 30 * (i % 4), i < 4 ? "on" : "off", triangles[i], blocks[i], ms[i] }'
+}
+timed=("${s11[@]}" --model bruneton --strip lod-constant=58,60,90,120 --rows "culling=on,off" --stats "${small[@]}")
+begin
+table="view         C  culling   triangles   blocks    draw ms"$'\n'
+for view in valley 10km orbit; do
+  table+=$(draw_times "$view")$'\n'
+  commands+="skyfit render ${timed[*]} --view $view --out times.png"$'\n'
+done
+figure "4-25: time over the constant of division, with and without culling" \
+  "Culling gains most near the ground, 5 to 10 times, and least from orbit. The time is that of the pass that draws the ground, by the software renderer, the least of three runs."
+
+begin
+picture s11-4-44 "${s11[@]}" --model bruneton --view ground --rows altitude-m=6000e3,400e3,30e3,2e3 --rows pitch-deg=-56,-17,-4,2 \
+  --strip sun-zenith-deg=84,30 --metering each "${small[@]}"
+figure "4-44: from space to the ground, sunset and midday" "No jump anywhere on the way down." "bruneton; each its own exposure"
+
+# grid ID TITLE SEEN COLUMNS ROWS ARGUMENTS: one picture by each model.
 grid() {
-  local id=$1 title=$2 seen=$3 parameter=$4 altitudes=$5 model altitude
+  local id=$1 title=$2 seen=$3 columns=$4 rows=$5
   shift 5
   begin
-  local captions=()
-  for altitude in $altitudes; do
-    for model in bruneton reference; do
-      picture "s11-$id-$model-$altitude" "${s11[@]}" --model "$model" --view ground --altitude-m "$altitude" \
-        --sun-zenith-deg 60 --strip "$parameter:3" "${strip[@]}" "$@"
-      captions+=("$model, $altitude m, ${parameter%=*} ${parameter#*=}")
-    done
-  done
-  figure "$title" "$seen" "${captions[@]}"
+  both "s11-$id" bruneton "${s11[@]}" --view ground --sun-zenith-deg 60 --strip "$columns" --rows "$rows" "${strip[@]}" "$@"
+  figure "$title" "$seen" "bruneton" "reference"
 }
 grid 4-46 "4-46: Rayleigh scattering, half to twice" "Less scattering: a darker sky and less blue shift of the land." \
-  rayleigh.scattering=6.75e-6..2.7e-5 "2000 5000 20000" --pitch-deg -4 --azimuth-deg 120
+  rayleigh.scattering=6.75e-6..2.7e-5:3:geometric altitude-m=2000,5000,20000 --pitch-deg -4 --azimuth-deg 120
 grid 4-47 "4-47: scale height of the air, 2 to 10 km" "How far up the air reaches." \
-  rayleigh.scale_height=2000..10000 "2000 5000 20000" --pitch-deg -4 --azimuth-deg 120
+  rayleigh.scale_height=2000,6000,10000 altitude-m=2000,5000,20000 --pitch-deg -4 --azimuth-deg 120
 grid 4-48 "4-48: Mie scattering, towards the sun" "A larger halo near the ground, hardly any effect higher up." \
-  mie.scattering=2e-6..8e-6 "1000 3000 5000" --pitch-deg 8
+  mie.scattering=2e-6,4e-6,8e-6 altitude-m=1000,3000,5000 --pitch-deg 20 --glare none --exposure-ev 1
 grid 4-49 "4-49: scale height of the aerosol, 1 to 4 km, towards the sun" "The halo now reaches greater heights." \
-  mie.scale_height=1000..4000 "1000 3000 5000" --pitch-deg 8
+  mie.scale_height=1000,2000,4000 altitude-m=1000,3000,5000 --pitch-deg 20 --glare none --exposure-ev 1
 
 begin
 for k in 1e-4 3e-4 1e-3; do
@@ -187,12 +209,6 @@ text "5.2.2: memory and error of tables" \
 # --- Bodare and Sandberg 2014 -----------------------------------------------------------------------------------------
 bs=(--preset bodare-2014)
 source_of bs14 "Bodare and Sandberg 2014: 3D tables, ozone"
-both() { # NAME ARGUMENTS: the picture by the source's model and by the reference.
-  local name=$1 model=$2
-  shift 2
-  picture "$name-${model//:/-}" --model "$model" "$@"
-  picture "$name-reference" "$@"
-}
 begin
 both bs14-20 bodare "${bs[@]}" --view sunset --sun-zenith-deg 93 --strip ozone.column=0..454:2 "${small[@]}"
 figure "20: without and with ozone" "Ozone makes the twilight bluer." "bodare: 0 and 454 DU" "reference: 0 and 454 DU"
@@ -202,27 +218,22 @@ both bs14-21 bodare "${bs[@]}" --view sunset --sun-zenith-deg 80 --second-sun 70
 figure "21: two suns" "Each adds its light with its own direction." "bodare" "reference"
 
 begin
-thin_and_dense=(--strip rayleigh.scattering=1.279e-6..1.279e-4:2)
-both bs14-22 bodare "${bs[@]}" --view sunset --sun-zenith-deg 75 "${thin_and_dense[@]}" "${small[@]}"
-both bs14-22-1 bodare "${bs[@]}" --view sunset --sun-zenith-deg 75 "${small[@]}"
-figure "22: the air's density times 0.1, 10 and 1" "Skies of other worlds by density alone." \
-  "bodare, 0.1 and 10" "reference, 0.1 and 10" "bodare, 1" "reference, 1"
+picture bs14-22 "${bs[@]}" --view sunset --sun-zenith-deg 75 --strip rayleigh.scattering=1.279e-6..1.279e-4:3:geometric \
+  --rows model=bodare,reference "${small[@]}"
+figure "22: the air's density times 0.1, 1 and 10" "Skies of other worlds by density alone." "one exposure"
 
 begin
-captions=()
-for sun in 90 88 86 82 75 65; do
-  picture "bs14-24-$sun" --model bodare "${bs[@]}" --view valley --sun-zenith-deg "$sun" "${small[@]}"
-  captions+=("sun zenith $sun deg")
-done
-figure "24: light on the ground" "It changes evenly over the day." "${captions[@]}"
+picture bs14-24 "${bs[@]}" --view valley --strip sun-zenith-deg=90,88,86 --model bodare --metering each "${small[@]}"
+picture bs14-24-higher "${bs[@]}" --view valley --strip sun-zenith-deg=82,75,65 --model bodare --metering each "${small[@]}"
+figure "24: light on the ground" "It changes evenly over the day." "bodare; each its own exposure" "bodare"
 
 begin
 both bs14-13 bodare "${bs[@]}" --view sunset --sun-zenith-deg 86 --clouds 0.5,4000 "${small[@]}"
 figure "13: clouds under a low sun" "They turn red: the sun's light is what the air lets through." "bodare" "reference"
 
 begin
-both bs14-28 bodare "${bs[@]}" --view valley --strip mie.scattering=2e-5..1e-3:3 "${strip[@]}"
-figure "28: fog" "Foggy weather by parameters alone." "bodare" "reference"
+picture bs14-28 "${bs[@]}" --view valley --strip mie.scattering=2e-5..1e-3:3:geometric --rows model=bodare,reference "${strip[@]}"
+figure "28: fog" "Foggy weather by parameters alone." "one exposure"
 
 begin
 both bs14-29 bodare "${bs[@]}" --view limb "${small[@]}"
@@ -267,12 +278,9 @@ done
 figure "7.7: the mean of the densities, and the density at the mean height" "The latter sees farther down: density falls exponentially, so that the mean of two of them is larger." \
   "nielsen, haze 5e-4 to 7e-3" "nielsen:mean-height"
 begin
-captions=()
-for altitude in 4e3 8e3 12e3 16e3; do
-  both "n03-7-8-$altitude" nielsen "${n03[@]}" --view 10km --altitude-m "$altitude" "${small[@]}"
-  captions+=("$altitude m, nielsen" "reference")
-done
-figure "7.8: visibility over height" "The ground below is seen through ever thinner air, from ever farther away, and the horizon stays white." "${captions[@]}"
+picture n03-7-8 "${n03[@]}" --view 10km --strip altitude-m=4e3,8e3,12e3,16e3 --rows model=nielsen,reference "${strip[@]}"
+figure "7.8: visibility over height" "The ground below is seen through ever thinner air, from ever farther away, and the horizon stays white." \
+  "one exposure"
 begin
 both n03-7-9 nielsen "${n03[@]}" --view 10km --strip mie.scattering=3.968e-6..5.555e-5:4 "${strip[@]}"
 figure "7.9: haze" "The range is clear and slightly blue, at last it is gone." "nielsen, haze 5e-4 to 7e-3" "reference"
@@ -283,13 +291,9 @@ done
 figure "7.10: toward a low sun and away from it" "Toward it the sky is yellow, by the aerosol; away from it the air is clear. The blue of his figure away from the sun is light that was scattered more than once, which the reference has." \
   "toward, nielsen:sun-through-sky" "toward, reference" "away, nielsen:sun-through-sky" "away, reference"
 begin
-for altitude in 4e3 10e3; do
-  for model in nielsen:sun-through-sky hoffman-preetham; do
-    picture "n03-7-11-$altitude-${model//:/-}" --model "$model" "${n03[@]}" --view 10km --altitude-m "$altitude" "${small[@]}"
-  done
-done
+picture n03-7-11 "${n03[@]}" --view 10km --strip altitude-m=4e3,10e3 --rows model=nielsen:sun-through-sky,hoffman-preetham "${small[@]}"
 figure "7.11: variable and constant density" "From 10 km, constant density hides what is seen through thin air. Both have the light of the sun that their sky lets through." \
-  "4 km, nielsen:sun-through-sky" "4 km, hoffman-preetham" "10 km, nielsen:sun-through-sky" "10 km, hoffman-preetham"
+  "one exposure"
 
 # --- O'Neil 2005 ------------------------------------------------------------------------------------------------------
 on=(--preset oneil-2005)
@@ -323,12 +327,8 @@ both sfe07-4b schafhitzel "${earth[@]}" --view orbit --sun-zenith-deg 80 "${smal
 figure "4a, 4b: the Earth from space, and after sunrise from high above" "A blue limb; long paths are tinted near the terminator." \
   "space, schafhitzel" "space, reference" "orbit, schafhitzel" "orbit, reference"
 begin
-captions=()
-for sun in 89 78 40; do
-  both "sfe07-4d-$sun" schafhitzel "${earth[@]}" --view valley --sun-zenith-deg "$sun" "${small[@]}"
-  captions+=("sun zenith $sun deg, schafhitzel" "reference")
-done
-figure "4c to 4f: mountains at sunrise, in the morning, at midday" "The light follows the sun's angle." "${captions[@]}"
+picture sfe07-4d "${earth[@]}" --view valley --strip sun-zenith-deg=89,78,40 --rows model=schafhitzel,reference --metering each "${small[@]}"
+figure "4c to 4f: mountains at sunrise, in the morning, at midday" "The light follows the sun's angle." "each its own exposure"
 begin
 both sfe07-4g schafhitzel --preset schafhitzel-2007-mars --view space "${small[@]}"
 both sfe07-4h schafhitzel --preset schafhitzel-2007-mars --view valley "${small[@]}"
@@ -339,10 +339,9 @@ figure "4g, 4h: Mars without dust, from space and in a valley" "Another colour b
 cat >>"$page" <<'HTML'
 <h2 id="missing">What is not shown</h2>
 <ul>
-<li>Sperlhofer: the terrain and its levels (4-11 to 4-25), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
+<li>Sperlhofer: the terrain (4-11 to 4-17), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
 <code>--tone clip</code>), an object half in the air (4-50), and the three repairs (5-1 to 5-3):
-the renderer has no options for them. His half and double values are the ends of the strips, whose steps are
-even.</li>
+the renderer has no options for them.</li>
 <li>Bodare and Sandberg: the update over frames as frames (12; <code>--update-frames</code> draws them), the seam of the difference of
 two rays (16, 18), which no frame of <code>bodare</code> has, the build-up (27). Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>
 <li>Nielsen: his other plots (2.5, 5.1, 5.3, 5.4), the sky toward the sun (7.4), mountains by day (7.6), the edge of the world (7.14) and

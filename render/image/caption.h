@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Captions below the parts of a picture, in a band of their own: white on black, each centred below
-// its part, all of one size.
+// Captions below the frames of a grid, in bands of their own: white on black, each centred below
+// its frame, all of one size.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace skyfit {
 
-struct CaptionBand {
+struct CaptionBands {
   int height = 0;
-  std::vector<std::uint8_t> rgb;  // [pixel][3]; height rows that are as wide as the picture
+  std::vector<std::vector<std::uint8_t>> rgb;  // of each frame [pixel][3], as wide as the frame
 };
 
-// The captions stand on one line or, where that is too long, name above value, as large as a
-// sixteenth of the picture's height, or as fits. Empty where no text of 8 pixels fits. Throws
-// std::runtime_error where there is no font.
-CaptionBand caption_band(std::span<const Caption> captions, int width, int height);
+// What a frame shows stands on one line, or with a line for each quantity, or with its name above
+// its value: the first that fits, with text as large as a sixteenth of the frame's height, or as
+// fits. Height 0 where no text of 8 pixels fits. Throws std::runtime_error where there is no font.
+CaptionBands caption_bands(std::span<const std::vector<Caption>> captions, int frame_width,
+                           int frame_height);
 
 }  // namespace skyfit

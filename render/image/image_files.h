@@ -18,6 +18,7 @@ void write_map_file(const SkyMap& map, Primaries primaries, const std::filesyste
 // R, G, B and A of a table of float or half, see render/engine/table_files.h.
 void write_table_file(const EncodedTable& table, const std::filesystem::path& file);
 void write_png_file(const Frame& frame, const std::filesystem::path& file, const ToneOptions& tone);
+void write_grid_file(const FrameGrid& grid, const std::filesystem::path& file);
 
 // RGBA, 8 bit, as they are.
 void write_png_texels(std::span<const std::uint8_t> rgba, int width, int height,

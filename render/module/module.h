@@ -27,13 +27,14 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 12;
+  static constexpr int kRevision = 13;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);
   void (*write_exr)(const Frame&, const std::filesystem::path&);
   void (*write_map)(const SkyMap&, Primaries, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);
+  void (*write_grid)(const FrameGrid&, const std::filesystem::path&);
   void (*write_table)(const EncodedTable&, const std::filesystem::path&);
 };
 

@@ -91,6 +91,8 @@ void validate(const CameraPose& pose) {
           pose.azimuth * kDegreesPerRadian, "finite");
   require(pose.vertical_fov >= kRadiansPerDegree && pose.vertical_fov <= 150 * kRadiansPerDegree,
           "field_of_view_deg", pose.vertical_fov * kDegreesPerRadian, "1 to 150 degrees");
+  require(pose.overview_m >= 0 && pose.overview_m <= 1e9, "overview_m", pose.overview_m,
+          "0 to 1e9 m");
   if (pose.place) require_place(*pose.place, "");
   if (!pose.place && (pose.from_north || pose.look_at))
     throw std::invalid_argument(
@@ -169,6 +171,12 @@ void place_camera(const CameraPose& pose, const SunDirection& sun, double bottom
   }
   if (pose.from_north || pose.look_at)
     camera.azimuth = std::remainder(camera.azimuth - sun.azimuth, kTurn);
+  frame.terrain.eye.reset();
+  if (pose.overview_m > 0) {
+    frame.terrain.eye = camera;
+    camera.altitude_m += pose.overview_m;
+    camera.view_zenith = kTurn / 2;
+  }
 }
 
 }  // namespace skyfit

@@ -44,6 +44,9 @@ struct CameraPose {
   bool from_north = false;        // from north instead, at a place only
   std::optional<Target> look_at;  // instead of view_zenith and azimuth, at a place only
   double vertical_fov = 1;
+  // 0, or the picture is taken from so far above the camera, straight down, and shows the blocks of
+  // the ground that the camera sees.
+  double overview_m = 0;
   bool operator==(const CameraPose&) const = default;
 };
 

@@ -103,6 +103,16 @@ void validate(const FrameOptions& options) {
           "1 to 4");
   require(within(options.samples_per_quad, 1, 64), "samples_per_quad", options.samples_per_quad,
           "1 to 64");
+  const TerrainOptions& terrain = options.terrain;
+  if (terrain.lod_constant)
+    require(within(*terrain.lod_constant, kLeastLodConstant, kLargestLodConstant),
+            "terrain.lod_constant", *terrain.lod_constant,
+            fmt::format("{:.9g} to {:.9g}", kLeastLodConstant, kLargestLodConstant));
+  if (terrain.levels)
+    require(within(*terrain.levels, 1, kMostLevels), "terrain.levels", *terrain.levels,
+            fmt::format("1 to {}", kMostLevels));
+  if (terrain.eye && options.shadows)
+    throw std::invalid_argument("render.shadows = true: must be false with a terrain.eye");
   // That it is above the ground is known where there is a ground.
   require(within(camera.altitude_m, -1e5, 1e9), "camera.altitude_m", camera.altitude_m,
           "-1e5 to 1e9 m");

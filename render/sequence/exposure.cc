@@ -38,11 +38,13 @@ double quantile(std::vector<double>& values, double share) {
 }
 
 // Luminances without the suns' discs.
-std::vector<double> without_discs(const Frame& frame) {
-  std::vector<double> luminances(frame.luminance.begin(), frame.luminance.end());
-  for (const DiscPixel& disc : frame.discs)
-    luminances[disc.pixel] = std::max(luminances[disc.pixel] - disc.luminance, 0.0);
-  return luminances;
+void add_without_discs(const Frame& frame, std::vector<double>& luminances) {
+  const std::size_t first = luminances.size();
+  luminances.insert(luminances.end(), frame.luminance.begin(), frame.luminance.end());
+  for (const DiscPixel& disc : frame.discs) {
+    double& luminance = luminances[first + disc.pixel];
+    luminance = std::max(luminance - disc.luminance, 0.0);
+  }
 }
 
 // That the picture of a planet in space is exposed for; `level` otherwise.
@@ -52,13 +54,15 @@ double level_in_space(double level, double highlight, double space) {
   return planet > level ? level * std::pow(planet / level, share) : level;
 }
 
-double level_of_disc(double level, const Frame& frame) {
-  double area = 0, light = 0;
-  for (const DiscPixel& disc : frame.discs) {
-    area += disc.cover;
-    light += disc.luminance;
+double level_of_disc(double level, std::span<const Frame* const> frames) {
+  double area = 0, light = 0;  // area: in squared heights of the frame, summed over them
+  for (const Frame* frame : frames) {
+    for (const DiscPixel& disc : frame->discs) {
+      area += disc.cover / std::pow(frame->height, 2);
+      light += disc.luminance / std::pow(frame->height, 2);
+    }
   }
-  const double across = 2 * std::sqrt(area / std::numbers::pi) / frame.height;
+  const double across = 2 * std::sqrt(area / static_cast<double>(frames.size()) / std::numbers::pi);
   const double part = std::clamp((across - kSmallDisc) / (kLargeDisc - kSmallDisc), 0.0, 1.0);
   if (part <= 0) return level;
   return std::max(level, level * std::pow(light / area / kDiscLevel / level, part));
@@ -67,7 +71,13 @@ double level_of_disc(double level, const Frame& frame) {
 }  // namespace
 
 double metered_exposure(const Frame& frame) {
-  std::vector<double> luminances = without_discs(frame);
+  const Frame* const alone = &frame;
+  return metered_exposure(std::span(&alone, 1));
+}
+
+double metered_exposure(std::span<const Frame* const> frames) {
+  std::vector<double> luminances;
+  for (const Frame* frame : frames) add_without_discs(*frame, luminances);
   const double highlight = quantile(luminances, kHighlights);
   const double space_level = std::max(kSpace * highlight, 1e-3 * kDarkest);
   double sum = 0, seen = 0;
@@ -76,14 +86,14 @@ double metered_exposure(const Frame& frame) {
     sum += std::log(std::min(luminance, kBrightest));
     ++seen;
   }
-  if (seen == 0) return 1 / level_of_disc(kDarkest / kMiddleGrey, frame);
+  if (seen == 0) return 1 / level_of_disc(kDarkest / kMiddleGrey, frames);
   const double mean = std::exp(sum / seen);
   const double key = kMiddleGrey * std::pow(std::max(mean, kDarkest) / kOrdinary, kKeyPower);
   const double bright = quantile(luminances, kBrightPart);
   double level = std::max({mean / key, highlight / kHighlightLevel, bright / kBrightLevel});
   level = level_in_space(level, highlight, 1 - seen / static_cast<double>(luminances.size()));
   level = std::clamp(level, kDarkest / kMiddleGrey, kBrightest / kMiddleGrey);
-  return 1 / level_of_disc(level, frame);
+  return 1 / level_of_disc(level, frames);
 }
 
 double Adaptation::next(double metered, double passed_s) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cli/arguments.h"
+#include "cli/grid_request.h"
 #include "cli/render_arguments.h"
 #include "model/atmosphere/preset.h"
 
@@ -16,14 +17,25 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-RenderRequest request(std::vector<std::string> arguments) {
+template <class Request>
+Request parsed(Request (*request)(const RenderOptions&, const CLI::App&),
+               std::vector<std::string> arguments) {
   CLI::App app;
   RenderOptions options;
   add_render_options(app, options);
   arguments.insert(arguments.end(), {"--preset", "earth-clear"});
   std::ranges::reverse(arguments);  // as CLI11 wants them
   app.parse(arguments);
-  return render_request(options, app);
+  return request(options, app);
+}
+
+RenderRequest request(const std::vector<std::string>& arguments) {
+  return parsed(render_request, arguments);
+}
+
+GridRequest grid_of(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--out", "x.png"});
+  return parsed(grid_request, arguments);
 }
 
 std::vector<std::string> at_zurich(std::vector<std::string> more) {
@@ -62,10 +74,8 @@ TEST(RenderRequest, PolarisationIsThatOfTheReferenceInAnExr) {
   EXPECT_EQ(request({"--stokes", "--iau", "--out", "x.exr"}).stokes, PolarisationAngle::kIau);
   EXPECT_FALSE(request({"--out", "x.exr"}).stokes);
   EXPECT_THROW(request({"--stokes", "--out", "x.png"}), UsageError);
-  for (const auto& [option, value] : {std::pair("--model", "bruneton"),
-                                      {"--clouds", "0.4"},
-                                      {"--orders", "2"},
-                                      {"--strip", "mie.scattering=1e-6..8e-6"}})
+  for (const auto& [option, value] :
+       {std::pair("--model", "bruneton"), {"--clouds", "0.4"}, {"--orders", "2"}})
     EXPECT_THROW(request({"--stokes", option, value, "--out", "x.exr"}), UsageError) << option;
 }
 
@@ -123,10 +133,107 @@ TEST(RenderRequest, ModelsThatDoNotDrawAreRefused) {
   EXPECT_THROW(request({"--model", "preetham", "--out", "x.png"}), UsageError);
 }
 
-TEST(RenderRequest, StripsAreEvenlySpaced) {
-  const RenderRequest r = request({"--strip", "ozone.column=100..400:4", "--out", "x.png"});
-  EXPECT_EQ(r.strip->parameter, Parameter::kOzoneColumn);
-  EXPECT_THAT(r.strip->values, ::testing::ElementsAre(100, 200, 300, 400));
+std::vector<double> altitudes_of(const GridRequest& grid) {
+  std::vector<double> altitudes;
+  for (const RenderRequest& cell : grid.cells)
+    altitudes.push_back(cell.sequence.keyframes.front().camera.altitude_m);
+  return altitudes;
+}
+
+double ozone_of(const RenderRequest& cell) {
+  return get_parameter(cell.sequence.keyframes.front().preset.atmosphere, Parameter::kOzoneColumn);
+}
+
+TEST(GridRequest, AStripIsAGridOfOneRow) {
+  const GridRequest grid = grid_of({"--strip", "ozone.column=100..400:4"});
+  ASSERT_EQ(grid.cells.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_DOUBLE_EQ(ozone_of(grid.cells[i]), 100.0 * static_cast<double>(i + 1));
+  EXPECT_THAT(grid.columns[0].values, ::testing::ElementsAre("100", "200", "300", "400"));
+  EXPECT_EQ(grid.columns[0].unit, "DU");
+  EXPECT_TRUE(grid.rows.empty());
+  EXPECT_TRUE(grid.meters_together);
+}
+
+TEST(GridRequest, StepsAreGeometricOrListed) {
+  EXPECT_THAT(grid_of({"--strip", "mie.scattering=1e-6..1.6e-5:5:geometric"}).columns[0].values,
+              ::testing::ElementsAre("1e-06", "2e-06", "4e-06", "8e-06", "1.6e-05"));
+  EXPECT_THAT(grid_of({"--strip", "mie.scattering=2e-6,4e-6,8e-6"}).columns[0].values,
+              ::testing::ElementsAre("2e-06", "4e-06", "8e-06"));
+  EXPECT_EQ(grid_of({"--strip", "mie.scattering=2e-6..4e-6"}).cells.size(), 5u);
+}
+
+// A cell has the values of its column and its row: row by row, what is repeated moves together.
+TEST(GridRequest, RowsAndColumnsMakeEveryCell) {
+  const GridRequest grid =
+      grid_of({"--strip", "ozone.column=0,300", "--strip", "mie.scattering=1e-6,2e-6", "--rows",
+               "altitude-m=2000,5000,20000", "--rows", "exposure-ev=-1..1:3"});
+  EXPECT_THAT(altitudes_of(grid), ::testing::ElementsAre(2000, 2000, 5000, 5000, 20000, 20000));
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Preset& preset = grid.cells[i].sequence.keyframes.front().preset;
+    EXPECT_EQ(ozone_of(grid.cells[i]), i % 2 == 0 ? 0 : 300);
+    EXPECT_DOUBLE_EQ(get_parameter(preset.atmosphere, Parameter::kMieScattering),
+                     i % 2 == 0 ? 1e-6 : 2e-6);
+    EXPECT_EQ(grid.cells[i].tone.exposure_stops, -1.0 + static_cast<double>(i / 2));
+    EXPECT_EQ(grid.sessions[i], grid.sessions[0]) << "all are drawn by one renderer";
+  }
+}
+
+// An option of an axis is what it is when it is typed, with what it needs beside it.
+TEST(GridRequest, DaysAndTimesMoveTheSun) {
+  const GridRequest grid =
+      grid_of(at_zurich({"--strip", "time=08:00,13:28", "--rows", "date=2026-06-21,2026-12-21",
+                         "--utc-offset-h", "2"}));
+  ASSERT_EQ(grid.cells.size(), 4u);
+  const auto zenith_deg = [&](std::size_t i) {
+    return shot_at(grid.cells[i].sequence, 0, sun_over).sun.zenith / kDegree;
+  };
+  EXPECT_NEAR(zenith_deg(1), 47.4 - 23.44, 0.02);
+  EXPECT_NEAR(zenith_deg(3), 47.4 + 23.44, 0.1);  // the equation of time differs by 4 minutes
+  EXPECT_GT(zenith_deg(0), zenith_deg(1));
+}
+
+TEST(GridRequest, HasNoSequencesPanelsOrPolarisation) {
+  for (const char* option : {"--stokes", "--panels"})
+    EXPECT_THROW(grid_of({option, "--strip", "mie.scattering=1e-6..8e-6"}), UsageError) << option;
+  EXPECT_THROW(grid_of({"--sequence", "day.json", "--rows", "altitude-m=1,2"}), UsageError);
+}
+
+TEST(GridRequest, BlocksOfTheGroundMayVary) {
+  const GridRequest grid = grid_of(
+      {"--strip", "lod-constant=60,120", "--rows", "culling=on,off", "--overview-m", "1e5"});
+  ASSERT_EQ(grid.cells.size(), 4u);
+  EXPECT_EQ(grid.cells[1].frame.terrain.lod_constant, 120);
+  EXPECT_TRUE(grid.cells[1].frame.terrain.cull);
+  EXPECT_FALSE(grid.cells[2].frame.terrain.cull);
+  EXPECT_EQ(grid.cells[3].sequence.keyframes.front().camera.overview_m, 1e5);
+}
+
+TEST(RenderRequest, BlocksOfTheGround) {
+  const RenderRequest r = request({"--lod-constant", "80", "--terrain-levels", "7", "--wireframe",
+                                   "--block-boxes", "level", "--out", "x.png"});
+  EXPECT_EQ(r.frame.terrain.lod_constant, 80);
+  EXPECT_EQ(r.frame.terrain.levels, 7);
+  EXPECT_TRUE(r.frame.terrain.cull);
+  EXPECT_TRUE(r.frame.terrain.wireframe);
+  EXPECT_EQ(r.frame.terrain.boxes, BlockColors::kLevel);
+  for (const auto& [option, value] : {std::pair("--lod-constant", "50"),
+                                      {"--lod-constant", "far"},
+                                      {"--terrain-levels", "0"},
+                                      {"--culling", "yes"},
+                                      {"--block-boxes", "red"},
+                                      {"--overview-m", "0"}})
+    EXPECT_THROW(request({option, value, "--out", "x.png"}), UsageError) << option;
+  EXPECT_THROW(request({"--overview-m", "1e5", "--shadows", "--out", "x.png"}), UsageError);
+}
+
+TEST(GridRequest, AnotherModelIsAnotherSession) {
+  const GridRequest grid =
+      grid_of({"--strip", "model=bodare,bruneton", "--rows", "sun-zenith-deg=30,60"});
+  EXPECT_EQ(grid.cells[0].model, "bodare");
+  EXPECT_EQ(grid.cells[3].model, "bruneton");
+  EXPECT_EQ(grid.sessions[0], grid.sessions[2]);
+  EXPECT_NE(grid.sessions[0], grid.sessions[1]);
 }
 
 }  // namespace

@@ -45,6 +45,42 @@ TEST_F(RenderTest, AStripStandsSideBySide) {
   EXPECT_EQ(read("strip.png").substr(16, 8), std::string("\0\0\0\x68\0\0\0\x12", 8));
 }
 
+// Rows one below the other, from one set of tables; the numbers are in the EXR, too.
+TEST_F(RenderTest, AGridIsOnePicture) {
+  const Outcome outcome = run({"render",
+                               "--preset",
+                               "earth-clear",
+                               "--model",
+                               "hillaire",
+                               "--table-size",
+                               "tiny",
+                               "--strip",
+                               "sun-zenith-deg=20..80:3:geometric",
+                               "--rows",
+                               "altitude-m=9e6,2e7",
+                               "--view",
+                               "space",
+                               "--size",
+                               "32x18",
+                               "--samples-per-side",
+                               "1",
+                               "--metering",
+                               "each",
+                               "--out",
+                               "grid.png",
+                               "--out",
+                               "grid.exr"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("from left to right, sun-zenith-deg [deg]"));
+  EXPECT_THAT(outcome.out, HasSubstr("from top to bottom, altitude-m [m]:\n    0  9000000\n"));
+  // IHDR: 3 x 32 and two gaps of 4 wide, 2 x 18 and a gap high
+  EXPECT_EQ(read("grid.png").substr(16, 8), std::string("\0\0\0\x68\0\0\0\x28", 8));
+  const std::string exr = read("grid.exr");
+  EXPECT_THAT(exr, HasSubstr("sun-zenith-deg [deg]: 20, 40, 80"));
+  EXPECT_THAT(exr, HasSubstr("altitude-m [m]: 9000000, 20000000"));
+  EXPECT_THAT(exr, HasSubstr("skyfit:exposures_m2_per_cd"));
+}
+
 constexpr const char* kSequence = R"({"skyfit_sequence": 1, "frames_per_second": 10, "keyframes": [
   {"time_s": 0, "camera": {"view": "space"}, "sun": {"zenith_deg": 40}},
   {"time_s": 0.2, "sun": {"zenith_deg": 60}, "parameters": {"ground.albedo": 0.12}}]})";
@@ -241,6 +277,28 @@ TEST_F(RenderTest, SequencesAndStripsThatCannotBe) {
   expect_render_refusal({"--strip", "mie.fog=1..2"}, {"--strip", "mie.fog", "mie.scattering"});
   expect_render_refusal({"--strip", "ground.albedo=0..2"}, {"ground.albedo", "1.5"});
   expect_render_refusal({"--strip", "ground.albedo=0..1:1"}, {"--strip", "2 to 64 frames"});
+  expect_render_refusal({"--strip", "ground.albedo=0..1:3:geometric"},
+                        {"--strip", "ground.albedo=0..1:3:geometric", "above 0"});
+  expect_render_refusal({"--strip", "fog=1,2"}, {"--strip", "fog=1,2", "altitude-m"});
+  expect_render_refusal({"--rows", "altitude-m=5,high"}, {"--rows", "\"high\"", "finite number"});
+  expect_render_refusal({"--rows", "altitude-m=0,5"},
+                        {"--rows \"altitude-m=0\"", "height in metres"});
+  expect_render_refusal({"--rows", "orders=1,99"}, {"--rows", "orders=1,99", "1 to 20"});
+  expect_render_refusal({"--rows", "altitude-m=5,6", "--altitude-m", "7"},
+                        {"--altitude-m \"7\"", "without --rows altitude-m=5,6"});
+  expect_render_refusal({"--rows", "altitude-m=5,6", "--above-ground-m", "7"},
+                        {"--rows \"altitude-m=5\"", "without --above-ground-m"});
+  expect_render_refusal({"--rows", "altitude-m=5,6", "--strip", "altitude-m=5,6"},
+                        {"--rows", "each name once"});
+  expect_render_refusal({"--strip", "altitude-m=5,6", "--strip", "pitch-deg=1,2,3"},
+                        {"--strip", "pitch-deg=1,2,3", "3 values", "expected 2"});
+  expect_render_refusal({"--rows", "date=2026-06-21,2026-12-21", "--time", "12:00"},
+                        {"--rows", "date=2026-06-21", "--latitude-deg"});
+  expect_render_refusal({"--metering", "each"}, {"--metering", "--strip or --rows"});
+  expect_render_refusal({"--strip", "altitude-m=5,6", "--metering", "one"},
+                        {"--metering", "one", "together or each"});
+  expect_render_refusal({"--strip", "altitude-m=5,6", "--size", "6000x6000"},
+                        {"--size", "6000x6000", "2 x 1 frames have 12004 x 6000"});
   const std::vector<std::string> sequence = {"render",    "--preset", "earth-clear",
                                              "--out-dir", "x",        "--sequence"};
   expect_refusal(sequence + std::vector<std::string>{"missing.json"}, {"missing.json", "No such"});

@@ -147,28 +147,63 @@ TEST_F(ImageFiles, ExrKeepsTheLayersUnderTheirNames) {
   expect_equal(layers.albedo, "albedo.", "RGB");
 }
 
-// The picture is that without captions, and below each part there is text, in it and not beside it.
-TEST_F(ImageFiles, CaptionsStandBelowTheirParts) {
-  Frame frame = gradient(400, 60);
-  const std::vector<std::uint8_t> picture = tone_mapped(frame, exposed(frame));
-  frame.captions = {{0, 150, "ground.albedo", "0.1"}, {250, 150, "ground.albedo", "0.25"}};
-  const fs::path file = directory_ / "strip.png";
-  write_png_file(frame, file, exposed(frame));
+std::vector<std::uint8_t> pixels_of(const fs::path& file, int& height) {
   const auto input = OIIO::ImageInput::open(file.string());
-  ASSERT_TRUE(input);
-  ASSERT_GT(input->spec().height, 60);
-  std::vector<std::uint8_t> bytes(3u * 400 * static_cast<std::size_t>(input->spec().height));
-  ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data()));
-  EXPECT_TRUE(std::equal(picture.begin(), picture.end(), bytes.begin()));
-  std::set<int> columns;
-  for (std::size_t i = picture.size(); i < bytes.size(); i += 3)
-    if (bytes[i] > 128) columns.insert(static_cast<int>(i / 3 % 400));
-  EXPECT_TRUE(std::ranges::any_of(columns, [](int x) { return x < 150; }));
-  EXPECT_TRUE(std::ranges::any_of(columns, [](int x) { return x >= 250; }));
-  EXPECT_TRUE(std::ranges::none_of(columns, [](int x) { return x >= 150 && x < 250; }));
-  frame.captions = {{0, 20, "ground.albedo", "0.1"}};
-  write_png_file(frame, file, exposed(frame));
-  EXPECT_EQ(OIIO::ImageInput::open(file.string())->spec().height, 60) << "too narrow for text";
+  height = input->spec().height;
+  std::vector<std::uint8_t> bytes(3u * static_cast<std::size_t>(input->spec().width) *
+                                  static_cast<std::size_t>(height));
+  input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data());
+  return bytes;
+}
+
+// Each frame of a grid is the picture that it is alone, with its own exposure, and below it there
+// is text, in it and not beside it.
+TEST_F(ImageFiles, AGridHoldsItsFramesAndCaptionsBelowThem) {
+  constexpr int kWidth = 150, kHeight = 60, kWhole = kWidth + kGridGap + kWidth;
+  FrameGrid grid;
+  grid.columns = 2;
+  for (int i = 0; i < 4; ++i) {
+    grid.frames.push_back(gradient(kWidth, kHeight));
+    grid.captions.push_back({{"ground.albedo", "0.1"}, {"altitude", "2000 m"}});
+    grid.tones.push_back({.exposure = 1e-4 * (i + 1)});
+  }
+  const fs::path file = directory_ / "grid.png";
+  write_grid_file(grid, file);
+  int height = 0;
+  const std::vector<std::uint8_t> bytes = pixels_of(file, height);
+  ASSERT_EQ(height % 2, 0);
+  const int row_height = height / 2;
+  ASSERT_GT(row_height, kHeight);
+  for (int i = 0; i < 4; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto picture = tone_mapped(grid.frames[at], grid.tones[at]);
+    const int left = i % 2 * (kWidth + kGridGap), top = i / 2 * row_height;
+    int text_pixels = 0;
+    for (int y = 0; y < row_height; ++y) {
+      const auto* const row = bytes.data() + 3 * ((top + y) * kWhole + left);
+      if (y < kHeight) {
+        EXPECT_TRUE(std::equal(row, row + 3 * kWidth, picture.data() + 3 * y * kWidth)) << i;
+      } else {
+        text_pixels += static_cast<int>(
+            std::count_if(row, row + 3 * kWidth, [](int value) { return value > 128; }));
+      }
+    }
+    EXPECT_GT(text_pixels, 100) << i;
+  }
+  for (int y = 0; y < height; ++y)
+    for (int x = kWidth; x < kWidth + kGridGap; ++x)
+      EXPECT_EQ(bytes[static_cast<std::size_t>(3 * (y * kWhole + x))], 0);
+}
+
+TEST_F(ImageFiles, AGridTooNarrowForTextHasNone) {
+  FrameGrid grid;
+  grid.frames = {gradient(20, 60), gradient(20, 60)};
+  grid.captions.assign(2, {{"ground.albedo", "0.1"}});
+  grid.tones.assign(2, exposed(grid.frames[0]));
+  int height = 0;
+  write_grid_file(grid, directory_ / "grid.png");
+  pixels_of(directory_ / "grid.png", height);
+  EXPECT_EQ(height, 60 + kGridGap + 60);
 }
 
 TEST_F(ImageFiles, PngIsEightBitWithoutBands) {

@@ -63,11 +63,11 @@ class Patches : public ::testing::Test {
     const BlockSelection selection = affordable_blocks(view, {}, store()).front();
     view.cull = cull;
     Picture made;
-    terrain_.prepare(selection.blocks, view, made.draw);
+    terrain_.prepare(selection.blocks, view, view.altitude_m, made.draw);
     add_gbuffer(kWidth, kHeight, graph_);
     graph_.run(std::array{Pass{"terrain", {}, kGBuffer, [&] {
                                  clear_gbuffer();
-                                 terrain_.draw(made.draw, shot.projection, view.axes);
+                                 terrain_.draw(made.draw, shot.projection, view.axes, false);
                                }}});
     made.depth = graph_.read_rows("depth", GL_DEPTH_COMPONENT, 1, 0, kHeight);
     made.gbuffer = graph_.read_back_words("gbuffer");

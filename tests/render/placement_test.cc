@@ -110,6 +110,27 @@ TEST(PlaceCamera, LooksAtAPoint) {
               ThrowsMessage<std::invalid_argument>(HasSubstr("camera.look_at")));
 }
 
+// The camera that was meant becomes the eye whose blocks are shown, and the next frame has none.
+TEST(PlaceCamera, AnOverviewIsTakenFromAboveTheCamera) {
+  CameraPose pose;
+  pose.altitude_m = 2000;
+  pose.view_zenith = 95 * kDegree;
+  pose.overview_m = 5e5;
+  FrameOptions frame;
+  const auto flat = [](const std::optional<Site>&) { return 0.0; };
+  place_camera(pose, {1, 0}, kRadius, flat, frame);
+  ASSERT_TRUE(frame.terrain.eye);
+  EXPECT_EQ(frame.terrain.eye->altitude_m, 2000);
+  EXPECT_EQ(frame.terrain.eye->view_zenith, 95 * kDegree);
+  EXPECT_EQ(frame.camera.altitude_m, 502e3);
+  EXPECT_NEAR(frame.camera.view_zenith, 180 * kDegree, kRounding);
+  EXPECT_EQ(frame.camera.azimuth, frame.terrain.eye->azimuth);
+  pose.overview_m = 0;
+  place_camera(pose, {1, 0}, kRadius, flat, frame);
+  EXPECT_FALSE(frame.terrain.eye);
+  EXPECT_EQ(frame.camera.altitude_m, 2000);
+}
+
 TEST(Between, AnglesGoTheShortWay) {
   EXPECT_NEAR(angle_between(350 * kDegree, 10 * kDegree, 0.5), 360 * kDegree, kRounding);
   EXPECT_NEAR(angle_between(10 * kDegree, 350 * kDegree, 0.25), 5 * kDegree, kRounding);

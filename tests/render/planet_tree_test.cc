@@ -81,7 +81,7 @@ TEST(Selection, CoversTheSphereOnce) {
   for (TerrainView view : views()) {
     view.cull = false;
     const BlockSelection selection = select_blocks(view, stored_heights);
-    EXPECT_EQ(selection.outside + selection.behind, 0);
+    EXPECT_TRUE(selection.outside.empty() && selection.behind.empty());
     const int finest = view.levels;
     // Areas add up to six faces and no block lies inside another one.
     const std::set<CubeBlock> chosen(selection.blocks.begin(), selection.blocks.end());
@@ -197,10 +197,10 @@ TEST(Culling, DrawsAtMostAThirdOfTheTrianglesOfTheValley) {
   const auto drawn = static_cast<double>(culled.blocks.size());
   const double triangles = static_cast<double>(block_indices().patches[kWholePatch].back()) / 3;
   std::printf(
-      "[ culled ] %.0f of %.0f blocks drawn, %.0f and %.0f triangles (%.1f %%); %d nodes "
-      "outside, %d behind\n",
-      drawn, all, drawn * triangles, all * triangles, 100 * drawn / all, culled.outside,
-      culled.behind);
+      "[ culled ] %.0f of %.0f blocks drawn, %.0f and %.0f triangles (%.1f %%); %zu nodes "
+      "outside, %zu behind\n",
+      drawn, all, drawn * triangles, all * triangles, 100 * drawn / all, culled.outside.size(),
+      culled.behind.size());
   EXPECT_LE(drawn, all / 3);
 }
 

@@ -97,7 +97,7 @@ void ObjectPass::submit(const Model& model) const {
   glVertexArrayVertexBuffer(layout_.id(), 0, model.vertices.id(), 0, sizeof(ObjectVertex));
   glVertexArrayElementBuffer(layout_.id(), model.indices.id());
   glBindVertexArray(layout_.id());
-  glDrawElements(GL_TRIANGLES, model.index_count, GL_UNSIGNED_INT, nullptr);
+  glDrawElements(model.primitive, model.index_count, GL_UNSIGNED_INT, nullptr);
 }
 
 void ObjectPass::draw(const Model& model, const ObjectPlace& place, const Projection& projection,

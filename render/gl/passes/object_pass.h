@@ -32,6 +32,7 @@ class ObjectPass {
   struct Model {
     GlBuffer vertices, indices;
     int index_count = 0;
+    GLenum primitive = GL_TRIANGLES;
     std::int64_t triangles() const { return index_count / 3; }
   };
   static Model upload_mesh(const ObjectMesh& mesh);

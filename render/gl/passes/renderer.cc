@@ -18,6 +18,8 @@
 #include "render/gl/passes/passes.h"
 #include "render/gl/passes/resolve.h"
 #include "render/gl/passes/shadow_pass.h"
+#include "render/gl/terrain/block_boxes.h"
+#include "render/gl/terrain/color_reflectance.h"
 #include "render/gl/terrain/map_ground.h"
 #include "render/gl/terrain/regional_ground.h"
 #include "render/gl/terrain/relief.h"
@@ -97,6 +99,7 @@ class GlRenderer final : public FrameDrawer {
                       bottom, radius_m_));
     }
     radius_m_ = bottom;
+    color_.emplace(color);
     // The made-up planet's colours have the preset's ground albedo as their mean.
     NodeValues albedo;
     for (std::size_t k = 0; k < 4; ++k)
@@ -244,6 +247,7 @@ class GlRenderer final : public FrameDrawer {
     TerrainDraw blocks;
     std::vector<Placed> meshes;  // they cast shadows, the moon does not
     std::optional<Placed> moon;
+    std::optional<ObjectPass::Model> boxes;  // of blocks; kilometres from the camera, site axes
     std::vector<ShadowView> shadows;
     std::array<TerrainDraw, kShadowMaps> casters;
     double farthest_km = 0;
@@ -254,8 +258,26 @@ class GlRenderer final : public FrameDrawer {
   }
 
   TerrainView view_of(const FrameOptions& options) const {
-    return terrain_view(options, axes_of(options.site), *ground_, radius_m_,
-                        ground_distance_m(options));
+    FrameOptions seen = options;
+    seen.camera = options.terrain.eye.value_or(options.camera);
+    return terrain_view(seen, axes_of(options.site), *ground_, radius_m_, ground_distance_m(seen));
+  }
+
+  static glm::dvec3 sun_of(const FrameOptions& options) {
+    return {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith)};
+  }
+
+  void add_boxes(const FrameOptions& options, const TerrainView& view,
+                 const BlockSelection& selection) {
+    current_.boxes.reset();
+    if (options.terrain.boxes == BlockColors::kNone) return;
+    std::vector<MeasuredNode> drawn;
+    for (const CubeBlock& block : current_.blocks.seen)
+      drawn.push_back({block, terrain_->store().heights(block).whole});
+    current_.boxes =
+        ObjectPass::upload_mesh(block_boxes({drawn, selection}, view, options.camera.altitude_m,
+                                            options.terrain.boxes, sun_of(options), *color_));
+    current_.boxes->primitive = GL_LINES;
   }
 
   // Chooses the blocks of the picture and of the shadow maps and makes those that are missing.
@@ -272,13 +294,16 @@ class GlRenderer final : public FrameDrawer {
     // As fine for the shadows as for the picture: a surface must not shade itself.
     const std::vector<BlockSelection> selections = affordable_blocks(view, casters, store);
     const BlockSelection& selection = selections.front();
-    statistics.blocks_outside = selection.outside;
-    statistics.blocks_behind = selection.behind;
+    statistics.blocks_outside = static_cast<int>(selection.outside.size());
+    statistics.blocks_behind = static_cast<int>(selection.behind.size());
     statistics.blocks_made = store.take_made();
-    terrain_->prepare(selection.blocks, view, current_.blocks);
+    terrain_->prepare(selection.blocks, view, options.camera.altitude_m, current_.blocks);
+    add_boxes(options, view, selection);
+    view.cull = true;
     for (std::size_t i = 0; i < casters.size(); ++i) {
       view.planes = casters[i];
-      terrain_->prepare(selections[i + 1].blocks, view, current_.casters[i]);
+      terrain_->prepare(selections[i + 1].blocks, view, options.camera.altitude_m,
+                        current_.casters[i]);
     }
     statistics.triangles = current_.blocks.triangles;
     statistics.blocks_drawn = current_.blocks.blocks;
@@ -289,8 +314,7 @@ class GlRenderer final : public FrameDrawer {
   }
 
   std::vector<ShadowView> shadow_views_of(const FrameOptions& options) const {
-    const glm::dvec3 sun(std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith));
-    return shadow_views(sun, ground_distance_m(options), ground_->highest_m());
+    return shadow_views(sun_of(options), ground_distance_m(options), ground_->highest_m());
   }
 
   void place_objects(const FrameOptions& options, FrameStatistics& statistics) {
@@ -316,7 +340,7 @@ class GlRenderer final : public FrameDrawer {
                               current_.axes,
                               current_.shadows,
                               current_.farthest_km,
-                              current_.meshes.empty() && !current_.moon,
+                              current_.meshes.empty() && !current_.moon && !current_.boxes,
                               current_.blocks.nearest_m,
                               ground_->highest_m(),
                               materials_,
@@ -324,11 +348,12 @@ class GlRenderer final : public FrameDrawer {
     std::vector<Pass> list;
     if (!current_.shadows.empty())
       list.push_back({"shadow maps", {}, {}, [this] { draw_shadows(); }});
-    list.push_back({"terrain", {}, kGBuffer, [this] {
+    list.push_back({"terrain", {}, kGBuffer, [this, wireframe = options.terrain.wireframe] {
                       clear_gbuffer();
-                      terrain_->draw(current_.blocks, current_.projection, current_.axes);
+                      terrain_->draw(current_.blocks, current_.projection, current_.axes,
+                                     wireframe);
                     }});
-    if (!current_.meshes.empty() || current_.moon) {
+    if (!current_.meshes.empty() || current_.moon || current_.boxes) {
       list.push_back({"objects", {}, kGBuffer, [this] { draw_objects(); }});
     }
     if (atmosphere_.has_sky_view(options)) {
@@ -373,6 +398,9 @@ class GlRenderer final : public FrameDrawer {
     if (current_.moon)
       objects_.draw(*current_.moon->model, current_.moon->place, current_.projection,
                     current_.axes);
+    if (current_.boxes)
+      objects_.draw(*current_.boxes, {glm::dmat3(1), glm::dvec3(0)}, current_.projection,
+                    current_.axes);
   }
 
   const ShadowPass& shadow_maps() {
@@ -397,6 +425,7 @@ class GlRenderer final : public FrameDrawer {
   FrameGraph graph_;
   double radius_m_ = 0;
   NodeValues albedo_{};
+  std::optional<ColorReflectance> color_;
   std::unique_ptr<Ground> ground_;
   RegionalMaps regions_;  // null before the first ground
   SiteAxes home_;         // where the camera stands without a site

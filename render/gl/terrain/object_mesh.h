@@ -30,7 +30,8 @@ struct ObjectMaterial {
 
 struct ObjectMesh {
   std::vector<ObjectVertex> vertices;
-  std::vector<std::uint32_t> indices;     // three for each triangle, counterclockwise from outside
+  // Three for each triangle, counterclockwise from outside; or, in a mesh of lines, two for each.
+  std::vector<std::uint32_t> indices;
   std::vector<ObjectMaterial> materials;  // the last one, without a name, is that of faces without
   std::string warning;  // of materials that are in no file; empty: none is missing
 };

@@ -144,8 +144,8 @@ class Selector {
     if (!view_.cull) return;
     std::erase_if(nodes, [&](const Node& node) {
       const Visibility seen = frustum_.visibility(node.points, node.block.level, node.heights);
-      if (seen == Visibility::kBehind) ++selection_.behind;
-      if (seen == Visibility::kOutside) ++selection_.outside;
+      if (seen == Visibility::kBehind) selection_.behind.push_back({node.block, node.heights});
+      if (seen == Visibility::kOutside) selection_.outside.push_back({node.block, node.heights});
       return seen != Visibility::kSeen;
     });
   }

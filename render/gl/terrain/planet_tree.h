@@ -66,6 +66,7 @@ struct TerrainView {
   double radius_m = 6360e3, highest_m = 9e3;
   double split_ratio = 50;  // >= 1.8
   int levels = 9;           // >= 1
+  bool fixed = false;       // the ratio is not to be made smaller
   bool cull = true;
   // What is seen instead of the picture's frustum, when there are any: normals that point inward
   // and distances from the camera, in the axes of the site.
@@ -77,9 +78,15 @@ struct TerrainView {
   std::vector<glm::dvec4> bounds() const;
 };
 
+// A node of the tree and the heights between which its ground is known to lie.
+struct MeasuredNode {
+  CubeBlock block;
+  HeightRange heights;
+};
+
 struct BlockSelection {
-  std::vector<CubeBlock> blocks;  // near to far
-  int outside = 0, behind = 0;    // culled nodes: outside the frustum, behind the horizon
+  std::vector<CubeBlock> blocks;              // near to far
+  std::vector<MeasuredNode> outside, behind;  // culled: outside the frustum, behind the horizon
 };
 
 // Heights of the blocks' vertices, which it may have to make first.

@@ -90,11 +90,14 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m, ContentCache* ca
 }
 
 void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& view,
-                          TerrainDraw& draw) const {
+                          double camera_m, TerrainDraw& draw) const {
+  const glm::dvec3 camera = (view.radius_m + camera_m) * view.axes.z;
+  draw.eye_km = glm::vec3(1e-3 * (view.camera() - camera));
   std::vector<MeasuredBlock> measured;
   for (const CubeBlock& block : blocks)
     measured.push_back({block, store_.heights(block), morph_range(block, view).second});
   const std::vector<BlockPatches> chosen = choose_patches(view, measured);
+  draw.seen.clear();
   draw.hidden = 0;
   draw.triangles = 0;
   draw.nearest_m = std::numeric_limits<double>::infinity();
@@ -108,6 +111,7 @@ void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& 
       ++draw.hidden;
       continue;
     }
+    draw.seen.push_back(blocks[i]);
     draw.nearest_m = std::min(draw.nearest_m, nearest_m);
     commands.push_back({0, 1, static_cast<GLuint>(indices.size()), store_.first_vertex(blocks[i]),
                         static_cast<GLuint>(instances.size())});
@@ -121,10 +125,11 @@ void TerrainPass::prepare(std::span<const CubeBlock> blocks, const TerrainView& 
     }
     const glm::dvec3 centre = block_centre(blocks[i], radius_m_);
     const auto [morph_begin, morph_end] = morph_range(blocks[i], view);
-    instances.push_back({glm::vec3(1e-3 * (centre - view.camera())),
+    instances.push_back({glm::vec3(1e-3 * (centre - camera)),
                          static_cast<float>(1e-3 * morph_begin),
                          static_cast<float>(1e-3 * morph_end)});
   }
+  if (camera_m != view.altitude_m) draw.nearest_m = 0;
   refill(draw.instances, std::span<const BlockInstance>(instances));
   refill(draw.indices, std::span<const std::uint16_t>(indices));
   refill(draw.commands, std::span<const DrawCommand>(commands));
@@ -144,8 +149,8 @@ void TerrainPass::submit(const TerrainDraw& draw) const {
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
-void TerrainPass::draw(const TerrainDraw& draw, const Projection& projection,
-                       const SiteAxes& axes) const {
+void TerrainPass::draw(const TerrainDraw& draw, const Projection& projection, const SiteAxes& axes,
+                       bool wireframe) const {
   const glm::dmat3 view_from_planet =
       glm::dmat3(projection.view_from_site) * axes.site_from_planet();
   const glm::dmat3 clip_from_view(1 / projection.tangent.x, 0, 0,  //
@@ -154,15 +159,20 @@ void TerrainPass::draw(const TerrainDraw& draw, const Projection& projection,
   const Uniforms uniforms(program_.id());
   uniforms.set("clip_from_planet", glm::mat3(clip_from_view * view_from_planet));
   uniforms.set("near_km", projection.near_km);
+  uniforms.set("eye_km", draw.eye_km);
   const NodeValues water = water_reflectance_.value_or(NodeValues{});
   uniforms.set("water_reflectance", glm::vec4(water[0], water[1], water[2], water[3]));
   uniforms.set("own_reflectance_of_water", water_reflectance_ ? 1.0f : 0.0f);
   glUseProgram(program_.id());
+  if (wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   submit(draw);
+  if (wireframe) glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
 void TerrainPass::draw_depth(const TerrainDraw& draw, const glm::mat4& clip_from_planet) const {
-  Uniforms(depth_program_.id()).set("clip_from_planet", clip_from_planet);
+  const Uniforms uniforms(depth_program_.id());
+  uniforms.set("clip_from_planet", clip_from_planet);
+  uniforms.set("eye_km", draw.eye_km);
   glUseProgram(depth_program_.id());
   submit(draw);
 }

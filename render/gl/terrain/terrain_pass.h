@@ -21,7 +21,9 @@ struct TerrainDraw {
   GlBuffer instances, commands, indices;  // of each block one
   int blocks = 0, hidden = 0;             // in part or as a whole; with no patch that is seen
   std::int64_t triangles = 0;
-  double nearest_m = 0;  // nothing of it is nearer to the camera
+  double nearest_m = 0;         // nothing of it is nearer to the camera
+  glm::vec3 eye_km{0};          // of the view whose blocks they are, from the camera, planet axes
+  std::vector<CubeBlock> seen;  // the blocks
 };
 
 class TerrainPass {
@@ -32,9 +34,12 @@ class TerrainPass {
   BlockStore& store() { return store_; }
 
   // The visible patches of blocks in the store, in place of what `draw` held.
-  void prepare(std::span<const CubeBlock> blocks, const TerrainView& view, TerrainDraw& draw) const;
+  // They are seen from `camera_m` above the bottom radius, which the view's camera stands below.
+  void prepare(std::span<const CubeBlock> blocks, const TerrainView& view, double camera_m,
+               TerrainDraw& draw) const;
 
-  void draw(const TerrainDraw& draw, const Projection& projection, const SiteAxes& axes) const;
+  void draw(const TerrainDraw& draw, const Projection& projection, const SiteAxes& axes,
+            bool wireframe) const;
 
   // `clip_from_planet`: of positions relative to the camera, planet axes, km.
   void draw_depth(const TerrainDraw& draw, const glm::mat4& clip_from_planet) const;

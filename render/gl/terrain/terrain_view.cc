@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/gl/terrain/terrain_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -9,7 +11,8 @@
 namespace skyfit {
 namespace {
 
-constexpr double kLargestRatio = 50, kSmallestRatio = 1.8;
+constexpr double kLargestRatio = kLargestLodConstant / kBlockQuads,
+                 kSmallestRatio = kLeastLodConstant / kBlockQuads;
 // A view from above holds fewer levels of the tree, so that each can be finer for the same number
 // of blocks; that from 2 m holds this many.
 constexpr double kLevelsFromGround = 19;
@@ -45,7 +48,12 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
   const double finer = std::sqrt(kLevelsFromGround / std::min(levels, kLevelsFromGround));
   view.split_ratio = std::clamp(finer / (kBlockQuads * options.samples_per_quad * sample),
                                 kSmallestRatio, kLargestRatio);
-  view.levels = levels_of(radius_m);
+  view.levels = options.terrain.levels.value_or(levels_of(radius_m));
+  view.cull = options.terrain.cull;
+  if (const auto& constant = options.terrain.lod_constant) {
+    view.split_ratio = *constant / kBlockQuads;
+    view.fixed = true;
+  }
   return view;
 }
 
@@ -62,12 +70,18 @@ std::vector<BlockSelection> affordable_blocks(TerrainView& view, std::span<const
     try {
       std::vector<BlockSelection> selections = {select_blocks(view, heights_of)};
       TerrainView other = view;
+      other.cull = true;
       for (const Planes& planes : others) {
         other.planes = planes;
         selections.push_back(select_blocks(other, heights_of));
       }
       return selections;
     } catch (const std::length_error&) {
+      if (view.fixed)
+        throw std::invalid_argument(fmt::format(
+            "render.terrain.lod_constant = {:.9g}: must be smaller, or levels fewer, for "
+            "at most {} blocks",
+            view.split_ratio * kBlockQuads, BlockStore::kMostBlocks));
       if (view.split_ratio <= kSmallestRatio) throw;
       view.split_ratio = std::max(0.8 * view.split_ratio, kSmallestRatio);
     }

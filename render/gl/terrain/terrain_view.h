@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How finely the planet is drawn: near the ground a quad spans FrameOptions::samples_per_quad
-// samples of the picture, but no block is split beyond 50 times its size (Sperlhofer 2011, C = 50);
-// 9 levels and, near the camera, as many more as show details of a third of a metre.
+// samples of the picture, but no block is split beyond 50 times its size; 9 levels and, near the
+// camera, as many more as show details of a third of a metre. TerrainOptions say otherwise.
 #pragma once
 
 #include "render/gl/passes/site_axes.h"
@@ -24,7 +24,7 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
 // The blocks of a view and then, as fine, of what each of the other bounds holds
 // (TerrainView::planes), in the store as a new frame's; where all together are more than memory
 // should hold, the view is made coarser. Throws std::length_error when even the coarsest has too
-// many.
+// many, std::invalid_argument when a view of a fixed constant has.
 using Planes = std::vector<glm::dvec4>;
 std::vector<BlockSelection> affordable_blocks(TerrainView& view, std::span<const Planes> others,
                                               BlockStore& store);
