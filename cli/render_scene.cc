@@ -61,7 +61,8 @@ void parse_dems(const RenderOptions& options, const CLI::App& command, Scene& sc
   scene.dem_surroundings =
       options.dem_surroundings == "sea" ? DemSurroundings::kSea : DemSurroundings::kPlanet;
   if (command.count("--dem-edge-m") > 0)
-    scene.dem_edge_m = parse_number("--dem-edge-m", options.dem_edge);
+    scene.dem_edge_m =
+        parse_number_within("--dem-edge-m", options.dem_edge, 0, 1e7, "a length in metres");
 }
 
 void parse_sky_objects(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {

@@ -201,7 +201,8 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
                         {"heights.png: cannot be read: expected a GeoTIFF or an .hgt of SRTM"});
   expect_render_refusal({"--dem", "heights.png", "--dem-surroundings", "lava"},
                         {"--dem-surroundings", "lava", "planet or sea"});
-  expect_render_refusal({"--dem", "heights.png", "--dem-edge-m", "-5"}, {"dem_edge_m", "-5"});
+  expect_render_refusal({"--dem", "heights.png", "--dem-edge-m", "-5"},
+                        {"--dem-edge-m \"-5\"", "0 to"});
   expect_render_refusal({"--dem-edge-m", "100"}, {"--dem-edge-m", "with --dem"});
   expect_render_refusal({"--mesh", "tower.obj"}, {"--mesh", "tower.obj", "FILE@LATITUDE"});
   expect_render_refusal({"--mesh", "tower.obj@47,8,0"},
