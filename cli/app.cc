@@ -44,12 +44,13 @@ int print_help(const CLI::App& app, const CLI::Success& help_or_version) {
   return status;
 }
 
-// An empty name is one that a script lost; it names no file.
+// An empty name is one that a script lost; it names no file. What may be another name as well says
+// itself which there are.
 void expect_names(CLI::App& command) {
   for (CLI::Option* const known : command.get_options()) {
     const std::string form = known->get_type_name();
     const auto names = [&](const char* what) { return form.find(what) != std::string::npos; };
-    if (!names("FILE") && !names("DIR") && !names("PRESET") && !names("PLAN")) continue;
+    if (names("NAME") || (!names("FILE") && !names("DIR") && !names("PLAN"))) continue;
     const std::string name = known->get_name();
     known->check([name, form](const std::string& text) {
       if (text.empty()) throw UsageError(name, text, "expected " + form);

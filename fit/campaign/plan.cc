@@ -93,17 +93,17 @@ std::vector<std::string> matches(const CampaignPlan& plan, const std::string& in
   for (std::size_t i = 0; i < found.gl_pathc; ++i) paths.emplace_back(found.gl_pathv[i]);
   globfree(&found);
   if (status != 0)
-    throw std::invalid_argument(
-        fmt::format("{}: inputs: {}: expected a file or a pattern of files in the folder of the plan",
-                    plan.inputs_place, printable(input)));
+    throw std::invalid_argument(fmt::format(
+        "{}: inputs: {}: expected a file or a pattern of files in the folder of the plan",
+        plan.inputs_place, printable(input)));
   // What describes a sky beside it is no sky.
   std::erase_if(paths, [](const std::string& path) { return path.ends_with(".sidecar.json"); });
   for (std::string& path : paths) {
     if (!fs::path(input).is_absolute())
       path = fs::path(path).lexically_relative(plan.folder).string();
     if (!named_file(plan.folder, path, named))
-      throw std::invalid_argument(
-          fmt::format("{}: inputs: {}: expected {}", plan.inputs_place, printable(path), kNamedFile));
+      throw std::invalid_argument(fmt::format("{}: inputs: {}: expected {}", plan.inputs_place,
+                                              printable(path), kNamedFile));
   }
   return paths;
 }
@@ -240,12 +240,14 @@ std::string CampaignPlan::place_of_option(std::string_view message) const {
   std::string place = option_places.at("");
   for (const auto& [name, at] : option_places) {
     if (name.empty()) continue;
+    const auto is_letter = [&](std::size_t i) {
+      return i < message.size() &&
+             (std::isalnum(static_cast<unsigned char>(message[i])) != 0 || message[i] == '_');
+    };
     const std::size_t found = message.find(name), end = found + name.size();
-    const bool is_whole = found != message.npos &&
-                          (end == message.size() || (std::isalnum(static_cast<unsigned char>(
-                                                         message[end])) == 0 &&
-                                                     message[end] != '-'));
-    if (!is_whole || found >= first) continue;
+    if (found >= first || is_letter(end) || message.substr(end).starts_with('-') ||
+        (found > 0 && is_letter(found - 1)))
+      continue;
     first = found;
     place = at;
   }
@@ -257,7 +259,8 @@ CampaignPlan load_plan(const fs::path& file) {
   const PresetDocument document = file.extension() == ".toml" ? toml_document(text, file.string())
                                                               : PresetDocument(text, file.string());
   const PresetReader plan = document.root();
-  plan.expect_only({"skyfit_campaign", "inputs", "kind", "group", "options", "tasks_per_file", "note"});
+  plan.expect_only(
+      {"skyfit_campaign", "inputs", "kind", "group", "options", "tasks_per_file", "note"});
   if (plan.number("skyfit_campaign") != kPlanVersion)
     plan.fail_value("skyfit_campaign", fmt::format("{}", kPlanVersion));
   CampaignPlan result;
@@ -272,7 +275,7 @@ CampaignPlan load_plan(const fs::path& file) {
     const PresetReader options = plan.object("options");
     result.options = arguments_of(options);
     for (const auto& [name, value] : options.value().items())
-      result.option_places["--" + name] = document.place("options." + name);
+      result.option_places[name] = document.place("options." + name);
   }
   if (plan.has("tasks_per_file"))
     result.tasks_per_file = whole_number(plan, "tasks_per_file", 1, kMostTasksPerFile);

@@ -31,13 +31,13 @@ struct CampaignPlan {
   std::vector<std::string> inputs;  // files and folders, or patterns with * ? [], in that folder
   InputKind kind = InputKind::kSkies;
   Grouping group = Grouping::kFile;
-  std::string inputs_place;          // "plan.json:2", for messages
-  std::vector<std::string> options;  // arguments of skyfit fit
-  std::map<std::string, std::string> option_places;  // by "--NAME", and of all by ""
+  std::string inputs_place;                          // "plan.json:2", for messages
+  std::vector<std::string> options;                  // arguments of skyfit fit
+  std::map<std::string, std::string> option_places;  // by name, and of all by ""
 
   // Where the option stands that a message about the options names first.
   std::string place_of_option(std::string_view message) const;
-  int tasks_per_file = 64;           // results that are written together
+  int tasks_per_file = 64;  // results that are written together
 };
 
 // Throws std::invalid_argument or std::runtime_error with one line that names file, line, field,

@@ -32,8 +32,8 @@ struct ReferenceOptions {
   bool refraction = false;
 };
 
-// The streams and moments that the model takes for an atmosphere: those given, doubled where they are
-// the default and a lobe is narrow.
+// The streams and moments that the model takes for an atmosphere: those given, doubled where they
+// are the default and a lobe is narrow.
 ReferenceOptions options_for(const Atmosphere<double>& atmosphere, ReferenceOptions options);
 
 // An atmosphere that the solver cannot do, found while it is solved; one line with wavelength and

@@ -19,9 +19,9 @@ namespace {
 constexpr int kZeniths = 91;  // of the table: even steps of the view zenith
 
 // docs/theory (9.12).
-// cos m phi = sum_k row[m][k] cos(4 [k / 4] phi) cos^(k mod 4) phi: by Chebyshev's polynomials up to
-// m = 3, further on by cos (4 b + j) phi = 2 cos 4 b phi cos j phi - cos (4 b - j) phi. Powers of
-// cos phi alone would have coefficients of 2^(m - 1), which cancel.
+// cos m phi = sum_k row[m][k] cos(4 [k / 4] phi) cos^(k mod 4) phi: by Chebyshev's polynomials up
+// to m = 3, further on by cos (4 b + j) phi = 2 cos 4 b phi cos j phi - cos (4 b - j) phi. Powers
+// of cos phi alone would have coefficients of 2^(m - 1), which cancel.
 std::vector<std::vector<double>> block_rows(std::size_t modes) {
   constexpr std::size_t kPowers = DiffuseSource::kPowers;
   constexpr double kChebyshev[kPowers][kPowers] = {
@@ -157,8 +157,8 @@ void DiffuseSource::add_slice(int height, double mu, std::span<const NodeValues>
     kernels::add_source(&kept.values[index(height, column, kept.blocks)],
                         &kept.values[index(height, column + 1, kept.blocks)], part, factor.data(),
                         static_cast<std::size_t>(suns_.size() + 1),
-                        static_cast<std::size_t>(kept.blocks),
-                        static_cast<std::size_t>(blocks_), out.data());
+                        static_cast<std::size_t>(kept.blocks), static_cast<std::size_t>(blocks_),
+                        out.data());
   }
 }
 

@@ -2,9 +2,9 @@
 // The source of multiple scattering as a table: light that has been scattered or reflected before
 // and is scattered here toward the eye, per unit of scattering coefficient (1/sr) of each
 // scatterer, at four wavelengths. From the diffuse field of model/solver/diffuse_field.h, whose
-// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine. Streams,
-// moments, levels and suns of the field, and what lies between them, are those of the reference
-// model.
+// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine.
+// Streams, moments, levels and suns of the field, and what lies between them, are those of the
+// reference model.
 #pragma once
 
 #include <array>

@@ -225,8 +225,7 @@ class ScatteringBuilder {
 
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
                             AtmosphereTables& tables, const ReferenceOptions& options,
-                            const TableLight& light,
-                            const std::function<void(double)>& progress) {
+                            const TableLight& light, const std::function<void(double)>& progress) {
   ScatteringBuilder(shells, optics, tables, options, light).build(progress);
 }
 

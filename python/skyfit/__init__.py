@@ -386,12 +386,18 @@ _READING = frozenset(_skyfit.reading_options())
 
 
 def _samples(self):
-    """Samples by name: places, which irradiance where they are such, value, sigma (NaN where none is
-    stated), weight, scan; of a fit the
-    values of the fitted and of the start's model, and as sigma what one sample scatters by."""
+    """Samples by name: places, which irradiance where they are such, value, sigma (NaN where none
+    is stated), weight, scan; of a fit the values of the fitted and of the start's model, and as
+    sigma what one sample scatters by."""
     arrays = self._samples() if isinstance(self, Fit) else self._arrays()
-    places = ("sun_zenith_deg", "view_zenith_deg", "relative_azimuth_deg", "wavelength_nm", "scan",
-              "irradiance")
+    places = (
+        "sun_zenith_deg",
+        "view_zenith_deg",
+        "relative_azimuth_deg",
+        "wavelength_nm",
+        "scan",
+        "irradiance",
+    )
     coords = {name: ("sample", arrays.pop(name)) for name in places if name in arrays}
     return Arrays(arrays, dict.fromkeys(arrays, ("sample",)), coords)
 

@@ -141,9 +141,10 @@ class Source {
       return name != nullptr && name == std::string_view("unnamed");
     };
     if (is_of_earth() && is_unnamed("DATUM") && is_unnamed("SPHEROID"))
-      fail(fmt::format("coordinate system {}: its datum is not known: expected a code that EPSG has, "
-                       "or a stated ellipsoid",
-                       srs_.GetName()));
+      fail(fmt::format(
+          "coordinate system {}: its datum is not known: expected a code that EPSG has, "
+          "or a stated ellipsoid",
+          srs_.GetName()));
     const double area = place_[1] * place_[5] - place_[2] * place_[4];
     if (!std::isfinite(area) || area == 0 || !std::isfinite(place_[0] + place_[3]))
       fail("georeference: expected cells of a size");

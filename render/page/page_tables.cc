@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "model/atmosphere/derived.h"
+#include "model/solver/reference_model.h"
 #include "model/tables/table_precision.h"
 #include "render/page/changes.h"
 #include "render/page/page_errors.h"
@@ -63,7 +64,7 @@ class PageMeasure {
   }
 
   WorstError worst(const Atmosphere<double>& atmosphere, std::span<const WeightedTables> changes,
-               double altitude_m) const {
+                   double altitude_m) const {
     const std::vector<SkyPoint> points = compared_points(altitude_m);
     return largest_error(points,
                          table_luminances(tables_, changes, phase_classes(atmosphere), points),
@@ -87,9 +88,11 @@ TableSizes page_sizes(const Atmosphere<double>& atmosphere) {
            vertical_optical_depth(atmosphere, c, {kGreen, 0}) > kThick;
   };
   if (std::ranges::any_of(atmosphere.constituents, is_thick_layer)) return sizes;
-  sizes.scattering_r = 26;
-  sizes.scattering_mu_s = 48;
-  sizes.scattering_azimuth = 16;
+  const bool has_narrow_lobe = options_for(atmosphere, {}).moments > ReferenceOptions{}.moments;
+  sizes.scattering_r = has_narrow_lobe ? 24 : 26;
+  sizes.scattering_mu_s = has_narrow_lobe ? 52 : 48;
+  sizes.scattering_azimuth = has_narrow_lobe ? 20 : 16;
+  if (has_narrow_lobe) sizes.scattering_sky = 42;
   return sizes;
 }
 

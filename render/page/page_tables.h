@@ -13,8 +13,8 @@
 namespace skyfit {
 
 // Texels of a page's tables: as many as small ones have, with hardly any for rays from outside,
-// which it looks up in the others. Where no layer is thick, fewer heights do, and the others stand for
-// suns and azimuths.
+// which it looks up in the others. Where no layer is thick, fewer heights do, and the others stand
+// for suns and azimuths; a lobe that is narrow for the reference has a third more texels.
 TableSizes page_sizes(const Atmosphere<double>& atmosphere);
 
 // Of the page's scattering tables; it rounds them, which the errors include.

@@ -97,7 +97,7 @@ TEST_F(CampaignTest, SaysWhatIsWrongWithThePlan) {
               HasSubstr("for single fits"));
   EXPECT_THAT(complaint("{\"skyfit_campaign\": 1, \"inputs\": [\"a\"],\n\"options\": {\n"
                         "\"starts\": 1,\n\"lobes\": 7}}"),
-              HasSubstr("bad.json:4: options: --lobes"));
+              HasSubstr("bad.json:4: options: fit.lobes = 7"));
   EXPECT_THAT(complaint("{\"skyfit_campaign\": 1,\n\"inputs\": [\"a\"]}"),
               HasSubstr("bad.json:2: inputs: a: expected a file or a pattern"));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "kind": "moons"})"),

@@ -208,9 +208,11 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--mesh", "tower.obj@47,8,0"},
                         {"tower.obj: cannot be read", "--mesh", "No such"});
   expect_render_refusal({"--moon", "10"}, {"--moon", "10", "ZENITH"});
-  expect_render_refusal({"--moon", "10,20,30,40"}, {"moon.distance_m", "30"});
-  expect_render_refusal({"--second-sun", "10,20,-1"}, {"second_sun.irradiance", "-1"});
-  expect_render_refusal({"--clouds", "2"}, {"clouds.cover", "2"});
+  expect_render_refusal({"--moon", "10,20,30,40"},
+                        {"--moon \"10,20,30,40\"", "moon.distance_m", "30"});
+  expect_render_refusal({"--second-sun", "10,20,-1"},
+                        {"--second-sun \"10,20,-1\"", "second_sun.irradiance", "-1"});
+  expect_render_refusal({"--clouds", "2"}, {"--clouds \"2\"", "clouds.cover", "2"});
   expect_render_refusal({"--aerial", "fog"}, {"--aerial", "fog", "pixel or volume"});
   expect_render_refusal({"--tone", "sepia"}, {"--tone", "sepia", "filmic, exponential or clip"});
   expect_render_refusal({"--exposure", "0"}, {"--exposure", "0", "m^2/cd"});

@@ -75,13 +75,13 @@ TEST(TableModel, FollowsTheReferenceAboutTheSunInDust) {
   const Atmosphere<double> a = parse_preset(refs::shipped_preset_json("mars"), "mars").atmosphere;
   const SpectralData& spectra = refs::standard_spectral_data();
   TableSizes sizes;
-  sizes.scattering_r = 6;  // the ground is one of the heights
+  sizes.scattering_r = 10;  // the ground is one of the heights
   sizes.scattering_ground = sizes.outside_sky = sizes.outside_mu_s = sizes.outside_azimuth = 2;
   const AtmosphereTables tables = compute_tables(a, color_rule(spectra), sizes, 2, {});
   std::vector<SkyPoint> points;
   for (const double sun : {60.0, 84.0, 88.0}) {
     for (const double view : {60.0, 84.0, 87.0}) {
-      for (const double azimuth : {0.0, 4.0, 8.0, 15.0, 30.0, 170.0, 180.0})
+      for (const double azimuth : {0.0, 4.0, 8.0, 15.0, 30.0})
         points.push_back({0, sun * kDegree, view * kDegree, azimuth * kDegree});
     }
   }
@@ -91,8 +91,8 @@ TEST(TableModel, FollowsTheReferenceAboutTheSunInDust) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SkyPoint& p = points[i];
     const double mu = std::cos(p.view_zenith), mu_s = std::cos(p.sun_zenith);
-    const double nu = mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) *
-                                      std::cos(p.relative_azimuth);
+    const double nu =
+        mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) * std::cos(p.relative_azimuth);
     const NodeValues values = lookup_radiance(tables, 0, mu, mu_s, nu, false);
     for (int k = 0; k < 4; ++k) {
       EXPECT_NEAR(values[static_cast<std::size_t>(k)] / expected.at(static_cast<int>(i), k), 1,
