@@ -23,6 +23,7 @@ namespace {
 
 struct ExportArguments {
   std::string preset, to, out, sun_zenith = "40", sun_azimuth = "180";
+  bool textures = false;
   int threads = default_threads();
 };
 
@@ -33,7 +34,9 @@ void run_export(const ExportArguments& arguments) {
   } catch (const std::invalid_argument& unknown) {
     throw UsageError("--to", arguments.to, unknown.what());
   }
-  if (is_stdout(arguments.out) && program->writes_beside)
+  if (arguments.textures && !program->has_textures)
+    throw UsageError("--textures", "true", "expected --to bruneton");
+  if (is_stdout(arguments.out) && (program->writes_beside || arguments.textures))
     throw UsageError("--out", arguments.out, "expected a file: others are written beside it");
   require_output_files({arguments.out}, {std::string(program->extension)});
   const double sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 90),
@@ -67,6 +70,8 @@ void run_export(const ExportArguments& arguments) {
       .sun_zenith = sun_zenith,
       .sun_azimuth = sun_azimuth,
       .file = arguments.out,
+      .textures = arguments.textures,
+      .threads = arguments.threads,
       .write_sky_map = write_map,
       .progress = [&](double done) { progress.show(done, "parameters"); }};
   const fit::Exported exported = program->write(request);
@@ -136,6 +141,9 @@ void add_export_command(CLI::App& app) {
                   "Azimuth of its sun, clockwise from north")
       ->type_name("ANGLE")
       ->capture_default_str();
+  command.add_flag(
+      "--textures", arguments->textures,
+      "With --to bruneton: also the four textures of its shaders, filled by skyfit's own solver");
   add_threads_option(command, arguments->threads);
   command.footer(
       "Programs:\n" + named_lines(fit::programs()) +

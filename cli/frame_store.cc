@@ -126,6 +126,7 @@ Fingerprints::Fingerprints(const RenderRequest& request, const std::vector<Timel
              {"light", {static_cast<int>(request.light.transfer), request.light.orders}},
              {"tables", json_of(request.table_sizes)},
              {"table_precision", static_cast<int>(request.table_precision)},
+             {"stokes", request.stokes ? static_cast<int>(*request.stokes) : -1},
              {"device", static_cast<int>(request.device)},
              {"scene", json_of(request.scene)},
              {"frame", json_of(request.frame)},

@@ -248,6 +248,10 @@ constexpr Pair kExcludes[] = {
     {"--panels", "--strip"},
     {"--panels", "--out-dir"},
     {"--exposure", "--adaptation-s"},
+    {"--stokes", "--scalar"},
+    {"--stokes", "--orders"},
+    {"--stokes", "--clouds"},
+    {"--stokes", "--strip"},
 };
 
 }  // namespace
@@ -299,6 +303,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_flag(
       "--layers", options.layers,
       "Add to the EXR: light of the air and of the ground, transmittance, normal, albedo");
+  auto* const stokes = command.add_flag(
+      "--stokes", options.stokes,
+      "Add to the EXR the polarisation of the sky's luminance: stokes.Q, stokes.U (cd/m^2), its "
+      "degree dolp and angle aolp (deg), in the meridian plane of each pixel, as skyfit sky "
+      "--stokes; not a number where ground or objects are seen");
+  add_iau_option(command, options.iau, stokes);
   command.add_flag("--panels", options.panels,
                    "Beside each PNG the parts of the picture as PNGs, as frame.depth.png; an EXR "
                    "then holds them, too");

@@ -36,7 +36,7 @@ struct RenderOptions {
   int orders = 0;  // 0: all
   bool scalar = false, shadows = false, refraction = false, layers = false, panels = false,
        gpu = false, stats = false;
-  bool no_cache = false;
+  bool no_cache = false, stokes = false, iau = false;
   std::vector<std::string> out;
   int threads = default_threads();
   std::optional<Preset> start;  // in the place of --preset, of a caller that has it in memory

@@ -127,6 +127,7 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
   if (options.panels && !has_png)
     throw UsageError("--panels", "true", "expected an output that ends in .png");
   require_exr(options.layers, "--layers", "true");
+  require_exr(options.stokes, "--stokes", "true");
   if (request.frame.primaries != Primaries::kRec709 && std::ranges::none_of(names, is_linear))
     throw UsageError("--primaries", options.primaries,
                      "expected an output that ends in .exr or .npy");
@@ -182,6 +183,11 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   request.light = {transfer_of(options.scalar), options.orders};
   if (options.orders > 0 && options.model != "reference")
     throw UsageError("--orders", std::to_string(options.orders), "expected the model reference");
+  if (options.stokes) {
+    if (options.model != "reference")
+      throw UsageError("--stokes", "true", "expected the model reference, which has polarisation");
+    request.stokes = options.iau ? PolarisationAngle::kIau : PolarisationAngle::kClockwise;
+  }
   request.table_sizes = parse_table_sizes("--table-size", options.table_size);
   request.table_precision = parse_table_precision("--table-precision", options.table_precision);
   if (command.count("--update-frames") > 0) {

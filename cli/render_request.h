@@ -10,6 +10,7 @@
 #include "cli/render_options.h"
 #include "model/atmosphere/parameters.h"
 #include "model/base/content_cache.h"
+#include "model/polarisation.h"
 #include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/sequence/sequence.h"
@@ -28,8 +29,9 @@ struct RenderRequest {
   TableLight light;
   TableSizes table_sizes;
   TablePrecision table_precision = TablePrecision::kFloat;
-  FrameOptions frame;  // camera, site and sun are those of the sequence
-  Sequence sequence;   // of one frame for a single picture and a strip
+  std::optional<PolarisationAngle> stokes;  // also the polarisation of the sky
+  FrameOptions frame;                       // camera, site and sun are those of the sequence
+  Sequence sequence;                        // of one frame for a single picture and a strip
   bool is_sequence = false;
   std::optional<Strip> strip;
   ToneOptions tone;

@@ -14,6 +14,7 @@
 #include "model/registry.h"
 #include "model/tables/table_cache.h"
 #include "render/panels.h"
+#include "render/sky_map/frame_polarisation.h"
 
 namespace skyfit::cli {
 
@@ -95,8 +96,17 @@ Frame RenderSession::draw(const Shot& shot, double time_s,
   if (!std::exchange(warned_, true)) {
     for (const std::string& warning : renderer_.warnings()) warn(warning);
   }
-  Frame drawn = renderer_.draw(placed(shot, preset), progress);
+  const FrameOptions options = placed(shot, preset);
+  Frame drawn = renderer_.draw(options, progress);
   time_.done("frame: other", drawn.statistics.steps);
+  if (request_.stokes) {
+    add_polarisation(*model_, drawn_atmosphere(preset),
+                     luminance_rule(refs::spectral_data_of(preset.atmosphere)),
+                     options.camera.altitude_m + basin_depth_m(request_.scene), options,
+                     *request_.stokes, drawn);
+    drawn.metadata.emplace_back("skyfit:stokes", stokes_convention(*request_.stokes));
+    time_.done("polarisation");
+  }
   return drawn;
 }
 

@@ -15,6 +15,7 @@
 #include "data_refs/spectra.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
+#include "render/sky_map/frame_polarisation.h"
 #include "render/sky_map/sky_map.h"
 
 namespace skyfit::cli {
@@ -81,14 +82,7 @@ void add_metadata(const Preset& preset, const SkyMapArguments& arguments,
                   {"skyfit:sun_disc", arguments.sun},
                   {"skyfit:ground", arguments.ground},
                   {"skyfit:altitude_m", fmt::format("{:.9g}", options.altitude_m)}};
-  if (options.stokes) {
-    map.metadata.emplace_back(
-        "skyfit:stokes",
-        fmt::format(
-            "meridian plane of the view; Q > 0 along it; U > 0 and aolp (deg) {} from up as "
-            "the observer sees it; of diffuse light",
-            arguments.iau ? "counter-clockwise" : "clockwise"));
-  }
+  if (options.stokes) map.metadata.emplace_back("skyfit:stokes", stokes_convention(options.angle));
 }
 
 void print_summary(const SkyMap& map, const std::string& file) {

@@ -77,6 +77,12 @@ py::array_t<float> plane_of(const py::object& self) {
 py::dict layers_of(const py::object& self) {
   const Frame& frame = self.cast<const DrawnFrame&>().frame;
   py::dict arrays;
+  if (const auto& light = frame.polarisation) {
+    arrays["stokes_q"] = plane(self, frame, light->q, 1);
+    arrays["stokes_u"] = plane(self, frame, light->u, 1);
+    arrays["dolp"] = plane(self, frame, light->degree, 1);
+    arrays["aolp"] = plane(self, frame, light->angle_deg, 1);
+  }
   if (!frame.layers) return arrays;
   const FrameLayers& layers = *frame.layers;
   for (const auto& [name, values] :
@@ -114,7 +120,8 @@ void bind_render(py::module_& module) {
                              "Relative to the sun, -180 to 180.")
       .def_property_readonly("layers", &layers_of,
                              "With layers=True: in_scatter and reflected (cd/m^2), transmittance, "
-                             "normal, albedo; each [row][column][3].")
+                             "normal, albedo; each [row][column][3]. With stokes=True: stokes_q "
+                             "and stokes_u (cd/m^2), dolp and aolp (deg), each [row][column].")
       .def_property_readonly(
           "metadata", [](const DrawnFrame& drawn) { return drawn.frame.metadata; },
           "What an image file states: preset, sun, camera, version.")

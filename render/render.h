@@ -192,6 +192,14 @@ struct FrameLayers {
   std::vector<float> albedo;         // of sunlight; 0 for sky
 };
 
+// Linear polarisation of the sky's diffuse light, [pixel], luminance in the meridian plane of the
+// pixel's centre; NaN where ground or an object is seen, 0 where there is no light.
+struct FramePolarisation {
+  std::vector<float> q, u;       // cd/m^2
+  std::vector<float> degree;     // 0 .. 1
+  std::vector<float> angle_deg;  // above -90 to 90
+};
+
 // The part of a pixel that suns' discs cover. A display shows it apart from the rest of the pixel:
 // the mean of the sky and of a disc a million times brighter is as white as the disc.
 struct DiscPixel {
@@ -242,6 +250,7 @@ struct Frame {
   std::vector<DiscPixel> discs;  // in the order of the pixels
   std::vector<float> glare;      // [pixel][3] cd/m^2, or empty; not part of rgb
   std::optional<FrameLayers> layers;
+  std::optional<FramePolarisation> polarisation;  // of add_polarisation()
   FrameStatistics statistics;
   std::vector<std::pair<std::string, std::string>>
       metadata;                   // preset, sun, camera, version; written with the image
@@ -316,7 +325,8 @@ Frame render_frame(const Preset& preset, const AtmosphereTables& tables,
 
 // OpenEXR, 32-bit float: R, G, B, luminance.Y, view.zenith_deg, view.azimuth_deg, Z (metres,
 // infinite for sky) and, where the frame has layers, inscatter.R, .G, .B, reflected.R, .G, .B,
-// direct.R, .G, .B, transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B; with
+// direct.R, .G, .B, transmittance.R, .G, .B, normal.X, .Y, .Z, albedo.R, .G, .B, and where it has
+// its polarisation stokes.Q, stokes.U, dolp, aolp; with
 // Frame::metadata as attributes `skyfit:...` and the chromaticities of the primaries. R, G, B hold
 // X, Y, Z where these are the primaries. The file appears whole or not at all; throws
 // std::runtime_error that names it.

@@ -128,7 +128,10 @@ Outcome outcome_of(const Task& task, const Result& result) {
   return o;
 }
 
-Outcome failure_of(const Task& task, std::string_view reason) {
+Outcome failure_of(const Task& task, std::string reason, const std::filesystem::path& folder) {
+  const std::string prefix = folder.empty() ? "" : (folder / "").string();
+  for (std::size_t at = 0; !prefix.empty() && (at = reason.find(prefix, at)) != std::string::npos;)
+    reason.erase(at, prefix.size());
   Outcome o;
   o.task = task.name;
   o.key = task.key;
@@ -344,7 +347,8 @@ std::string campaign_text(const std::vector<Outcome>& outcomes) {
   for (std::size_t t = 0; t < outcomes.size(); ++t) {
     const Outcome& o = outcomes[t];
     if (!o.reason.empty()) {
-      failed.push_back(fmt::format("  {}: {}", o.task, o.reason));
+      const bool is_named = o.reason.starts_with(o.task);
+      failed.push_back(is_named ? "  " + o.reason : fmt::format("  {}: {}", o.task, o.reason));
       continue;
     }
     if (std::isfinite(o.misfit())) misfits.push_back(o.misfit());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -41,7 +42,8 @@ struct Outcome {
 std::string iso_time(const Outcome& outcome);
 
 Outcome outcome_of(const Task& task, const Result& result);
-Outcome failure_of(const Task& task, std::string_view reason);
+// Paths in the reason become those from `folder`, the plan's, wherever the campaign was started.
+Outcome failure_of(const Task& task, std::string reason, const std::filesystem::path& folder);
 
 // Dimensions task, parameter and covariance_parameter, of all unknowns that any task has.
 NetcdfFile netcdf_of(const std::vector<Outcome>& outcomes, std::string_view title);

@@ -128,7 +128,7 @@ void run_campaign(const CampaignRun& run, Shard shard, int threads,
     } catch (const std::bad_alloc&) {
       throw;  // says nothing of the task
     } catch (const std::exception& error) {
-      return failure_of(task, error.what());
+      return failure_of(task, error.what(), run.plan.folder);
     }
   };
   const auto work = [&] {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fit/exchange/bruneton_textures.h"
 #include "fit/exchange/engine_files.h"
 
 namespace skyfit::fit {
@@ -64,7 +65,7 @@ std::string bruneton_text(const EngineAtmosphere& engine, const ExportFacts& fac
       {layer(engine.tent_peak_m, 0, 0, slope, 1 - rise), layer(0, 0, 0, -slope, 1 + rise)});
   json["absorption_extinction"] = engine.absorption;
   json["ground_albedo"] = engine.ground_albedo;
-  json["max_sun_zenith_angle"] = 1.8849555921538759;  // 108 deg, twilight included
+  json["max_sun_zenith_angle"] = kHighestSun;
   json["length_unit_in_meters"] = 1000;
   return json.dump(2) + "\n";
 }

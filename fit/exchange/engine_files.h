@@ -27,11 +27,6 @@ std::string blender_text(const EngineAtmosphere& engine, const ExportFacts& fact
 std::optional<EngineAtmosphere> read_blender(std::string_view text, std::string_view source,
                                              std::vector<std::string>& notes);
 
-void restrict_to_threejs(EngineAtmosphere& engine);
-std::string threejs_text(const EngineAtmosphere& engine, const ExportFacts& facts);
-std::optional<EngineAtmosphere> read_threejs(std::string_view text, std::string_view source,
-                                             std::vector<std::string>& notes);
-
 // Of a field of an object, or a default where it has none; throws as PresetReader does, and unless
 // the numbers are finite and >= 0.
 double number_or(const PresetReader& object, std::string_view field, double if_none);

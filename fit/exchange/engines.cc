@@ -41,23 +41,17 @@ std::vector<Parameter> amounts() {
   return {Parameter::kRayleighScattering, Parameter::kMieScattering};
 }
 
-std::vector<Parameter> amounts_and_lobe() {
-  return {Parameter::kRayleighScattering, Parameter::kMieScattering, Parameter::kMiePhaseG};
-}
-
 constexpr PhaseType kHg = PhaseType::kHenyeyGreenstein, kCs = PhaseType::kCornetteShanks;
 
-constexpr std::array<Engine, 5> kEngines = {{
+constexpr std::array<Engine, 4> kEngines = {{
     {"unreal", "Unreal Engine, component SkyAtmosphere (JSON of its properties)", ".json", kHg,
-     [](EngineAtmosphere&) {}, aerosol, unreal_text, read_unreal},
+     [](EngineAtmosphere&) {}, aerosol, unreal_text, false, read_unreal},
     {"unity", "Unity HDRP, Physically Based Sky (JSON of its properties)", ".json", kCs,
-     restrict_to_unity, grey_aerosol, unity_text, read_unity},
+     restrict_to_unity, grey_aerosol, unity_text, false, read_unity},
     {"bruneton", "Bruneton 2017, atmosphere among the arguments of Model (JSON)", ".json", kCs,
-     [](EngineAtmosphere&) {}, aerosol, bruneton_text, read_bruneton},
+     [](EngineAtmosphere&) {}, aerosol, bruneton_text, true, read_bruneton},
     {"blender", "Blender, sky texture node of the Nishita type (Python)", ".py", kCs,
-     restrict_to_blender, amounts, blender_text, read_blender},
-    {"threejs", "three.js, object Sky (JavaScript)", ".js", kHg, restrict_to_threejs,
-     amounts_and_lobe, threejs_text, read_threejs},
+     restrict_to_blender, amounts, blender_text, false, read_blender},
 }};
 
 }  // namespace

@@ -29,6 +29,7 @@ struct Engine {
   void (*restrict_to)(EngineAtmosphere& engine);
   std::vector<Parameter> (*free)();  // that it leaves open
   std::string (*write)(const EngineAtmosphere& engine, const ExportFacts& facts);
+  bool has_textures;  // those of bruneton_textures.h
   // Nothing when the text is another program's. Throws std::invalid_argument in one line that names
   // source, field, value and expectation. `notes`: what it says that an atmosphere does not hold.
   std::optional<EngineAtmosphere> (*read)(std::string_view text, std::string_view source,

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Godot 4's PhysicalSkyMaterial (class reference; scene/resources/3d/sky_material.cpp, sky shader,
 // after three.js and Preetham, Shirley & Smits 1999). It is no atmosphere, so its own formula is
-// fitted to the preset's sky: with beta_R = 1e-4 rayleigh_coefficient rayleigh_color and beta_M =
-// 4.34e-4 turbidity mie_coefficient mie_color (linear colours), m the air mass 1 / (c + 0.15
-// (3.885 + 54.5 c)^-1.253) at the view's cosine c, E = 0.757 mu_s times the light's energy,
-//   T = exp(-(8400 beta_R + 1250 beta_M) m),
-//   P = (beta_R p_R + beta_M p_M) / (beta_R + beta_M), p_R = 3 / (16 pi) (1 + ((1 + nu) / 2)^2),
-//   L = (E P (1 - T))^1.5 (1 - f + f (E P T)^0.5), f = (1 - mu_s)^5,
-// p_M Henyey & Greenstein's, the colour is energy_multiplier L^(1 / 2.4). Below the horizon L is
-// that of the horizon times ground_color.
-#include <ceres/ceres.h>
+// fitted to the preset's sky: L = formula_light() with beta_R = 1e-4 rayleigh_coefficient
+// rayleigh_color and beta_M = 4.34e-4 turbidity mie_coefficient mie_color (linear colours), the air
+// mass 1 / (c + 0.15 (3.885 + 54.5 c)^-1.253) at the view's cosine c and E = 0.757 mu_s times the
+// light's energy; the colour is energy_multiplier L^(1 / 2.4). Below the horizon L is that of the
+// horizon times ground_color.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +14,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "fit/exchange/formula_sky.h"
 #include "fit/exchange/programs.h"
-#include "fit/exchange/srgb.h"
 #include "model/atmosphere/ground_spectrum.h"
 
 namespace skyfit::fit {
@@ -30,108 +26,53 @@ constexpr double kRayleighUnit = 1e-4, kMieUnit = 4.34e-4;  // 1/m
 constexpr double kGamma = 1 / 2.4;
 
 // ln beta_R, ln beta_M (red, green, blue), g, ln energy_multiplier per cd/m^2.
-constexpr int kUnknowns = 8;
-template <class T>
-using Unknowns = std::array<T, kUnknowns>;
+constexpr int kCount = 8;
 
 // L of a channel.
 template <class T>
-T light(const Unknowns<T>& x, std::size_t channel, const SkyPoint& p) {
-  using std::exp, std::pow, std::sqrt;
-  const double mu_s = std::cos(p.sun_zenith), c = std::max(std::cos(p.view_zenith), 0.0);
-  const double nu = std::clamp(std::cos(angle_from_sun(p)), -1.0, 1.0);
-  const double energy = 0.757 * std::max(mu_s, 0.0);
-  const double mass = 1 / (c + 0.15 * std::pow(3.885 + 54.5 * c, -1.253));
-  const T rayleigh = exp(x[channel]), mie = exp(x[3 + channel]), g = x[6];
-  const T depth = (8400.0 * rayleigh + 1250.0 * mie) * mass;
-  const T denominator = 1.0 + g * g - 2.0 * nu * g;
-  const T mie_phase = (1.0 - g * g) / (4 * kPi * denominator * sqrt(denominator));
-  const double rayleigh_phase = 3 / (16 * kPi) * (1 + 0.25 * (1 + nu) * (1 + nu));
-  const T scattered = energy * (rayleigh * rayleigh_phase + mie * mie_phase) / (rayleigh + mie);
-  const double low = std::pow(1 - mu_s, 5);
-  return pow(scattered * (1.0 - exp(-depth)), 1.5) *
-         (1 - low + low * sqrt(scattered) * exp(-0.5 * depth));
+T light(const std::array<T, kCount>& x, std::size_t channel, const SkyPoint& p) {
+  using std::exp;
+  const double c = std::max(std::cos(p.view_zenith), 0.0);
+  return formula_light(FormulaAir<T>{exp(x[channel]), exp(x[3 + channel]), x[6]},
+                       0.757 * std::max(std::cos(p.sun_zenith), 0.0),
+                       1 / (c + 0.15 * std::pow(3.885 + 54.5 * c, -1.253)), p);
 }
 
-template <class T>
-T color(const Unknowns<T>& x, std::size_t channel, const SkyPoint& p) {
-  using std::exp, std::pow;
-  return exp(x[7]) * pow(light(x, channel, p), kGamma);
-}
-
-struct Residual {
-  SkyPoint point;
-  std::size_t channel;
-  double log_truth;
+struct GodotColor {
   template <class T>
-  bool operator()(const T* parameters, T* residual) const {
-    Unknowns<T> x;
-    std::copy_n(parameters, kUnknowns, x.begin());
-    residual[0] = ceres::log(color(x, channel, point)) - log_truth;
-    return true;
+  T operator()(const std::array<T, kCount>& x, std::size_t channel, const SkyPoint& p) const {
+    using std::exp, std::pow;
+    return exp(x[7]) * pow(light(x, channel, p), kGamma);
   }
 };
 
-struct Fitted {
-  Unknowns<double> x{};
-  double cost = std::numeric_limits<double>::infinity();
-};
-
-Fitted fitted_from(Unknowns<double> x, const std::vector<SkyPoint>& points,
-                   const std::vector<Xyz>& truth) {
-  constexpr double kClose = 3 * kPi / 180;  // as color_loss()
-  ceres::Problem problem;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (angle_from_sun(points[i]) < kClose) continue;
-    const Rgb rgb = linear_srgb(truth[i]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (rgb[k] <= 0) continue;  // outside of sRGB
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Residual, 1, kUnknowns>(
-                                   new Residual{points[i], k, std::log(rgb[k])}),
-                               nullptr, x.data());
-    }
-  }
+FormulaFit<kCount> fit_of(double brightness) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  FormulaFit<kCount> fit;
   // The ranges of the properties in the editor; turbidity is at most 1000, mie_coefficient 1.
-  for (int k = 0; k < 3; ++k) {
-    for (const auto& [at, unit, most] :
-         {std::tuple{k, kRayleighUnit, 64.0}, {3 + k, kMieUnit, 1000.0}}) {
-      problem.SetParameterLowerBound(x.data(), at, std::log(unit * 1e-4));
-      problem.SetParameterUpperBound(x.data(), at, std::log(unit * most));
-    }
+  for (std::size_t k = 0; k < 3; ++k) {
+    fit.lower[k] = std::log(kRayleighUnit * 1e-4);
+    fit.upper[k] = std::log(kRayleighUnit * 64);
+    fit.lower[3 + k] = std::log(kMieUnit * 1e-4);
+    fit.upper[3 + k] = std::log(kMieUnit * 1000);
   }
-  problem.SetParameterLowerBound(x.data(), 6, -0.98);
-  problem.SetParameterUpperBound(x.data(), 6, 0.98);
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = 200;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable())
-    throw std::runtime_error("Godot's sky cannot be fitted: " + summary.message);
-  return {x, summary.final_cost};
-}
-
-Fitted fitted(const std::vector<SkyPoint>& points, const std::vector<Xyz>& truth,
-              const std::function<void(double)>& progress) {
-  Fitted best;
-  int done = 0;
+  fit.lower[6] = -0.98;
+  fit.upper[6] = 0.98;
+  fit.lower[7] = -kInfinite;
+  fit.upper[7] = kInfinite;
   for (const double mie : {0.05, 0.5, 5.0}) {
     for (const double g : {0.3, 0.7}) {
-      Unknowns<double> start{};
+      Unknowns<kCount>& start = fit.starts.emplace_back();
       const Rgb air = {0.15, 0.3, 0.7};  // about those of the engine's defaults
       for (std::size_t k = 0; k < 3; ++k) {
         start[k] = std::log(kRayleighUnit * air[k]);
         start[3 + k] = std::log(kMieUnit * mie);
       }
       start[6] = g;
-      start[7] = std::log(truth.front()[1]);
-      const Fitted found = fitted_from(start, points, truth);
-      if (found.cost < best.cost) best = found;
-      progress(++done / 6.0);
+      start[7] = std::log(brightness);
     }
   }
-  return best;
+  return fit;
 }
 
 std::string color_text(const Rgb& linear) {
@@ -147,7 +88,7 @@ struct Split {
   double amount;
   Rgb color;
 };
-Split split_color(const Unknowns<double>& x, std::size_t first, double unit) {
+Split split_color(const Unknowns<kCount>& x, std::size_t first, double unit) {
   Rgb beta;
   for (std::size_t k = 0; k < 3; ++k) beta[k] = std::exp(x[first + k]) / unit;
   const double most = std::ranges::max(beta);
@@ -170,7 +111,9 @@ Exported export_godot(const ExportRequest& request) {
 
   const std::vector<SkyPoint> points = six_skies();
   const std::vector<Xyz> truth = sky_colors(request.models.truth, rule, a, points);
-  const Unknowns<double> x = fitted(points, truth, request.progress).x;
+  const GodotColor color;
+  const Unknowns<kCount> x =
+      fitted(color, fit_of(truth.front()[1]), points, truth, request.progress);
   std::vector<Xyz> shown;
   for (const SkyPoint& p : points)
     shown.push_back(xyz_of_srgb({color(x, 0, p), color(x, 1, p), color(x, 2, p)}));

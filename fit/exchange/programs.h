@@ -22,6 +22,8 @@ struct ExportRequest {
   Models models;
   double sun_zenith = 0, sun_azimuth = 0;  // radians, azimuth clockwise from north
   std::filesystem::path file;              // names what is written
+  bool textures = false;                   // of Program::has_textures
+  int threads = 1;                         // for them
   // Writes this sun's sky and ground without the disc as a .exr: equirectangular, 1024 x 512, north
   // in the middle and east to its right, linear light of sRGB's primaries in cd/m^2.
   std::function<void(const std::filesystem::path&)> write_sky_map;
@@ -44,6 +46,7 @@ struct Program {
   std::string_view extension;
   bool has_star;       // whether what is written holds the preset's star
   bool writes_beside;  // further files beside the one that was asked for
+  bool has_textures;   // that it reads in the place of computing them
   std::function<Exported(const ExportRequest&)> write;
   // Nothing when the text is another program's. Throws std::invalid_argument in one line that names
   // source, field, value and expectation. `notes`: what it says that an atmosphere does not hold.
@@ -67,6 +70,9 @@ const Program* program_of(std::string_view text);
 Exported export_radiance(const ExportRequest& request);
 Exported export_mitsuba(const ExportRequest& request);
 Exported export_godot(const ExportRequest& request);
+Exported export_threejs(const ExportRequest& request);
+std::optional<Atmosphere<double>> read_threejs(std::string_view text, std::string_view source,
+                                               std::vector<std::string>& notes);
 Exported export_calcmysky(const ExportRequest& request);
 std::optional<Atmosphere<double>> read_calcmysky(std::string_view text, std::string_view source,
                                                  std::vector<std::string>& notes);

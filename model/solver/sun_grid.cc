@@ -27,7 +27,7 @@ SunGrid::SunGrid(const Shells& shells) {
   constexpr double kEarth = 10 * kRadiansPerDegree;
   const double extent =
       std::max(kEarth, std::acos(shells.bottom_radius / (shells.bottom_radius + shells.top)));
-  fastest_ = 14 / extent;
+  fastest_ = 10 / extent;
   slow_ = 0.6 * extent;
   // Steps in degrees up to each end: the field changes fastest near the horizon and decays
   // below the last node.

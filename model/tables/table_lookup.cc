@@ -89,11 +89,7 @@ struct TableRay {
   NodeValues radiance(const NodeValues& rayleigh_like, std::span<const NodeValues> single,
                       const PhaseClasses& phases) const {
     const double rayleigh_phase = shared.rayleigh_phase(phases.depolarisation, nu);
-    const double length =
-        hits_ground ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
-                    : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
-                                                      planet.thickness);
-    const double light = 1e-3 * length * deep_twilight(sun, kTableLowestSun);
+    const double light = light_of_mean();
     NodeValues sum;
     for (std::size_t k = 0; k < 4; ++k)
       sum[k] = light * std::exp(rayleigh_like[k]) * rayleigh_phase;
@@ -102,6 +98,15 @@ struct TableRay {
       for (std::size_t k = 0; k < 4; ++k) sum[k] += light * std::exp(single[c][k]) * phase[k];
     }
     return sum;
+  }
+
+  // The amplitude of a ray whose mean, as the tables hold it, is 1 / km.
+  double light_of_mean() const {
+    const double length =
+        hits_ground ? shared.distance_to_inner_sphere(planet.bottom, from.height, from.mu, 0.0)
+                    : shared.distance_to_outer_sphere(planet.bottom, from.height, from.mu,
+                                                      planet.thickness);
+    return 1e-3 * length * deep_twilight(sun, kTableLowestSun);
   }
 
   NodeValues phase_values(const PhaseFunction<double>& phase) const {
@@ -203,6 +208,18 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
 NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
                            double nu, bool hits_ground) {
   return lookup_changed_radiance(tables, {}, tables.phases, {height, mu, mu_s}, nu, hits_ground);
+}
+
+std::vector<NodeValues> lookup_amplitudes(const AtmosphereTables& tables, const TablePlace& from,
+                                          double nu, bool hits_ground) {
+  const TableRay ray(tables, from, nu, hits_ground);
+  std::vector<NodeValues> values(1 + tables.phases.others.size());
+  accumulate_ray(tables, ray, 1, values[0], std::span(values).subspan(1));
+  const double light = ray.light_of_mean();
+  for (NodeValues& part : values) {
+    for (double& value : part) value = light * std::exp(value);
+  }
+  return values;
 }
 
 NodeValues lookup_changed_radiance(const AtmosphereTables& tables,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "model/geometry/sun_disc.h"
 #include "model/tables/tables.h"
@@ -37,8 +38,12 @@ NodeValues lookup_irradiance(const AtmosphereTables& tables, double height, doub
 NodeValues lookup_radiance(const AtmosphereTables& tables, double height, double mu, double mu_s,
                            double nu, bool hits_ground);
 
-// The same where tables of other sizes, by the same mappings, add their logarithms to those of
-// `tables`, each with its weight. `phases` are those of the atmosphere that results.
+// Its parts before phase functions, sr^0: of what scatters as air, then of each of phases.others.
+std::vector<NodeValues> lookup_amplitudes(const AtmosphereTables& tables, const TablePlace& from,
+                                          double nu, bool hits_ground);
+
+// lookup_radiance() where tables of other sizes, by the same mappings, add their logarithms to
+// those of `tables`, each with its weight. `phases` are those of the atmosphere that results.
 struct WeightedTables {
   const AtmosphereTables& tables;
   double weight;

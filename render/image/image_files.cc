@@ -112,6 +112,12 @@ void write_exr_file(const Frame& frame, const fs::path& file) {
     add("normal.", layers->normal, "XYZ");
     add("albedo.", layers->albedo, "RGB");
   }
+  if (const auto& light = frame.polarisation) {
+    add("stokes.", light->q, "Q");
+    add("stokes.", light->u, "U");
+    channels.push_back({"dolp", light->degree, 0, 1});
+    channels.push_back({"aolp", light->angle_deg, 0, 1});
+  }
   OIIO::ImageSpec spec(frame.width, frame.height, static_cast<int>(channels.size()),
                        OIIO::TypeDesc::FLOAT);
   spec.channelnames.clear();

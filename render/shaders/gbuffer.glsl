@@ -5,8 +5,9 @@
 // are packed into one target of four words, which a renderer in software reads sooner than a target each.
 #include "render/shaders/pi.glsl"
 
-// In the place of a material's share: of things that are no ground, and of water (Ground::rock()), below the limit.
+// In the place of a material's share: of things that are no ground, and of water, below the limit.
 #define NO_MATERIAL -0.5
+#define WATER -1.0
 #define WATER_LIMIT -0.75
 
 vec2 signs_of(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }

@@ -12,6 +12,8 @@ layout(binding = 19) uniform sampler3D crags;
   HOW float grains_per_km;      \
   HOW vec3 crag_phase;          \
   HOW float crags_per_km;       \
+  HOW vec3 far_crag_phase;      \
+  HOW float far_crags_per_km;   \
   HOW vec4 grain_mean;
 CONSTANTS(5, Materials, MATERIAL_CONSTANTS)
 
@@ -58,7 +60,10 @@ float add_material(vec3 place, float d, vec3 ray, float rock, inout vec3 normal)
 #else
   vec4 grain = grain_mean;
 #endif
-  vec4 crag = textureLod(crags, crag_phase + crags_per_km * place, level);
+  // Where a unit of the texture is but a few pixels, its repetition would show: the same texture, larger, takes its place.
+  vec4 crag = mix(textureLod(crags, crag_phase + crags_per_km * place, level),
+                  textureLod(crags, far_crag_phase + far_crags_per_km * place, log2(texels * far_crags_per_km)),
+                  smoothstep(0.5, 2.5, level));
   float rocky = max(rock, 0.0), land = rock < 0.0 ? 0.0 : 1.0;
   vec3 gradient = (255.0 / 127.0) * (mix(kGrainSlope.x, kGrainSlope.y, rocky) * (grain.xyz - 127.0 / 255.0) +
                                      mix(kCragSlope.x, kCragSlope.y, rocky) * (crag.xyz - 127.0 / 255.0));

@@ -48,5 +48,7 @@ void pass_constants() {
   material.grains_per_km = grains_per_km;
   material.crag_phase = crag_phase;
   material.crags_per_km = crags_per_km;
+  material.far_crag_phase = far_crag_phase;
+  material.far_crags_per_km = far_crags_per_km;
   material.grain_mean = grain_mean;
 }

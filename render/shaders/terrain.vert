@@ -5,12 +5,14 @@ layout(location = 2) in vec4 fine_normal;
 layout(location = 3) in vec4 coarse_normal;
 layout(location = 4) in vec4 fine_reflectance;
 layout(location = 5) in vec4 coarse_reflectance;
+layout(location = 8) in vec2 above_water;  // fine and coarse
 
 uniform mat3 clip_from_planet;  // x, y and w
 uniform float near_km;
 
-out vec4 ground_normal;  // share of rock, -1 in water
+out vec4 ground_normal;  // share of rock
 out vec4 ground_reflectance;
+out float ground_above_water;
 
 void main() {
   float t = morph();
@@ -18,4 +20,5 @@ void main() {
   gl_Position = vec4(clip.xy, near_km, clip.z);
   ground_normal = mix(fine_normal, coarse_normal, t);
   ground_reflectance = mix(fine_reflectance, coarse_reflectance, t);
+  ground_above_water = mix(above_water.x, above_water.y, t);
 }

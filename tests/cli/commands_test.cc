@@ -197,9 +197,9 @@ TEST_F(CommandsTest, PresetsPrintWhatCheckAccepts) {
   EXPECT_EQ(lines(output({"presets"})).size(), names.size());
   for (const std::string name : names) {
     write("preset.json", output({"presets", name}));
-    EXPECT_THAT(output({"check", "preset.json"}), HasSubstr("valid preset \"" + name + "\""));
     EXPECT_EQ(json::parse(output({"check", "--json", "preset.json"})).at("name"), name);
   }
+  EXPECT_THAT(output({"check", "earth-clear"}), HasSubstr("valid preset \"earth-clear\""));
 }
 
 TEST_F(CommandsTest, SkyTakesTablesBesideThePresetAndASitePressure) {

@@ -57,6 +57,18 @@ TEST(RenderRequest, ADayIsAFilmOfTenSecondsFromAStandingCamera) {
   EXPECT_NEAR(first.camera.azimuth, first.sun.azimuth, 1e-12);  // toward the sun at first
 }
 
+TEST(RenderRequest, PolarisationIsThatOfTheReferenceInAnExr) {
+  EXPECT_EQ(request({"--stokes", "--out", "x.exr"}).stokes, PolarisationAngle::kClockwise);
+  EXPECT_EQ(request({"--stokes", "--iau", "--out", "x.exr"}).stokes, PolarisationAngle::kIau);
+  EXPECT_FALSE(request({"--out", "x.exr"}).stokes);
+  EXPECT_THROW(request({"--stokes", "--out", "x.png"}), UsageError);
+  for (const auto& [option, value] : {std::pair("--model", "bruneton"),
+                                      {"--clouds", "0.4"},
+                                      {"--orders", "2"},
+                                      {"--strip", "mie.scattering=1e-6..8e-6"}})
+    EXPECT_THROW(request({"--stokes", option, value, "--out", "x.exr"}), UsageError) << option;
+}
+
 TEST(RenderRequest, TablesByTheirNames) {
   const RenderRequest r =
       request({"--out", "x.png", "--table-size", "small", "--table-precision", "8bit"});

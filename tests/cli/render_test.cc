@@ -52,8 +52,9 @@ constexpr const char* kSequence = R"({"skyfit_sequence": 1, "frames_per_second":
 TEST_F(RenderTest, ASequenceIsKeptContinuedAndRedrawn) {
   write("day.json", kSequence);
   const std::vector<std::string> command = {
-      "render", "--preset",  "earth-clear", "--sequence",         "day.json", "--size",
-      "33x18",  "--out-dir", "film",        "--samples-per-side", "1"};
+      "render", "--preset",     "earth-clear", "--sequence", "day.json",
+      "--size", "33x18",        "--out-dir",   "film",       "--samples-per-side",
+      "1",      "--table-size", "tiny"};
   const std::string nowhere = "PATH=" + (folder_ / "no-programs").string();
 
   const Outcome first = run(command, {nowhere});

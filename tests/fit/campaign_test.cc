@@ -287,13 +287,22 @@ TEST_F(RunTest, AFailedTaskIsRecordedInALine) {
   EXPECT_THAT(result("out"), HasSubstr(fmt_name(4) + ",failed,bad sky,"));
 }
 
+TEST(Failure, NamesFilesFromTheFolderOfThePlan) {
+  const Task task{.name = "scans/a.csv", .parts = {}, .problem = "", .key = "k"};
+  const std::string reason =
+      "/archive/2013/scans/a.csv:3: no sky; beside /archive/2013/scans/b.csv";
+  EXPECT_EQ(failure_of(task, reason, "/archive/2013").reason,
+            "scans/a.csv:3: no sky; beside scans/b.csv");
+  EXPECT_EQ(failure_of(task, reason, {}).reason, reason);
+}
+
 TEST_F(RunTest, TheResultReadsAsItWasWritten) {
   std::vector<Outcome> outcomes;
   for (const Task& task : tasks(all())) {
     if (task.name.find("bad") == std::string::npos) {
       outcomes.push_back(fake_fit(task));
     } else {
-      outcomes.push_back(failure_of(task, "a \"reason\", with commas"));
+      outcomes.push_back(failure_of(task, "a \"reason\", with commas", {}));
     }
   }
   const std::vector<Outcome> read = outcomes_of(netcdf_of(outcomes, "a test"), "a test");

@@ -91,7 +91,7 @@ TEST(Derivatives, OfTheAsymmetryOfOneLobe) {
 }
 
 // Near the bounds, so that both differences stay physical.
-TEST(Derivatives, NearTheBounds) {
+TEST(SlowDerivatives, NearTheBounds) {
   for (const Parameter& id : standard_parameters()) {
     for (const double share : {0.002, 0.998}) {
       Atmosphere<double> a = atmosphere(PhaseType::kTwoLobe);

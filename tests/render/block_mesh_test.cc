@@ -75,6 +75,52 @@ int for_shared_border(const CubeBlock& block, const CubeBlock& neighbour, int si
   return met;
 }
 
+// Between vertices, where pixels find it, too: about straight within a quad.
+TEST(Coast, IsWhereTheGroundHasIt) {
+  // Water on one side of a plane through the centre, which runs aslant over the blocks.
+  struct Shore final : Ground {
+    glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, -0.8, 0.05));
+    Elevation elevation(const glm::dvec3& direction, double) const override {
+      return {0, 1e-3 * kEarth * glm::dot(normal, direction)};
+    }
+    NodeValues reflectance(const glm::dvec3&, double, double, double) const override { return {}; }
+    std::optional<NodeValues> water_reflectance() const override { return std::nullopt; }
+    double rock(const glm::dvec3&, double, double, double) const override { return 0; }
+    double highest_m() const override { return 0; }
+    void add_inputs(CacheKey&) const override {}
+  };
+  const Shore shore;
+  const glm::dvec3 on_it = glm::normalize(glm::cross(shore.normal, glm::dvec3(0.2, 0.1, 0.9)));
+  for (const int level : {2, 6, 11, 17}) {
+    MadeBlock made;
+    const CubeBlock block = block_at(on_it, level);
+    made.vertices.resize(kBlockVertices);
+    make_block(block, shore, kEarth, made.vertices);
+    made.centre = block_centre(block, kEarth);
+    const double quad = block_arc_m(level, kEarth) / kBlockQuads;
+    int crossings = 0;
+    double worst = 0;
+    for (int row = 0; row <= kBlockQuads; ++row) {
+      for (int column = 0; column < kBlockQuads; ++column) {
+        for (const std::size_t shape : {0u, 1u}) {
+          const BlockVertex &a = made.at(column, row), &b = made.at(column + 1, row);
+          const double left = a.above_water[shape], right = b.above_water[shape];
+          if ((left <= 0) == (right <= 0)) continue;
+          const glm::dvec3 at =
+              glm::mix(shape == 0 ? made.fine(a) : made.coarse(a),
+                       shape == 0 ? made.fine(b) : made.coarse(b), left / (left - right));
+          worst = std::max(worst, std::abs(glm::dot(shore.normal, at)) / quad);
+          ++crossings;
+        }
+      }
+    }
+    std::printf("[  coast ] level %d: %d crossings, worst %.5f of a quad\n", level, crossings,
+                worst);
+    EXPECT_GT(crossings, kBlockQuads / 2);
+    EXPECT_LT(worst, 0.01);
+  }
+}
+
 TEST(Border, MeetsTheNeighbourOfTheSameLevel) {
   double worst_position = 0, worst_normal = 0;
   std::set<std::pair<int, int>> edges;  // of the cube that were crossed

@@ -41,12 +41,11 @@ const Feature kFeatures[] = {
      }},
 };
 
-// Its textures take the most time and do not differ between renderers.
-Scene with_textures() {
+// Its ground and textures take the most time and do not differ between renderers.
+Renderer make_first(const Scene& scene = {}) {
   static const TemporaryDirectory directory;
-  Scene scene;
-  scene.textures = directory.path();
-  return scene;
+  static const auto cache = std::make_shared<ContentCache>(directory.path() / "cache");
+  return make_renderer(scene, GraphicsDevice::kSoftware, cache);
 }
 
 void expect_same(const Frame& first, const Frame& second) {
@@ -68,7 +67,7 @@ class FirstFrameWith : public ::testing::TestWithParam<Feature> {};
 TEST_P(FirstFrameWith, IsTheSecond) {
   FrameOptions options = options_of("valley", kWidth, kHeight);
   GetParam().set(options);
-  Renderer drawn = make_renderer(with_textures());
+  Renderer drawn = make_first();
   const Frame first = drawn.draw(options);
   expect_same(first, drawn.draw(options));
 }
@@ -81,11 +80,11 @@ TEST_P(FirstFrameOf, ViewWithAMeshAndAllElseIsTheSecond) {
   TemporaryDirectory directory;
   const auto file = directory.path() / "box.obj";
   { ObjWriter(file).box({20, -10, 0}, {40, 10, 30}); }
-  Scene scene = with_textures();
+  Scene scene;
   scene.meshes.push_back(at_the_coast(file, 20));
   FrameOptions options = options_of(GetParam().name, kWidth, kHeight);
   std::end(kFeatures)[-1].set(options);
-  Renderer drawn = make_renderer(scene);
+  Renderer drawn = make_first(scene);
   const Frame first = drawn.draw(options);
   expect_same(first, drawn.draw(options));
 }
@@ -95,9 +94,9 @@ INSTANTIATE_TEST_SUITE_P(Views, FirstFrameOf, ::testing::ValuesIn(named_views())
 TEST(FirstFrame, HasShadows) {
   FrameOptions options = options_of("valley", kWidth, kHeight);
   options.sun_zenith = 74 * kDegree;
-  const Frame lit = make_renderer(with_textures()).draw(options);
+  const Frame lit = make_first().draw(options);
   options.shadows = true;
-  const Frame shaded = make_renderer(with_textures()).draw(options);
+  const Frame shaded = make_first().draw(options);
   int darker = 0;
   for (std::size_t i = 0; i < lit.luminance.size(); ++i)
     darker += shaded.luminance[i] < 0.9f * lit.luminance[i] ? 1 : 0;

@@ -55,11 +55,30 @@ TEST_F(MapGroundFile, WaterIsFlatAtItsLevel) {
   for (double latitude = -1.5; latitude < -0.3; latitude += 0.05) {
     const glm::dvec3 d = at(latitude, 1);
     EXPECT_EQ(ground.height_m(d, 0.1), 500);
-    EXPECT_EQ(ground.rock(d, 500, 0, 0.1), -1);
+    EXPECT_LT(ground.elevation(d, 0.1).above_water_m, 0);
   }
-  const glm::dvec3 land = at(0.5, 1);
-  EXPECT_GT(ground.height_m(land, 0.1), 500);
-  EXPECT_GE(ground.rock(land, ground.height_m(land, 0.1), 0, 0.1), 0);
+  const Elevation land = ground.elevation(at(0.5, 1), 0.1);
+  EXPECT_GT(land.height_m, 500);
+  EXPECT_EQ(land.above_water_m, land.height_m - 500);
+}
+
+// A map that shows the sea as flat: between the last water and the first land that are shown.
+TEST_F(MapGroundFile, ACoastWithoutDepthsIsBetweenTexels) {
+  constexpr int kRows = 512;
+  const double texel = std::numbers::pi / kRows;
+  Scene scene = ramp(write_globe("coast.tif", kRows, false, kFloat, [](const glm::dvec3& d) {
+    return std::clamp(latitude_of(d), 0.0, 1.0);
+  }));
+  scene.lowest_m = 0;
+  const MapGround ground(scene, kRadius, rule());
+  for (const double resolution : {0.5, 4.0, 16.0}) {  // texels
+    const auto above = [&](double latitude) {
+      return ground.elevation(at(latitude * texel, 1), resolution * texel * kRadius).above_water_m;
+    };
+    const double half = 0.5 * std::max(1.0, 0.5 * resolution);
+    EXPECT_LE(above(-2 * half - 1), 0) << resolution;
+    EXPECT_GT(above(2 * half + 1), 0) << resolution;
+  }
 }
 
 TEST_F(MapGroundFile, ASeaShownAsFlatStaysFlat) {

@@ -187,7 +187,8 @@ TEST(Coarse, PatchesAreBeyondTheDistance) {
 TEST(Affordable, BlocksOfAViewAndOfShadowsAreInTheStore) {
   class Plain final : public Ground {
    public:
-    double height_m(const glm::dvec3&, double) const override { return 0; }
+    Elevation elevation(const glm::dvec3&, double) const override { return {0, 1}; }
+    std::optional<NodeValues> water_reflectance() const override { return std::nullopt; }
     NodeValues reflectance(const glm::dvec3&, double, double, double) const override { return {}; }
     double rock(const glm::dvec3&, double, double, double) const override { return 0; }
     double highest_m() const override { return 0; }

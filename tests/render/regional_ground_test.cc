@@ -32,11 +32,10 @@ constexpr double kFine = 0.1;     // m: nothing of a map is left out
 // 100 m high everywhere, so that what is around a map is told from the sea.
 class Plain final : public Ground {
  public:
-  double height_m(const glm::dvec3&, double) const override { return kPlain; }
+  Elevation elevation(const glm::dvec3&, double) const override { return {kPlain, kPlain}; }
+  std::optional<NodeValues> water_reflectance() const override { return std::nullopt; }
   NodeValues reflectance(const glm::dvec3&, double, double, double) const override { return {}; }
-  double rock(const glm::dvec3&, double height, double, double) const override {
-    return height <= 0 ? -1 : 0;
-  }
+  double rock(const glm::dvec3&, double, double, double) const override { return 0; }
   double highest_m() const override { return kPlain; }
   void add_inputs(CacheKey&) const override {}
 
@@ -291,8 +290,9 @@ TEST_F(RegionalGroundOf, HeightsBelowTheWaterAreItsDepth) {
   const RegionalGround ground = ground_of(scene_of({file}));
   for (const double west : {0.02, 0.1, 0.2}) {
     const glm::dvec3 d = direction_at(46, 7 - west);
-    EXPECT_EQ(ground.height_m(d, kFine), 0);
-    EXPECT_EQ(ground.rock(d, 0, 0, kFine), -1);
+    const auto [height, above_water] = ground.elevation(d, kFine);
+    EXPECT_EQ(height, 0);
+    EXPECT_NEAR(above_water / (-2000 * west), 1, 0.3);  // and what is finer than the map
   }
   EXPECT_NEAR(ground.height_m(direction_at(46, 7.1), 4000), 200, 1);
   EXPECT_LT(ground.height_m(direction_at(46, 7.24), kFine), ground.highest_m());

@@ -85,7 +85,9 @@ TEST(Relief, ReflectsTheGroundAlbedoOnAverage) {
     constexpr int kCount = 5003;  // other directions than the relief's own balance
     for (int i = 0; i < kCount; ++i) {
       const glm::dvec3 here = direction(i, kCount);
-      const NodeValues value = relief.reflectance(here, relief.height_m(here, 2e3), 0, 2e3);
+      const Elevation at = relief.elevation(here, 2e3);
+      const NodeValues value = at.above_water_m > 0 ? relief.reflectance(here, at.height_m, 0, 2e3)
+                                                    : relief.water_reflectance().value();
       for (std::size_t k = 0; k < 4; ++k) {
         ASSERT_GE(value[k], 0);
         ASSERT_LE(value[k], 1);

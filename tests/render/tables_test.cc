@@ -59,7 +59,7 @@ double luminance(const AtmosphereTables& tables, const NodeValues& nodes) {
   return sum;
 }
 
-TEST(Tables, FinerTablesSayTheSame) {
+TEST(SlowTables, FinerTablesSayTheSame) {
   const AtmosphereTables usual = tables_of("earth-clear", TableSizes{});
   const AtmosphereTables fine =
       tables_of("earth-clear", {512, 256, 64, 16, 64, 64, 96, 80, 24, 4, 8, 4});
@@ -134,7 +134,7 @@ TEST(Tables, ShortPathsScatterInProportionToTheirLength) {
   EXPECT_NEAR(high / low, 2, 0.02);
 }
 
-TEST(Tables, AreFiniteForEveryShippedPreset) {
+TEST(SlowTables, AreFiniteForEveryShippedPreset) {
   for (const std::string& name : refs::shipped_preset_names()) {
     const AtmosphereTables tables =
         tables_of(name.c_str(), {32, 16, 16, 8, 8, 8, 8, 16, 4, 8, 16, 4});

@@ -31,16 +31,14 @@ std::pair<int, int> border(int i) {
 // What a vertex shows, in double precision.
 struct Point {
   glm::dvec3 position, normal;  // position relative to the block's centre, metres
-  double height, rock;
+  double height, above_water, rock;
   NodeValues reflectance;
 };
 
 Point middle(const Point& a, const Point& b) {
-  Point m{0.5 * (a.position + b.position),
-          glm::normalize(a.normal + b.normal),
-          0.5 * (a.height + b.height),
-          0.5 * (a.rock + b.rock),
-          {}};
+  Point m{0.5 * (a.position + b.position), glm::normalize(a.normal + b.normal),
+          0.5 * (a.height + b.height),     0.5 * (a.above_water + b.above_water),
+          0.5 * (a.rock + b.rock),         {}};
   for (std::size_t k = 0; k < 4; ++k)
     m.reflectance[k] = 0.5 * (a.reflectance[k] + b.reflectance[k]);
   return m;
@@ -57,15 +55,15 @@ class Grid {
     // One more around, for the normals.
     const auto count = static_cast<std::size_t>(stride_) * stride_;
     directions_.resize(count);
-    heights_.resize(count);
+    elevations_.resize(count);
     positions_.resize(count);
     for (int row = -1; row <= quads + 1; ++row) {
       for (int column = -1; column <= quads + 1; ++column) {
         const std::size_t i = index(column, row);
         directions_[i] = block_direction(block, static_cast<double>(column) / quads,
                                          static_cast<double>(row) / quads);
-        heights_[i] = ground.height_m(directions_[i], resolution);
-        positions_[i] = (radius_m + heights_[i]) * directions_[i] - centre;
+        elevations_[i] = ground.elevation(directions_[i], resolution);
+        positions_[i] = (radius_m + elevations_[i].height_m) * directions_[i] - centre;
       }
     }
     points_.reserve(static_cast<std::size_t>(quads + 1) * (quads + 1));
@@ -93,14 +91,18 @@ class Grid {
         positions_[index(column, row + 1)] - positions_[index(column, row - 1)];
     const glm::dvec3 normal = glm::normalize(glm::cross(along, across));
     const double steepness = 1 - std::max(glm::dot(normal, directions_[i]), 0.0);
-    return {positions_[i], normal, heights_[i],
-            ground.rock(directions_[i], heights_[i], steepness, resolution),
-            ground.reflectance(directions_[i], heights_[i], steepness, resolution)};
+    const auto [height, above_water] = elevations_[i];
+    return {positions_[i],
+            normal,
+            height,
+            above_water,
+            ground.rock(directions_[i], height, steepness, resolution),
+            ground.reflectance(directions_[i], height, steepness, resolution)};
   }
 
   int quads_, stride_;
   std::vector<glm::dvec3> directions_, positions_;
-  std::vector<double> heights_;
+  std::vector<Elevation> elevations_;
   std::vector<Point> points_;
 };
 
@@ -121,7 +123,7 @@ void pack(const Point& point, std::array<float, 3>& position, std::array<std::in
     position[i] = static_cast<float>(1e-3 * point.position[k]);
     normal[i] = static_cast<std::int16_t>(std::lround(32767 * point.normal[k]));
   }
-  normal[3] = static_cast<std::int16_t>(std::lround(32767 * std::clamp(point.rock, -1.0, 1.0)));
+  normal[3] = static_cast<std::int16_t>(std::lround(32767 * std::clamp(point.rock, 0.0, 1.0)));
   for (std::size_t k = 0; k < 4; ++k) {
     reflectance[k] =
         static_cast<std::uint16_t>(std::lround(65535 * std::clamp(point.reflectance[k], 0.0, 1.0)));
@@ -232,6 +234,7 @@ BlockHeights make_block(const CubeBlock& block, const Ground& ground, double rad
   const Grid coarse(block, has_parent ? kBlockQuads / 2 : 1, 2 * spacing, ground, radius_m, centre);
   BlockHeights heights;
   heights.patches.fill({1e300, -1e300});
+  std::vector<std::array<double, 2>> above_water;
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
       BlockVertex& vertex = out[static_cast<std::size_t>(row) * kSide + column];
@@ -239,6 +242,7 @@ BlockHeights make_block(const CubeBlock& block, const Ground& ground, double rad
       pack(own, vertex.fine_km, vertex.fine_normal, vertex.fine_reflectance);
       const Point parents = has_parent ? on_coarse(coarse, column, row) : own;
       pack(parents, vertex.coarse_km, vertex.coarse_normal, vertex.coarse_reflectance);
+      above_water.push_back({own.above_water, parents.above_water});
       const auto [low, high] = std::minmax(own.height, parents.height);
       // On a border it belongs to the patches on both sides.
       for (const int c : {std::max(column - 1, 0), std::min(column, kBlockQuads - 1)}) {
@@ -246,6 +250,14 @@ BlockHeights make_block(const CubeBlock& block, const Ground& ground, double rad
           widen(heights.patches[static_cast<std::size_t>(patch_at(c, r))], {low, high});
       }
     }
+  }
+  double largest = 1e-300;
+  for (const auto& [own, parents] : above_water)
+    largest = std::max({largest, std::abs(own), std::abs(parents)});
+  for (std::size_t i = 0; i < above_water.size(); ++i) {
+    for (std::size_t k = 0; k < 2; ++k)
+      out[i].above_water[k] =
+          static_cast<std::int16_t>(std::lround(32767 * above_water[i][k] / largest));
   }
   // Deep enough for the cracks that rounding leaves along the border.
   const double depth_km = 1e-3 * 0.25 * spacing;

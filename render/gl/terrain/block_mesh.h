@@ -19,6 +19,8 @@ struct BlockVertex {
   std::array<float, 3> fine_km, coarse_km;
   std::array<std::int16_t, 4> fine_normal, coarse_normal;  // / 32767; fourth: Ground::rock()
   std::array<std::uint16_t, 4> fine_reflectance, coarse_reflectance;  // / 65535
+  // Elevation::above_water_m, fine and coarse, / 32767 of the largest amount in the block.
+  std::array<std::int16_t, 2> above_water;
 };
 
 // 33 x 33, rows of growing u first, then the skirt: the border once more, let down,

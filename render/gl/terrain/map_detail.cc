@@ -31,6 +31,12 @@ double detail_m(const MapScale& scale, const glm::dvec3& position_m, double slop
   return detail;
 }
 
+double above_water_m(double bed_m, bool has_depths, const MapScale& scale, double slope_m,
+                     double resolution_m) {
+  if (has_depths) return bed_m;
+  return bed_m - 0.5 * slope_m * std::max(1.0, 0.5 * resolution_m / scale.texel_m);
+}
+
 double most_detail_m(const MapScale& scale) {
   return kOctaves * (kMostDetail * scale.range_m + kRoughness);
 }

@@ -18,7 +18,13 @@ struct MapScale {
 double detail_m(const MapScale& scale, const glm::dvec3& position_m, double slope_m,
                 double above_water_m, double resolution_m);
 
-// A bound on it.
+// Elevation::above_water_m of ground `bed_m` above the water's level. A map without depths shows
+// water as flat: its coast then lies half a texel, or half of what `resolution_m` still shows,
+// before the land that rises from it, and not at the last texel of water.
+double above_water_m(double bed_m, bool has_depths, const MapScale& scale, double slope_m,
+                     double resolution_m);
+
+// A bound on detail_m().
 double most_detail_m(const MapScale& scale);
 
 }  // namespace skyfit

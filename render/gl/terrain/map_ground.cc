@@ -47,26 +47,31 @@ void MapGround::add_inputs(CacheKey& key) const {
   if (colors_) colors_->add_inputs(key);
 }
 
-double MapGround::height_m(const glm::dvec3& direction, double resolution_m) const {
+Elevation MapGround::elevation(const glm::dvec3& direction, double resolution_m) const {
   const double resolution = std::max(resolution_m, kFinest);
   const PlanetMap::Sample sample = heights_->at(direction, resolution / radius_m_);
   const double range = highest_m_ - lowest_m_;
   const double height = lowest_m_ + range * sample.value.x;
   const double detail = detail_m(scale(), direction * radius_m_, range * sample.slope,
                                  height - water_level_m_, resolution);
-  return std::max({height + detail, lowest_m_, water_level_m_});
+  const double bed = height + detail;
+  return {std::max({bed, lowest_m_, water_level_m_}),
+          above_water_m(bed - water_level_m_, lowest_m_ < water_level_m_, scale(),
+                        range * sample.slope, resolution)};
+}
+
+std::optional<NodeValues> MapGround::water_reflectance() const {
+  return colors_ ? std::nullopt : std::optional(kWater);
 }
 
 NodeValues MapGround::reflectance(const glm::dvec3& direction, double height_m, double steepness,
                                   double resolution_m) const {
   if (colors_) return colors_->reflectance(direction, resolution_m / radius_m_);
-  const double stone = rock(direction, height_m, steepness, resolution_m);
-  return stone < 0 ? kWater : mix(kSoil, kRock, stone);
+  return mix(kSoil, kRock, rock(direction, height_m, steepness, resolution_m));
 }
 
 double MapGround::rock(const glm::dvec3& direction, double height_m, double steepness,
                        double resolution_m) const {
-  if (height_m <= water_level_m_) return -1;
   // Steep slopes, and the upper part of the land; the line between them is not a contour.
   const double range = std::max(highest_m_ - water_level_m_, 1.0);
   const double spots = fractal_noise(direction * radius_m_, 1500, std::max(resolution_m, kFinest));

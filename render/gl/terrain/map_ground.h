@@ -36,9 +36,11 @@ class MapGround final : public Ground {
   // The scene has a height map. Throws std::runtime_error in one line when a file is no map.
   MapGround(const Scene& scene, double bottom_radius_m, const ColorRule& rule);
 
-  double height_m(const glm::dvec3& direction, double resolution_m) const override;
+  Elevation elevation(const glm::dvec3& direction, double resolution_m) const override;
   NodeValues reflectance(const glm::dvec3& direction, double height_m, double steepness,
                          double resolution_m) const override;
+  // None where there is a colour map, which shows the water, too.
+  std::optional<NodeValues> water_reflectance() const override;
   double rock(const glm::dvec3& direction, double height_m, double steepness,
               double resolution_m) const override;
   double highest_m() const override;

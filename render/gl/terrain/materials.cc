@@ -20,8 +20,9 @@ namespace skyfit {
 namespace {
 
 constexpr int kSide = kMaterialSide;
-constexpr double kGrainPeriod = 1.5, kCragPeriod = 190;  // m: a unit of each texture
-constexpr int kLastLevel = 6;                            // mipmap of one texel
+// m: a unit of each texture.
+constexpr double kGrainPeriod = 1.5, kCragPeriod = 190, kFarCragPeriod = 1270;
+constexpr int kLastLevel = 6;  // mipmap of one texel
 static_assert(1 << kLastLevel == kSide);
 constexpr int kFlatLevel = 5;  // the first mipmap that holds nothing but the mean
 constexpr std::size_t kTexels = std::size_t{kSide} * kSide * kSide;
@@ -33,8 +34,11 @@ std::size_t texel(int x, int y, int z) {
 
 double relief_of(Texture texture, const glm::dvec3& p) {
   double sum = 0, amplitude = 1;
+  glm::dvec3 shift(0);
   for (int period = texture == Texture::kGrains ? 4 : 2; period <= kSide / 4; period *= 2) {
-    const double noise = periodic_gradient_noise(p * static_cast<double>(period), period);
+    // Noise is 0 at its lattice points, which octaves must not share.
+    shift += glm::dvec3(0.37, 0.73, 0.19);
+    const double noise = periodic_gradient_noise(p * static_cast<double>(period) + shift, period);
     sum += amplitude * (texture == Texture::kGrains ? noise : 0.5 - std::abs(1.6 * noise));
     amplitude *= texture == Texture::kGrains ? 0.6 : 0.55;
   }
@@ -43,23 +47,30 @@ double relief_of(Texture texture, const glm::dvec3& p) {
 
 const char* name_of(Texture texture) { return texture == Texture::kGrains ? "grains" : "crags"; }
 
-// The next mipmap: means of two texels along each axis.
+// The next mipmap. The weights 1, 3, 3, 1 along each axis leave less of the waves that two of its
+// texels cannot tell from a lattice than the mean of two would.
 std::vector<float> halved(std::span<const float> texels, int side) {
   const int half = side / 2;
+  constexpr std::array<float, 4> kWeights = {1 / 8.0f, 3 / 8.0f, 3 / 8.0f, 1 / 8.0f};
+  const auto wrap = [side](int i) { return static_cast<std::size_t>((i + side) % side); };
   std::vector<float> means;
   for (int z = 0; z < half; ++z) {
     for (int y = 0; y < half; ++y) {
       for (int x = 0; x < half; ++x) {
-        for (int channel = 0; channel < 4; ++channel) {
-          float sum = 0;
-          for (int corner = 0; corner < 8; ++corner) {
-            const int column = 2 * x + (corner & 1), row = 2 * y + (corner >> 1 & 1);
-            const int slice = 2 * z + (corner >> 2);
-            sum += texels[static_cast<std::size_t>(((slice * side + row) * side + column) * 4 +
-                                                   channel)];
-          }
-          means.push_back(sum / 8);
+        std::array<float, 4> sum{};
+        for (int tap = 0; tap < 64; ++tap) {
+          const int i = tap & 3, j = tap >> 2 & 3, k = tap >> 4;
+          const float weight = kWeights[static_cast<std::size_t>(i)] *
+                               kWeights[static_cast<std::size_t>(j)] *
+                               kWeights[static_cast<std::size_t>(k)];
+          const std::size_t at =
+              (wrap(2 * z + k - 1) * static_cast<std::size_t>(side) + wrap(2 * y + j - 1)) *
+                  static_cast<std::size_t>(side) +
+              wrap(2 * x + i - 1);
+          for (std::size_t channel = 0; channel < 4; ++channel)
+            sum[channel] += weight * texels[4 * at + channel];
         }
+        means.insert(means.end(), sum.begin(), sum.end());
       }
     }
   }
@@ -206,6 +217,8 @@ void Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit,
   block.set("grains_per_km", 1e3 / kGrainPeriod);
   block.set("crag_phase", glm::vec3(glm::fract(camera / kCragPeriod)));
   block.set("crags_per_km", 1e3 / kCragPeriod);
+  block.set("far_crag_phase", glm::vec3(glm::fract(camera / kFarCragPeriod)));
+  block.set("far_crags_per_km", 1e3 / kFarCragPeriod);
   block.set("grain_mean", grain_mean_);
   block.bind(buffers);
 }

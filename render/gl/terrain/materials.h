@@ -30,9 +30,10 @@ MaterialTexels make_texture(Texture texture);
 MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory,
                             ContentCache* cache = nullptr);
 
-// The texture and its mipmaps down to one texel: means of 2 x 2 x 2 texels, each rounded once.
-// Drivers round those of bytes in their own way and level by level, which tilts the distant ground.
-// The last but one, whose texels hold next to nothing of the noise, is the mean of all as well.
+// The texture and its mipmaps down to one texel: weighted means of 4 x 4 x 4 texels, each rounded
+// once. Drivers round those of bytes in their own way and level by level, which tilts the distant
+// ground. The last but one, whose texels hold next to nothing of the noise, is the mean of all as
+// well.
 std::vector<MaterialTexels> mipmaps_of(const MaterialTexels& texels);
 
 class Materials {

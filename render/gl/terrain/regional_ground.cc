@@ -15,6 +15,8 @@ namespace {
 constexpr double kFinest = 0.1;  // no detail below, m
 // The weight of a map beyond its edge, which counts where no other map is.
 constexpr double kLeastShare = 1e-6;
+// Of the sea around regions, m.
+constexpr double kSeaDepth = 50;
 
 }  // namespace
 
@@ -42,30 +44,42 @@ RegionalGround::RegionalGround(std::unique_ptr<Ground> planet, RegionalMaps maps
       water_level_m_(scene.water_level_m),
       radius_m_(bottom_radius_m) {}
 
-double RegionalGround::height_m(const glm::dvec3& direction, double resolution_m) const {
+Elevation RegionalGround::elevation(const glm::dvec3& direction, double resolution_m) const {
   const double resolution = std::max(resolution_m, kFinest);
   const GeographicPlace place = place_of(direction);
-  double height = 0, shares = 0, left = 1, presence = 0;
+  double height = 0, above_water = 0, shares = 0, left = 1, presence = 0;
   for (const RegionalMap& map : *maps_) {
     const auto sample = map.at(place, resolution);
     if (!sample) continue;
     const double share = left * std::max(sample->inside, kLeastShare * sample->presence);
-    height +=
-        share * (sample->height_m + detail_m(map.scale(), direction * radius_m_, sample->slope_m,
-                                             sample->height_m - water_level_m_, resolution));
+    const double bed =
+        sample->height_m + detail_m(map.scale(), direction * radius_m_, sample->slope_m,
+                                    sample->height_m - water_level_m_, resolution);
+    height += share * bed;
+    above_water += share * above_water_m(bed - water_level_m_, map.lowest_m() < water_level_m_,
+                                         map.scale(), sample->slope_m, resolution);
     shares += share;
     left *= 1 - sample->inside;
     presence = std::max(presence, sample->presence);
     if (left <= 0) break;
   }
-  const auto around = [&] {
-    return surroundings_ == DemSurroundings::kSea ? water_level_m_
-                                                  : planet_->height_m(direction, resolution_m);
+  const auto around = [&]() -> Elevation {
+    if (surroundings_ == DemSurroundings::kSea) return {water_level_m_, -kSeaDepth};
+    return planet_->elevation(direction, resolution_m);
   };
   if (shares <= 0) return around();
-  const double mapped = height / shares;
-  const double mixed = presence < 1 ? std::lerp(around(), mapped, presence) : mapped;
-  return std::max({mixed, water_level_m_, 0.0});
+  Elevation mixed{height / shares, above_water / shares};
+  if (presence < 1) {
+    const Elevation other = around();
+    mixed = {std::lerp(other.height_m, mixed.height_m, presence),
+             std::lerp(other.above_water_m, mixed.above_water_m, presence)};
+  }
+  mixed.height_m = std::max({mixed.height_m, water_level_m_, 0.0});
+  return mixed;
+}
+
+std::optional<NodeValues> RegionalGround::water_reflectance() const {
+  return planet_->water_reflectance();
 }
 
 NodeValues RegionalGround::reflectance(const glm::dvec3& direction, double height_m,

@@ -25,9 +25,10 @@ class RegionalGround final : public Ground {
   RegionalGround(std::unique_ptr<Ground> planet, RegionalMaps maps, const Scene& scene,
                  double bottom_radius_m);
 
-  double height_m(const glm::dvec3& direction, double resolution_m) const override;
+  Elevation elevation(const glm::dvec3& direction, double resolution_m) const override;
   NodeValues reflectance(const glm::dvec3& direction, double height_m, double steepness,
                          double resolution_m) const override;
+  std::optional<NodeValues> water_reflectance() const override;
   double rock(const glm::dvec3& direction, double height_m, double steepness,
               double resolution_m) const override;
   double highest_m() const override;

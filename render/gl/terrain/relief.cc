@@ -21,6 +21,7 @@ constexpr double kHillHeight = 260;
 constexpr double kPlainHeight = 25;
 constexpr double kRoughness = 0.12;  // of the plain at the site
 constexpr double kShore = 0.0015;    // of land_value(): a coast some 8 km wide
+constexpr double kShoreRise = 25;    // m of above_water_m over it
 constexpr double kBoulder = 3.2, kBoulderHeight = 0.35;
 constexpr double kSpots = 1500;
 constexpr double kFinest = 0.1;  // no detail below, m
@@ -112,14 +113,16 @@ void Relief::settle_on_a_coast() {
   coast_.y = glm::cross(coast_.z, coast_.x);
 }
 
-double Relief::height_m(const glm::dvec3& direction, double resolution_m) const {
+Elevation Relief::elevation(const glm::dvec3& direction, double resolution_m) const {
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const glm::dvec3 p = direction * kEarthRadius;
   const double distance = glm::length(direction - coast_.z) * kEarthRadius;
   const double near_site = 1 - smoothstep(80e3, 400e3, distance);
   const double beach = 1 - smoothstep(300, 600, distance);
   const double continent = land_value(p, resolution);
-  if (sea_ && continent < 0 && beach <= 0) return 0;
+  const double above_water =
+      sea_ ? kShoreRise * std::max(continent / kShore, 2 * beach - 1) : kMountainHeight;
+  if (above_water <= 0) return {0, above_water};
   const double land = sea_ ? smoothstep(0, 2 * kShore, continent) : basin(continent);
   const double fading = smoothstep(200, 5e3, distance);
   double roughness = kRoughness * (1 + fractal_noise(p, 9, resolution));
@@ -140,13 +143,15 @@ double Relief::height_m(const glm::dvec3& direction, double resolution_m) const 
             ridged_noise(bent, kMountainLength, std::max(resolution, 2 * resolution - 6e3));
   height += kCragHeight * (0.3 + mountains) *
             ridged_noise(bent + glm::dvec3(9e5), kCragLength, resolution);
-  return std::max(fading * land * height, 0.0) +
-         roughness * (sea_ ? std::max(smoothstep(0, 0.1 * kShore, continent), beach) : 1.0);
+  return {std::max(fading * land * height, 0.0) +
+              roughness *
+                  (sea_ ? std::max(smoothstep(0, 0.1 * kShore, continent), 2 * beach - 1) : 1.0),
+          above_water};
 }
 
-Relief::Material Relief::material(const glm::dvec3& direction, double height_m, double steepness,
-                                  double resolution_m) const {
-  if (!sea_) return {dry_material(direction, steepness, resolution_m), 1};
+NodeValues Relief::material(const glm::dvec3& direction, double height_m, double steepness,
+                            double resolution_m) const {
+  if (!sea_) return dry_material(direction, steepness, resolution_m);
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const glm::dvec3 p = direction * kEarthRadius;
   const double patches =
@@ -163,7 +168,7 @@ Relief::Material Relief::material(const glm::dvec3& direction, double height_m, 
   const double snow = smoothstep(2100 - blur, 2700 + blur, height_m + 500 * spots);
   soil = mix(soil, kSnow, snow * (1 - smoothstep(0.12, 0.35, steepness)));
   for (double& value : soil) value *= std::max(1 + 0.4 * grain + 0.15 * spots, 0.2);
-  return {soil, smoothstep(0.0, 0.05, height_m)};
+  return soil;
 }
 
 // Dust, thinner on slopes, over rock: one colour, lighter and darker.
@@ -186,15 +191,14 @@ NodeValues Relief::reflectance(const glm::dvec3& direction, double height_m, dou
   return reflectance_of(material(direction, height_m, steepness, resolution_m));
 }
 
-NodeValues Relief::reflectance_of(const Material& material) const {
+NodeValues Relief::reflectance_of(const NodeValues& material) const {
   NodeValues land;
-  for (std::size_t k = 0; k < 4; ++k) land[k] = std::min(brightness_[k] * material.land[k], 1.0);
-  return mix(water_, land, material.land_share);
+  for (std::size_t k = 0; k < 4; ++k) land[k] = std::min(brightness_[k] * material[k], 1.0);
+  return land;
 }
 
 double Relief::rock(const glm::dvec3& direction, double height_m, double steepness,
                     double resolution_m) const {
-  if (sea_ && height_m <= 0.01) return -1;
   const double resolution = std::max(resolution_m / scale_, kFinest);
   const double spots = fractal_noise(direction * kEarthRadius, kSpots, resolution);
   const double high = sea_ ? smoothstep(900, 1900, height_m + 500 * spots) : 0;
@@ -213,14 +217,14 @@ double Relief::highest_m() const {
 void Relief::balance_materials() {
   constexpr int kDirections = 4000, kHalvings = 40;
   constexpr double kResolution = 2e3, kBrightest = 1e3;
-  std::vector<Material> places;
-  double land_share = 0;
+  std::vector<NodeValues> places;  // on land
   for (int i = 0; i < kDirections; ++i) {
     const glm::dvec3 direction = fibonacci_direction(i, kDirections);
-    const double height = height_m(direction, kResolution * scale_);
-    places.push_back(material(direction, height, 0, kResolution * scale_));
-    land_share += places.back().land_share / kDirections;
+    const Elevation at = elevation(direction, kResolution * scale_);
+    if (at.above_water_m > 0)
+      places.push_back(material(direction, at.height_m, 0, kResolution * scale_));
   }
+  const double land_share = static_cast<double>(places.size()) / kDirections;
   double albedo = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     albedo += albedo_[k] / 4;
@@ -233,9 +237,9 @@ void Relief::balance_materials() {
   };
   const auto mean = [&] {
     double sum = 0;
-    for (const Material& at : places) {
-      const NodeValues value = reflectance_of(at);
-      for (const double part : value) sum += 0.25 * part / kDirections;
+    for (const double part : water_) sum += 0.25 * (1 - land_share) * part;
+    for (const NodeValues& at : places) {
+      for (const double part : reflectance_of(at)) sum += 0.25 * part / kDirections;
     }
     return sum;
   };

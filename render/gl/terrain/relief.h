@@ -21,12 +21,13 @@ class Relief final : public Ground {
   // The sun's azimuth is that of the water.
   const SiteAxes& coast() const { return coast_; }
 
-  double height_m(const glm::dvec3& direction, double resolution_m) const override;
+  Elevation elevation(const glm::dvec3& direction, double resolution_m) const override;
 
-  // Its mean over the planet and the nodes is that of the ground albedo; the colours are those of
-  // sea, plants, rock and snow where the albedo has none.
+  // The mean over the planet, with its water, and the nodes is that of the ground albedo; the
+  // colours are those of sea, plants, rock and snow where the albedo has none.
   NodeValues reflectance(const glm::dvec3& direction, double height_m, double steepness,
                          double resolution_m) const override;
+  std::optional<NodeValues> water_reflectance() const override { return water_; }
   double rock(const glm::dvec3& direction, double height_m, double steepness,
               double resolution_m) const override;
   double highest_m() const override;
@@ -34,14 +35,11 @@ class Relief final : public Ground {
 
  private:
   void settle_on_a_coast();
-  struct Material {
-    NodeValues land;  // relative reflectance
-    double land_share;
-  };
-  Material material(const glm::dvec3& direction, double height_m, double steepness,
-                    double resolution_m) const;
-  NodeValues reflectance_of(const Material& material) const;
+  // Relative reflectances.
+  NodeValues material(const glm::dvec3& direction, double height_m, double steepness,
+                      double resolution_m) const;
   NodeValues dry_material(const glm::dvec3& direction, double steepness, double resolution_m) const;
+  NodeValues reflectance_of(const NodeValues& material) const;
   void balance_materials();
 
   double radius_m_;

@@ -64,6 +64,7 @@ std::array<std::size_t, kPatches> near_to_far(const CubeBlock& block, const Terr
 
 TerrainPass::TerrainPass(const Ground& ground, double radius_m, ContentCache* cache)
     : radius_m_(radius_m),
+      water_reflectance_(ground.water_reflectance()),
       store_(ground, radius_m, cache),
       program_(terrain_program("render/shaders/terrain.vert", "render/shaders/terrain.frag")),
       depth_program_(
@@ -82,6 +83,7 @@ TerrainPass::TerrainPass(const Ground& ground, double radius_m, ContentCache* ca
   attribute(3, 0, 4, GL_SHORT, GL_TRUE, offsetof(BlockVertex, coarse_normal));
   attribute(4, 0, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(BlockVertex, fine_reflectance));
   attribute(5, 0, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(BlockVertex, coarse_reflectance));
+  attribute(8, 0, 2, GL_SHORT, GL_TRUE, offsetof(BlockVertex, above_water));
   glVertexArrayBindingDivisor(id, 1, 1);
   attribute(6, 1, 3, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, offset_km));
   attribute(7, 1, 2, GL_FLOAT, GL_FALSE, offsetof(BlockInstance, morph_begin_km));
@@ -152,6 +154,9 @@ void TerrainPass::draw(const TerrainDraw& draw, const Projection& projection,
   const Uniforms uniforms(program_.id());
   uniforms.set("clip_from_planet", glm::mat3(clip_from_view * view_from_planet));
   uniforms.set("near_km", projection.near_km);
+  const NodeValues water = water_reflectance_.value_or(NodeValues{});
+  uniforms.set("water_reflectance", glm::vec4(water[0], water[1], water[2], water[3]));
+  uniforms.set("own_reflectance_of_water", water_reflectance_ ? 1.0f : 0.0f);
   glUseProgram(program_.id());
   submit(draw);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "render/gl/context/objects.h"
@@ -42,6 +43,7 @@ class TerrainPass {
   void submit(const TerrainDraw& draw) const;
 
   double radius_m_;
+  std::optional<NodeValues> water_reflectance_;
   BlockStore store_;
   GlProgram program_, depth_program_;
   GlVertexArray layout_;
