@@ -41,7 +41,7 @@ TEST_F(CampaignTest, LeavesOneResultOfAll) {
   const Outcome first = run({"campaign", in("plan.json"), "--out", in("out")});
   EXPECT_EQ(first.status, 0) << first.err;
   EXPECT_THAT(first.out, StartsWith("3 tasks: 2 fitted, 0 of them outliers, 1 failed\n"));
-  EXPECT_THAT(first.out, HasSubstr("scans/c.csv: "));
+  EXPECT_THAT(first.out, HasSubstr("scans/c.csv:1: "));
   for (const char* name : {"campaign.nc", "campaign.csv", "campaign.txt", "campaign.svg",
                            "campaign.png", "tasks/000000.nc", "tasks/000001.nc"})
     EXPECT_GT(std::filesystem::file_size(folder_ / "out" / name), 0u) << name;
