@@ -44,6 +44,21 @@ int print_help(const CLI::App& app, const CLI::Success& help_or_version) {
   return status;
 }
 
+// An empty name is one that a script lost; it names no file. What may be another name as well says
+// itself which there are.
+void expect_names(CLI::App& command) {
+  for (CLI::Option* const known : command.get_options()) {
+    const std::string form = known->get_type_name();
+    const auto names = [&](const char* what) { return form.find(what) != std::string::npos; };
+    if (names("NAME") || (!names("FILE") && !names("DIR") && !names("PLAN"))) continue;
+    const std::string name = known->get_name();
+    known->check([name, form](const std::string& text) {
+      if (text.empty()) throw UsageError(name, text, "expected " + form);
+      return std::string();
+    });
+  }
+}
+
 void add_commands(CLI::App& app) {
   app.set_version_flag("--version", std::string("skyfit ") + kVersion);
   app.require_subcommand(0, 1);  // none at all is refused by run(), with a better message
@@ -85,7 +100,10 @@ void add_commands(CLI::App& app) {
   add_completion_command(app);
   add_man_command(app);
   add_doctor_command(app);
-  for (CLI::App* const command : app.get_subcommands({})) command->fallthrough();
+  for (CLI::App* const command : app.get_subcommands({})) {
+    command->fallthrough();
+    expect_names(*command);
+  }
   app.footer(
       "Example: skyfit fit --reference cie:12 --out fitted\nMore about a command: skyfit COMMAND "
       "--help");

@@ -13,6 +13,7 @@
 #include "cli/inputs.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "data_refs/irradiance.h"
 #include "data_refs/measured_formats.h"
 #include "data_refs/spectra.h"
 #include "fit/campaign/run.h"
@@ -34,36 +35,42 @@ struct CampaignArguments {
   bool merge = false;
 };
 
+// Directories that are made where they are missing, and go again where nothing is put into them.
+class MadeDirectories {
+ public:
+  explicit MadeDirectories(const fs::path& directory) {
+    for (fs::path at = fs::absolute(directory).lexically_normal(); !fs::exists(at);
+         at = at.parent_path())
+      made_.push_back(at);
+    fs::create_directories(directory);
+  }
+  ~MadeDirectories() {
+    std::error_code not_empty;
+    for (const fs::path& at : made_) fs::remove(at, not_empty);
+  }
+  MadeDirectories(const MadeDirectories&) = delete;
+  MadeDirectories& operator=(const MadeDirectories&) = delete;
+
+ private:
+  std::vector<fs::path> made_;  // the deepest first
+};
+
 // The options of `skyfit fit` that a plan states.
 class HowToFit {
  public:
-  HowToFit(const fit::CampaignPlan& plan, const std::string& plan_name) {
-    add_fit_options(app_, arguments_);
-    app_.add_option("--model", arguments_.model);
-    add_refraction_option(app_, arguments_.refraction);
-    add_scalar_option(app_, arguments_.scalar);
-    app_.set_help_flag();
+  // What is wrong with them is said before the work, with the plan's line.
+  explicit HowToFit(const fit::CampaignPlan& plan) : kind_(plan.kind) {
     try {
-      std::vector<std::string> reversed(plan.options.rbegin(), plan.options.rend());
-      app_.parse(reversed);
-    } catch (const CLI::ParseError& error) {
-      throw std::invalid_argument(fmt::format("{}: options: {}", plan_name, error.what()));
-    }
-    arguments_.threads = 1;  // the tasks run beside each other
-    import_ = parse_import_options(arguments_.import);
-    if (arguments_.bootstrap > 0 || !arguments_.profiles.empty() || !arguments_.hold_out.empty())
+      take(plan);
+    } catch (const std::exception& error) {
       throw std::invalid_argument(
-          fmt::format("{}: options: expected none of bootstrap, profile and hold-out, which are "
-                      "for single fits",
-                      plan_name));
-    const auto model =
-        sky_model_named(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
-                        transfer_of(arguments_.scalar), arguments_.refraction);
-    fit_options(arguments_, *model, app_);  // what is wrong with them is said before the work
+          fmt::format("{}: options: {}", plan.place_of_option(error.what()), error.what()));
+    }
   }
 
   refs::Reference read(const fs::path& file) const {
-    return refs::load_measured_sky(file, import_);
+    return kind_ == fit::InputKind::kIrradiances ? refs::irradiance_table(file, import_)
+                                                 : refs::load_measured_sky(file, import_);
   }
   fit::Outcome fit(const fit::Task& task) const {
     const FitRequest request = fit_request(
@@ -73,6 +80,26 @@ class HowToFit {
   }
 
  private:
+  void take(const fit::CampaignPlan& plan) {
+    add_fit_options(app_, arguments_);
+    app_.add_option("--model", arguments_.model);
+    add_refraction_option(app_, arguments_.refraction);
+    add_scalar_option(app_, arguments_.scalar);
+    app_.set_help_flag();
+    std::vector<std::string> reversed(plan.options.rbegin(), plan.options.rend());
+    app_.parse(reversed);
+    arguments_.threads = 1;  // the tasks run beside each other
+    import_ = parse_import_options(arguments_.import);
+    if (arguments_.bootstrap > 0 || !arguments_.profiles.empty() || !arguments_.hold_out.empty())
+      throw std::invalid_argument(
+          "expected none of --bootstrap, --profile and --hold-out, which are for single fits");
+    const auto model =
+        sky_model_named(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
+                        transfer_of(arguments_.scalar), arguments_.refraction);
+    fit_options(arguments_, *model, app_);
+  }
+
+  fit::InputKind kind_;
   CLI::App app_;
   FitArguments arguments_;
   refs::ImportOptions import_;
@@ -149,7 +176,8 @@ void leave_summary(const CampaignArguments& arguments, const fit::CampaignRun& r
 void run(const CampaignArguments& arguments) {
   const fit::CampaignPlan plan = fit::load_plan(arguments.plan);
   const fit::Shard shard = parse_shard(arguments.shard);
-  fs::create_directories(arguments.out);
+  const HowToFit how(plan);
+  const MadeDirectories made(arguments.out);
   require_writable_file(fs::path(arguments.out) / kCsv);
   if (arguments.slurm > 0) {
     const fs::path script = fs::path(arguments.out) / kScript;
@@ -157,7 +185,6 @@ void run(const CampaignArguments& arguments) {
     print(fmt::format("sbatch {}\n", quoted(script.string())));
     return;
   }
-  const HowToFit how(plan, arguments.plan);
   const std::vector<fit::Task> tasks = fit::tasks_of(
       plan, named_files(), [&](const fs::path& file) { return how.read(file); }, arguments.threads);
   const fit::CampaignRun campaign{plan, tasks, arguments.out};
@@ -205,7 +232,9 @@ void add_campaign_command(CLI::App& app) {
       "A plan:\n"
       "  {\"skyfit_campaign\": 1, \"inputs\": [\"scans/*.csv\"], \"group\": \"day\",\n"
       "   \"options\": {\"lobes\": 1, \"fix\": [\"ground.albedo=0.2\"]}}\n"
-      "Groups: file (the default), scan, day, site. Options are those of skyfit fit.\n"
+      "Groups: file (the default), scan, day, site. Options are those of skyfit fit. With\n"
+      "\"kind\": \"irradiances\" the inputs are tables of irradiances, as of skyfit fit\n"
+      "--irradiance, of which every line is a scan.\n"
       "\n"
       "Leaves campaign.nc (NetCDF), campaign.csv, campaign.txt and, where times are known,\n"
       "campaign.svg and campaign.png. A task that cannot be fitted is recorded with its reason\n"

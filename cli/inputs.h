@@ -13,6 +13,7 @@
 #include "model/atmosphere/preset.h"
 #include "model/base/input_file.h"
 #include "model/sky_model.h"
+#include "model/solver/reference_model.h"
 #include "render/color_space.h"
 
 namespace skyfit::cli {
@@ -25,6 +26,16 @@ NamedFiles& named_files();
 // name (write ./name for the file), and "-" is the standard input. Throws std::invalid_argument or
 // std::runtime_error with one line, which lists the names for neither.
 Preset preset_named(const std::string& name_or_file);
+
+// Does `work`, and names the preset where that is more than the solver can do.
+template <class Work>
+auto of_preset(const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const BeyondTheSolver& error) {
+    throw std::runtime_error(name + ": " + error.what());
+  }
+}
 
 // The pressure that takes the place of the preset's; nothing when the option is not given. Throws
 // UsageError.

@@ -7,6 +7,7 @@
 
 #include "cli/arguments.h"
 #include "cli/render_arguments.h"
+#include "cli/table_options.h"
 #include "data_refs/civil_time.h"
 #include "data_refs/solar_position.h"
 
@@ -131,7 +132,7 @@ SunDirection sun_over(Instant time, const Place& place) {
 }
 
 Keyframe parse_start(const RenderOptions& options, const CLI::App& command) {
-  const NamedView& view = find_view(options.view);
+  const NamedView& view = entry_named("--view", options.view, named_views());
   Keyframe start;
   start.camera = parse_camera(options, command, view);
   start.sun.direction = sun_of(view);

@@ -17,6 +17,16 @@ namespace {
 
 constexpr double kMaxStops = 50;  // 2^50: from the darkest night to the sun's disc and beyond
 
+// What is wrong with a frame or a scene of which an option gives the one thing that is not usual.
+template <class What>
+void expect_valid(std::string_view option, std::string_view text, const What& what) {
+  try {
+    validate(what);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(option, text, error.what());
+  }
+}
+
 PlacedMesh parse_mesh(const std::string& text) {
   constexpr std::string_view kForm =
       "FILE@LATITUDE,LONGITUDE,ALTITUDE[,HEADING[,SCALE]] in degrees and metres";
@@ -32,6 +42,9 @@ PlacedMesh parse_mesh(const std::string& text) {
   mesh.altitude_m = values[2];
   if (values.size() > 3) mesh.heading = radians(values[3]);
   if (values.size() > 4) mesh.scale = values[4];
+  Scene alone;
+  alone.meshes = {mesh};
+  expect_valid("--mesh", text, alone);
   return mesh;
 }
 
@@ -61,7 +74,8 @@ void parse_dems(const RenderOptions& options, const CLI::App& command, Scene& sc
   scene.dem_surroundings =
       options.dem_surroundings == "sea" ? DemSurroundings::kSea : DemSurroundings::kPlanet;
   if (command.count("--dem-edge-m") > 0)
-    scene.dem_edge_m = parse_number("--dem-edge-m", options.dem_edge);
+    scene.dem_edge_m =
+        parse_number_within("--dem-edge-m", options.dem_edge, 0, 1e7, "a length in metres");
 }
 
 void parse_sky_objects(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {
@@ -75,11 +89,17 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
       frame.moon->distance_m = values[2];
       frame.moon->radius_m = values[3];
     }
+    FrameOptions alone;
+    alone.moon = frame.moon;
+    expect_valid("--moon", options.moon, alone);
   }
   if (command.count("--second-sun") > 0) {
     const auto values =
         parse_tuple("--second-sun", options.second_sun, 3, 3, "ZENITH,AZIMUTH,SHARE");
     frame.second_sun = SecondSun{radians(values[0]), radians(values[1]), values[2]};
+    FrameOptions alone;
+    alone.second_sun = frame.second_sun;
+    expect_valid("--second-sun", options.second_sun, alone);
   }
   if (command.count("--clouds") > 0) {
     const auto values = parse_tuple("--clouds", options.clouds, 1, 3,
@@ -87,6 +107,9 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
     frame.clouds = CloudLayer{.cover = values[0]};
     if (values.size() > 1) frame.clouds->altitude_m = values[1];
     if (values.size() > 2) frame.clouds->opacity = values[2];
+    FrameOptions alone;
+    alone.clouds = frame.clouds;
+    expect_valid("--clouds", options.clouds, alone);
   }
 }
 
@@ -138,7 +161,12 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   scene.highest_m = parse_number("--height-range-m", high);
   if (!(scene.lowest_m < scene.highest_m))
     throw UsageError("--height-range-m", options.height_range, "expected LOW..HIGH, LOW < HIGH");
-  scene.water_level_m = parse_number("--water-level-m", options.water_level);
+  Scene heights;
+  heights.lowest_m = scene.lowest_m;
+  heights.highest_m = scene.highest_m;
+  expect_valid("--height-range-m", options.height_range, heights);
+  scene.water_level_m =
+      parse_number_within("--water-level-m", options.water_level, -1e5, 1e5, "a height in metres");
   parse_dems(options, command, scene);
   for (const std::string& mesh : options.meshes) scene.meshes.push_back(parse_mesh(mesh));
   scene.textures = options.textures;

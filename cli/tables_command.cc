@@ -107,9 +107,14 @@ void measure(const TablesArguments& arguments, const Preset& preset, const Spect
   }
 }
 
-void run_tables(const TablesArguments& arguments) {
+void run_tables(const TablesArguments& arguments, const CLI::App& command) {
   if (arguments.out.empty() != arguments.measure)
     throw UsageError("--out", arguments.out, "expected a directory, or --measure alone");
+  for (const char* option : {"--format", "--precision", "--size", "--primaries", "--force"}) {
+    if (arguments.measure && command.count(option) > 0)
+      throw UsageError(option, command.get_option(option)->results().front(),
+                       "expected without --measure, which measures every size and precision");
+  }
   const Preset preset = preset_named(arguments.preset);
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   if (arguments.measure) return measure(arguments, preset, spectra);
@@ -150,7 +155,7 @@ void add_tables_command(CLI::App& app) {
       "  skyfit tables earth-clear --out sky\n"
       "  skyfit tables fitted/preset.json --format ktx2 --precision float --size full --out sky\n"
       "  skyfit tables earth-hazy --measure");
-  command.callback([arguments] { run_tables(*arguments); });
+  command.callback([arguments, &command] { run_tables(*arguments, command); });
 }
 
 }  // namespace skyfit::cli

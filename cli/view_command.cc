@@ -50,8 +50,12 @@ void run_view(const ViewArguments& arguments) {
                     1e-6 * static_cast<double>(page.html.size()), sliders.size()));
   print("largest error of the luminance (suns to 88 deg, views to 89 deg from the zenith):\n");
   for (std::size_t i = 0; i < kComparedAltitudes_m.size(); ++i)
-    print(fmt::format("  from {:.0f} m: {:.2g} %\n", kComparedAltitudes_m[i],
-                      100 * page.errors.preset[i]));
+    print(fmt::format(
+        "  from {:.0f} m: {:.2g} %, with the sun at {:.0f} deg, view {:.0f} deg, azimuth "
+        "{:.0f} deg\n",
+        kComparedAltitudes_m[i], 100 * page.errors.preset[i].error,
+        degrees(page.errors.preset[i].at.sun_zenith), degrees(page.errors.preset[i].at.view_zenith),
+        degrees(page.errors.preset[i].at.relative_azimuth)));
   for (std::size_t i = 0; i < sliders.size(); ++i) {
     const ParameterInfo info = parameter_info(sliders[i].parameter);
     print(
@@ -98,7 +102,7 @@ void add_view_command(CLI::App& app) {
       "  skyfit view fitted/preset.json --out sky.html\n"
       "  skyfit view earth-hazy --parameters aerosol.optical_depth,aerosol.scale_height --out "
       "haze.html");
-  command.callback([arguments] { run_view(*arguments); });
+  command.callback([arguments] { of_preset(arguments->preset, [&] { run_view(*arguments); }); });
 }
 
 }  // namespace skyfit::cli

@@ -364,4 +364,9 @@ Reference irradiance_reference(std::string_view text, std::optional<double> sun_
   return of_csv(std::string(text), options);
 }
 
+Reference irradiance_table(const std::filesystem::path& file, const ImportOptions& options) {
+  validate(options);
+  return of_csv(file.string(), options);
+}
+
 }  // namespace skyfit::refs

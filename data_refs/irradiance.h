@@ -18,6 +18,7 @@
 // out and noted.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -31,5 +32,8 @@ namespace skyfit::refs {
 // std::invalid_argument or std::runtime_error with one line.
 Reference irradiance_reference(std::string_view text, std::optional<double> sun_zenith,
                                const ImportOptions& options);
+
+// The CSV alone, whatever its path has in it.
+Reference irradiance_table(const std::filesystem::path& file, const ImportOptions& options);
 
 }  // namespace skyfit::refs

@@ -171,7 +171,7 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
   throw std::invalid_argument(
       fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {}, "
                   "perez:EPSILON,DELTA, a truth: of `skyfit references` or a measured sky",
-                  name, cie_skies().size(), kTraditionalOvercast));
+                  name.empty() ? "\"\"" : name, cie_skies().size(), kTraditionalOvercast));
 }
 
 std::string preset_schema_json() { return std::string(embedded_text("preset.schema.json")); }

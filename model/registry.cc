@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <ranges>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -168,10 +169,15 @@ std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralDa
   const SkyModelEntry& entry = sky_model_entry(name);
   std::vector<std::string_view> variants = split(name);
   variants.erase(variants.begin());
+  std::set<std::string_view> given;  // rows
   for (const std::string_view variant : variants) {
-    if (std::ranges::any_of(entry.variants,
-                            [&](const auto& row) { return is_variant(name, variant, row); }))
-      continue;
+    const auto found = std::ranges::find_if(
+        entry.variants, [&](const auto& row) { return is_variant(name, variant, row); });
+    if (found != entry.variants.end()) {
+      if (given.insert(found->name).second) continue;
+      throw std::invalid_argument(fmt::format("model \"{}\": variant \"{}\": expected {} once",
+                                              name, variant, found->name));
+    }
     std::vector<std::string_view> known;
     for (const SkyModelVariant& row : entry.variants) known.push_back(row.name);
     throw std::invalid_argument(

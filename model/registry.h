@@ -44,7 +44,7 @@ std::span<const SkyModelEntry> sky_models();
 const SkyModelEntry& sky_model_entry(std::string_view name);
 
 // `name` is that of a row, with ":VARIANT" behind it for each of the row's variants that are
-// wanted. Throws std::invalid_argument that lists the known names.
+// wanted, each once. Throws std::invalid_argument that lists the known names.
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,
                                          int threads, Transfer transfer = Transfer::kVector);
 

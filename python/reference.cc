@@ -51,6 +51,13 @@ refs::Reference read(const std::string& names, const Options& options) {
   });
 }
 
+refs::Reference read_irradiances(const std::string& text, const Options& options) {
+  CLI::App command;
+  const ReadingOptions arguments(command);
+  parse(command, "read_irradiances", options);
+  return cli::load_irradiances(text, arguments.sun_zenith, arguments.import, command);
+}
+
 // Arrays of one element a sample; sigma is NaN where none is stated.
 refs::Reference reference_of(const std::string& name, const std::string& quantity,
                              const Input<double>& sun_zenith_deg,
@@ -107,6 +114,12 @@ py::dict arrays_of(const refs::Reference& reference) {
       [](const Sample& s) { return s.sigma.value_or(std::numeric_limits<double>::quiet_NaN()); });
   add("weight", [](const Sample& s) { return s.weight; });
   add("scan", [](const Sample& s) { return s.scan; });
+  if (refs::is_irradiance(reference.quantity)) {
+    py::list names;
+    for (const Sample& sample : reference.samples)
+      names.append(std::string(kIrradianceNames[sample.irradiance.value()]));
+    arrays["irradiance"] = py::module_::import("numpy").attr("array")(names);
+  }
   return arrays;
 }
 
@@ -121,6 +134,7 @@ void bind_reference(py::module_& module) {
       },
       "Names of the standard skies, which read(name) gives.");
   module.def("read", &read);
+  module.def("read_irradiances", &read_irradiances);
   module.def("reading_options", &reading_options);
   module.def("reference_of", &reference_of);
   py::class_<refs::Reference>(module, "Reference", "A reference sky: samples of it, in scans.")
@@ -131,7 +145,8 @@ void bind_reference(py::module_& module) {
           [](const refs::Reference& reference) {
             return std::string(refs::quantity_name(reference.quantity));
           },
-          "luminance (cd/m^2), relative luminance, or spectral radiance (W m^-2 sr^-1 nm^-1).")
+          "luminance (cd/m^2), relative luminance, spectral radiance (W m^-2 sr^-1 nm^-1), "
+          "illuminance (lx) or irradiance (W m^-2 of all wavelengths).")
       .def_readonly("notes", &refs::Reference::notes,
                     "What the reader of a measured sky concluded or left out.")
       .def("_arrays", &arrays_of)

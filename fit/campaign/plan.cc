@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -35,6 +36,8 @@ constexpr std::array<std::pair<std::string_view, Grouping>, 4> kGroupings = {
      {"scan", Grouping::kScan},
      {"day", Grouping::kDay},
      {"site", Grouping::kSite}}};
+constexpr std::array<std::pair<std::string_view, InputKind>, 2> kInputKinds = {
+    {{"skies", InputKind::kSkies}, {"irradiances", InputKind::kIrradiances}}};
 constexpr int kPlanVersion = 1, kMostTasksPerFile = 10'000;
 
 // {"lobes": 1, "no-priors": true, "fix": ["a=1", "b=2"]} as --lobes 1 --no-priors --fix a=1 --fix
@@ -61,14 +64,16 @@ std::vector<std::string> arguments_of(const PresetReader& options) {
   return arguments;
 }
 
-Grouping grouping_of(const PresetReader& plan) {
-  const std::string text = plan.text("group");
+// The value of the row that a field names.
+template <class Rows>
+auto named(const PresetReader& plan, std::string_view field, const Rows& rows) {
+  const std::string text = plan.text(field);
   std::string names;
-  for (const auto& [name, grouping] : kGroupings) {
-    if (name == text) return grouping;
+  for (const auto& [name, value] : rows) {
+    if (name == text) return value;
     names += fmt::format("{}{}", names.empty() ? "one of " : ", ", name);
   }
-  plan.fail_value("group", names);
+  plan.fail_value(field, names);
 }
 
 int whole_number(const PresetReader& plan, std::string_view field, int lower, int upper) {
@@ -88,17 +93,17 @@ std::vector<std::string> matches(const CampaignPlan& plan, const std::string& in
   for (std::size_t i = 0; i < found.gl_pathc; ++i) paths.emplace_back(found.gl_pathv[i]);
   globfree(&found);
   if (status != 0)
-    throw std::invalid_argument(
-        fmt::format("inputs: {}: expected a file or a pattern of files in the folder of the plan",
-                    printable(input)));
+    throw std::invalid_argument(fmt::format(
+        "{}: inputs: {}: expected a file or a pattern of files in the folder of the plan",
+        plan.inputs_place, printable(input)));
   // What describes a sky beside it is no sky.
   std::erase_if(paths, [](const std::string& path) { return path.ends_with(".sidecar.json"); });
   for (std::string& path : paths) {
     if (!fs::path(input).is_absolute())
       path = fs::path(path).lexically_relative(plan.folder).string();
     if (!named_file(plan.folder, path, named))
-      throw std::invalid_argument(
-          fmt::format("inputs: {}: expected {}", printable(path), kNamedFile));
+      throw std::invalid_argument(fmt::format("{}: inputs: {}: expected {}", plan.inputs_place,
+                                              printable(path), kNamedFile));
   }
   return paths;
 }
@@ -147,6 +152,7 @@ std::optional<std::string> mask_of(const fs::path& file, NamedFiles named) {
 std::string key_of(const CampaignPlan& plan, const Task& task, NamedFiles named) {
   ContentHash hash;
   hash.add(kVersion);
+  if (plan.kind == InputKind::kIrradiances) hash.add("irradiances\n");
   for (const std::string& option : plan.options) {
     hash.add(option + "\n");
     if (fs::is_regular_file(option)) hash.add_file(option);  // a preset, say
@@ -229,20 +235,48 @@ refs::Reference only_scans(refs::Reference reference, const std::vector<int>& sc
 
 }  // namespace
 
+std::string CampaignPlan::place_of_option(std::string_view message) const {
+  std::size_t first = message.npos;
+  std::string place = option_places.at("");
+  for (const auto& [name, at] : option_places) {
+    if (name.empty()) continue;
+    const auto is_letter = [&](std::size_t i) {
+      return i < message.size() &&
+             (std::isalnum(static_cast<unsigned char>(message[i])) != 0 || message[i] == '_');
+    };
+    const std::size_t found = message.find(name), end = found + name.size();
+    if (found >= first || is_letter(end) || message.substr(end).starts_with('-') ||
+        (found > 0 && is_letter(found - 1)))
+      continue;
+    first = found;
+    place = at;
+  }
+  return place;
+}
+
 CampaignPlan load_plan(const fs::path& file) {
   const std::string text = read_file(file, "the plan of a campaign (JSON or TOML)");
   const PresetDocument document = file.extension() == ".toml" ? toml_document(text, file.string())
                                                               : PresetDocument(text, file.string());
   const PresetReader plan = document.root();
-  plan.expect_only({"skyfit_campaign", "inputs", "group", "options", "tasks_per_file", "note"});
+  plan.expect_only(
+      {"skyfit_campaign", "inputs", "kind", "group", "options", "tasks_per_file", "note"});
   if (plan.number("skyfit_campaign") != kPlanVersion)
     plan.fail_value("skyfit_campaign", fmt::format("{}", kPlanVersion));
   CampaignPlan result;
   result.folder = file.parent_path();
   result.inputs = plan.texts("inputs");
   if (result.inputs.empty()) plan.fail_value("inputs", "at least one file or pattern");
-  if (plan.has("group")) result.group = grouping_of(plan);
-  if (plan.has("options")) result.options = arguments_of(plan.object("options"));
+  if (plan.has("group")) result.group = named(plan, "group", kGroupings);
+  if (plan.has("kind")) result.kind = named(plan, "kind", kInputKinds);
+  result.inputs_place = document.place("inputs");
+  result.option_places[""] = document.place("options");
+  if (plan.has("options")) {
+    const PresetReader options = plan.object("options");
+    result.options = arguments_of(options);
+    for (const auto& [name, value] : options.value().items())
+      result.option_places[name] = document.place("options." + name);
+  }
   if (plan.has("tasks_per_file"))
     result.tasks_per_file = whole_number(plan, "tasks_per_file", 1, kMostTasksPerFile);
   return result;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,11 @@
 #include "model/base/input_file.h"
 
 namespace skyfit::fit {
+
+enum class InputKind {
+  kSkies,       // data_refs/measured_formats.h
+  kIrradiances  // tables of data_refs/irradiance.h
+};
 
 enum class Grouping {
   kFile,  // the scans of one file, jointly
@@ -23,9 +29,15 @@ enum class Grouping {
 struct CampaignPlan {
   std::filesystem::path folder;     // of the plan
   std::vector<std::string> inputs;  // files and folders, or patterns with * ? [], in that folder
+  InputKind kind = InputKind::kSkies;
   Grouping group = Grouping::kFile;
-  std::vector<std::string> options;  // arguments of skyfit fit
-  int tasks_per_file = 64;           // results that are written together
+  std::string inputs_place;                          // "plan.json:2", for messages
+  std::vector<std::string> options;                  // arguments of skyfit fit
+  std::map<std::string, std::string> option_places;  // by name, and of all by ""
+
+  // Where the option stands that a message about the options names first.
+  std::string place_of_option(std::string_view message) const;
+  int tasks_per_file = 64;  // results that are written together
 };
 
 // Throws std::invalid_argument or std::runtime_error with one line that names file, line, field,

@@ -136,7 +136,19 @@ Number cosine_of_azimuth(Number mu, Number mu_s, Number nu) {
   Number sines = sqrt(max((1.0 - mu * mu) * (1.0 - mu_s * mu_s), Number(0.0)));
   return clamp((nu - mu * mu_s) / max(sines, Number(1e-7)), Number(-1.0), Number(1.0));
 }
-Number unit_from_azimuth(Number cosine) { return acos(cosine) * 0.318309886183790672; }  // 1 / pi
+
+// docs/theory (9.6).
+// Coordinate of the azimuth: with 14 texels steps of 6 degrees toward the sun, where light of higher orders still shows
+// the forward lobe of what scatters it, and of 16 away from it. By turns t = phi / pi, 1.18 x = t + 0.2 t / (t + 0.1).
+Number unit_from_azimuth(Number cosine) {
+  Number t = acos(cosine) * 0.318309886183790672;  // 1 / pi
+  return t * (t + 0.3) / ((t + 0.1) * 1.181818181818);
+}
+
+Number cosine_from_azimuth_unit(Number x) {
+  Number y = 1.181818181818 * x;
+  return cos(1.570796326794897 * (y - 0.3 + sqrt((y - 0.3) * (y - 0.3) + 0.4 * y)));
+}
 
 // Rays to the sky, whose brightness changes fastest along the limb: coordinate of the square root of Bruneton's
 // distance, x = s at both ends, 1.8 times as coarse as s at the zenith and 5 times as fine at the horizon.

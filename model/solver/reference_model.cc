@@ -29,37 +29,6 @@ void check_option(bool good, std::string_view name, double value, std::string_vi
   check_model_value("reference", good, name, value, expected);
 }
 
-// A forward peak that the moments do not hold (a lobe of g above some 0.86, or of 0.85 in a cloud)
-// is cut off too coarsely: twice the rays and moments. A lobe of g = 0.9 and optical depth 0.3 is
-// then off by 0.7 % at worst instead of 2.4 %, a cloud of g = 0.85 and 2 by 0.5 instead of 4.9 %.
-// Not where the atmosphere is thick against its planet: there few rays lie between the horizon and
-// the limb, their quadrature of so many moments gains light, and in an optical depth of 9 (Titan)
-// the field came out negative.
-ReferenceOptions resolved(ReferenceOptions options, const Atmosphere<double>& atmosphere) {
-  constexpr double kNarrow = 0.1;       // share of the scattering that would be cut off
-  constexpr double kNarrowDepth = 0.1;  // the same times the vertical optical depth
-  // A coarse mode beside a fine one scatters so little that its cut hardly shows.
-  constexpr double kThinDepth = 0.01;
-  const auto is_mode = [](const Constituent<double>& c) {
-    return c.phase.type == PhaseType::kSizeDistribution;
-  };
-  constexpr double kThick = 0.05;  // top height over radius
-  if (options.moments != ReferenceOptions{}.moments) return options;
-  if (atmosphere.top_radius_m > (1 + kThick) * atmosphere.bottom_radius_m) return options;
-  const auto is_narrow = [&](const Constituent<double>& c) {
-    if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
-    constexpr double kGreen = 550;  // nm
-    const double cut = phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back();
-    const double depth = cut * vertical_optical_depth(atmosphere, c, {kGreen, 0});
-    return depth > kNarrowDepth || (cut > kNarrow && (!is_mode(c) || depth > kThinDepth));
-  };
-  if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
-    options.streams *= 2;
-    options.moments *= 2;
-  }
-  return options;
-}
-
 // The distinct view rays of a list of points, and which ray each point takes.
 struct ViewRays {
   std::vector<ViewPath> paths;
@@ -193,16 +162,22 @@ void add_multiple_scattering(const Solutions<N>& solutions, Fields fields, const
 
 // Interpolation over suns and levels rings where it is dark beside light, by less than a thousandth
 // of daylight: there is none. More says that the diffuse field is wrong.
-double not_negative(double radiance) {
+void expect_no_negative(SkyValues& values, std::span<const WavelengthNode> wavelengths,
+                        std::span<const SkyPoint> points) {
   constexpr double kRinging = 1e-3;  // 1/sr; a clear sky has 0.05
-  if (!(radiance >= -kRinging)) {
-    throw std::runtime_error(fmt::format(
-        "reference model: the diffuse field is negative, {:.3g} 1/sr: this atmosphere is "
-        "more than the solver can do (thick, hardly absorbing, with a narrow lobe or high "
-        "above its planet)",
-        radiance));
+  for (std::size_t cell = 0; cell < values.value.size(); ++cell) {
+    double& radiance = values.value[cell];
+    if (!(radiance >= -kRinging)) {
+      const SkyPoint& at = points[cell / wavelengths.size()];
+      throw BeyondTheSolver(fmt::format(
+          "reference model: the diffuse field is negative, {:.3g} 1/sr at {:.6g} nm, sun {:.4g} "
+          "deg and view {:.4g} deg from the zenith: this atmosphere is more than the solver can "
+          "do (thick, hardly absorbing, with a narrow lobe or high above its planet)",
+          radiance, wavelengths[cell % wavelengths.size()].wavelength_nm,
+          at.sun_zenith / kRadiansPerDegree, at.view_zenith / kRadiansPerDegree));
+    }
+    radiance = std::max(radiance, 0.0);
   }
-  return std::max(radiance, 0.0);
 }
 
 // Puts together what single scattering (and the ground) and multiple scattering give; either may be
@@ -299,7 +274,7 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
     result.push_back(sum_of(single[which], multiple, static_cast<int>(points.size()), optics.size(),
                             derivatives.size(), further));
   }
-  for (double& radiance : result.front().value) radiance = not_negative(radiance);
+  expect_no_negative(result.front(), wavelengths, points);
   return result;
 }
 
@@ -351,6 +326,37 @@ std::vector<SkyValues> solve_all(const Atmosphere<double>& atmosphere,
 
 }  // namespace
 
+// A forward peak that the moments do not hold (a lobe of g above some 0.86, or of 0.85 in a cloud)
+// is cut off too coarsely: twice the rays and moments. A lobe of g = 0.9 and optical depth 0.3 is
+// then off by 0.7 % at worst instead of 2.4 %, a cloud of g = 0.85 and 2 by 0.5 instead of 4.9 %.
+// Not where the atmosphere is thick against its planet: there few rays lie between the horizon and
+// the limb, their quadrature of so many moments gains light, and in an optical depth of 9 (Titan)
+// the field came out negative.
+ReferenceOptions options_for(const Atmosphere<double>& atmosphere, ReferenceOptions options) {
+  constexpr double kNarrow = 0.1;       // share of the scattering that would be cut off
+  constexpr double kNarrowDepth = 0.1;  // the same times the vertical optical depth
+  // A coarse mode beside a fine one scatters so little that its cut hardly shows.
+  constexpr double kThinDepth = 0.01;
+  const auto is_mode = [](const Constituent<double>& c) {
+    return c.phase.type == PhaseType::kSizeDistribution;
+  };
+  constexpr double kThick = 0.05;  // top height over radius
+  if (options.moments != ReferenceOptions{}.moments) return options;
+  if (atmosphere.top_radius_m > (1 + kThick) * atmosphere.bottom_radius_m) return options;
+  const auto is_narrow = [&](const Constituent<double>& c) {
+    if (!scatters(c) || c.phase.type == PhaseType::kRayleigh) return false;
+    constexpr double kGreen = 550;  // nm
+    const double cut = phase_moments(phase_at(c.phase, kGreen), options.moments + 1).back();
+    const double depth = cut * vertical_optical_depth(atmosphere, c, {kGreen, 0});
+    return depth > kNarrowDepth || (cut > kNarrow && (!is_mode(c) || depth > kThinDepth));
+  };
+  if (std::ranges::any_of(atmosphere.constituents, is_narrow)) {
+    options.streams *= 2;
+    options.moments *= 2;
+  }
+  return options;
+}
+
 ReferenceModel::ReferenceModel(const ReferenceOptions& options) : options_(options) {
   check_option(options.streams >= 4, "streams", options.streams, ">= 4");
   check_option(options.moments >= 3 && options.moments <= 2 * options.streams, "moments",
@@ -376,7 +382,7 @@ SkyValues ReferenceModel::radiance(const Atmosphere<double>& atmosphere,
                                    std::span<const Parameter> derivatives) const {
   check(atmosphere, points, derivatives);
   constexpr Stokes kWanted[] = {Stokes::kI};
-  return solve_all(atmosphere, wavelengths, points, derivatives, resolved(options_, atmosphere),
+  return solve_all(atmosphere, wavelengths, points, derivatives, options_for(atmosphere, options_),
                    kWanted)
       .front();
 }
@@ -390,7 +396,7 @@ StokesValues ReferenceModel::stokes(const Atmosphere<double>& atmosphere,
   check(atmosphere, points, derivatives);
   constexpr Stokes kWanted[] = {Stokes::kI, Stokes::kQ, Stokes::kU};
   std::vector<SkyValues> all = solve_all(atmosphere, wavelengths, points, derivatives,
-                                         resolved(options_, atmosphere), kWanted);
+                                         options_for(atmosphere, options_), kWanted);
   return {std::move(all[0]), std::move(all[1]), std::move(all[2])};
 }
 

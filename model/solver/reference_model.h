@@ -6,6 +6,8 @@
 // docs/theory/ derives it, docs/accuracy.md states the error against Monte Carlo.
 #pragma once
 
+#include <stdexcept>
+
 #include "model/sky_model.h"
 #include "model/solver/level_grid.h"
 
@@ -28,6 +30,17 @@ struct ReferenceOptions {
   // suns stand where they would without air. Multiple scattering leaves out that the refracted
   // beam spreads.
   bool refraction = false;
+};
+
+// The streams and moments that the model takes for an atmosphere: those given, doubled where they
+// are the default and a lobe is narrow.
+ReferenceOptions options_for(const Atmosphere<double>& atmosphere, ReferenceOptions options);
+
+// An atmosphere that the solver cannot do, found while it is solved; one line with wavelength and
+// sun, before which a caller puts the atmosphere's name.
+class BeyondTheSolver : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 class ReferenceModel final : public SkyModel {

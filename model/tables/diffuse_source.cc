@@ -17,20 +17,30 @@ namespace skyfit {
 namespace {
 
 constexpr int kZeniths = 91;  // of the table: even steps of the view zenith
-constexpr std::size_t kModes = DiffuseSource::kPowers * DiffuseSource::kBlocks;
 
-// Coefficients of Chebyshev's polynomials: cos m phi = sum_k row[m][k] cos^k phi.
-using ChebyshevRows = std::array<std::array<double, kModes>, kModes>;
-ChebyshevRows chebyshev_rows() {
-  ChebyshevRows row{};
-  row[0][0] = 1;
-  row[1][1] = 1;
-  for (std::size_t m = 2; m < row.size(); ++m) {
-    for (std::size_t k = 0; k < row.size(); ++k)
-      row[m][k] = (k > 0 ? 2 * row[m - 1][k - 1] : 0) - row[m - 2][k];
+// docs/theory (9.12).
+// cos m phi = sum_k row[m][k] cos(4 [k / 4] phi) cos^(k mod 4) phi: by Chebyshev's polynomials up
+// to m = 3, further on by cos (4 b + j) phi = 2 cos 4 b phi cos j phi - cos (4 b - j) phi. Powers
+// of cos phi alone would have coefficients of 2^(m - 1), which cancel.
+std::vector<std::vector<double>> block_rows(std::size_t modes) {
+  constexpr std::size_t kPowers = DiffuseSource::kPowers;
+  constexpr double kChebyshev[kPowers][kPowers] = {
+      {1, 0, 0, 0}, {0, 1, 0, 0}, {-1, 0, 2, 0}, {0, -3, 0, 4}};
+  std::vector<std::vector<double>> row(modes, std::vector<double>(modes));
+  for (std::size_t m = 0; m < modes; ++m) {
+    const std::size_t j = m % kPowers, first = m - j;
+    const bool two_terms = first > 0 && j > 0;
+    if (two_terms) {
+      for (std::size_t k = 0; k < modes; ++k) row[m][k] = -row[first - j][k];
+    }
+    for (std::size_t p = 0; p < kPowers; ++p)
+      row[m][first + p] += (two_terms ? 2 : 1) * kChebyshev[j][p];
   }
   return row;
 }
+
+// Blocks for three quarters of the modes: further ones change no sky by 0.2 %.
+int blocks_of(int moments) { return 3 * moments / (4 * DiffuseSource::kPowers); }
 
 // Fields of the same wavelengths.
 void add(const std::vector<DiffuseField>& more, std::vector<DiffuseField>& to) {
@@ -44,11 +54,15 @@ void add(const std::vector<DiffuseField>& more, std::vector<DiffuseField>& to) {
 }  // namespace
 
 DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
-                             const std::vector<double>& heights, const TableLight& light)
-    : suns_(shells), levels_(shells, kSourceOptions.levels) {
+                             const std::vector<double>& heights, const ReferenceOptions& options,
+                             const TableLight& light)
+    : moments_(options.moments),
+      blocks_(blocks_of(options.moments)),
+      suns_(shells),
+      levels_(shells, options.levels) {
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
-    const int blocks = scatterer.moments.size() <= kPowers ? 1 : kBlocks;
+    const int blocks = scatterer.moments.size() <= kPowers ? 1 : blocks_;
     kept_.push_back({blocks, std::vector<float>(index(count, 0, blocks))});
   }
   if (light.orders == 1) return;
@@ -56,12 +70,12 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
-  const Streams streams(shells.bottom_radius, levels_.heights(), kSourceOptions.streams);
+  const Streams streams(shells.bottom_radius, levels_.heights(), options.streams);
   const HorizontalCoupling coupling =
       sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells));
   const auto fields_of = [&](int order) {
     return solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams, coupling,
-                                   {.moments = kSourceOptions.moments,
+                                   {.moments = options.moments,
                                     .order = order,
                                     .deep_twilight = true,
                                     .polarised = light.transfer == Transfer::kVector});
@@ -81,20 +95,21 @@ std::size_t DiffuseSource::index(int height, int zenith, int blocks) const {
 // source(phi) = sum_m (2 - delta_m0) cos(m phi) sum_l chi_l Lambda_lm(mu) M_lm
 void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
                              const std::vector<DiffuseField>& fields) {
-  static const ChebyshevRows kRows = chebyshev_rows();
+  const std::size_t modes = static_cast<std::size_t>(blocks_) * kPowers;
+  const std::vector<std::vector<double>> rows = block_rows(modes);
   const auto suns = static_cast<std::size_t>(suns_.size());
   const LevelStencil levels = levels_.stencil(level);
-  std::vector<double> lambda(static_cast<std::size_t>(kSourceOptions.moments)), series(suns);
+  std::vector<double> lambda(static_cast<std::size_t>(moments_)), series(suns);
   auto add = [&](float* out, int blocks, std::size_t wavelength, std::size_t m) {
     for (std::size_t p = m % 2; p <= m; p += 2) {
-      const double factor = (m == 0 ? 1 : 2) * kRows[m][p];
+      const double factor = (m == 0 ? 1 : 2) * rows[m][p];
       float* to = out + p / kPowers * kBlock + wavelength * kPowers + p % kPowers;
       to[0] += static_cast<float>((p % 2 == 0 ? factor : -factor) * series[1]);
       for (std::size_t j = 0; j < suns; ++j)
         to[(j + 1) * blocks * kBlock] += static_cast<float>(factor * series[j]);
     }
   };
-  for (std::size_t m = 0; m < kModes; ++m) {
+  for (std::size_t m = 0; m < modes; ++m) {
     std::array<std::vector<double>, 4> moments;  // [l - m][sun]
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (m >= fields[k].moments.size()) continue;
@@ -106,7 +121,7 @@ void DiffuseSource::tabulate(int height, double level, const NodeOptics& optics,
                             moments[k].data(), size);
     }
     for (int i = 0; i < kZeniths; ++i) {
-      normalised_legendre(static_cast<int>(m), kSourceOptions.moments,
+      normalised_legendre(static_cast<int>(m), moments_,
                           std::cos(std::numbers::pi * i / (kZeniths - 1)), lambda.data());
       for (std::size_t k = 0; k < fields.size(); ++k) {
         if (moments[k].empty()) continue;
@@ -142,7 +157,8 @@ void DiffuseSource::add_slice(int height, double mu, std::span<const NodeValues>
     kernels::add_source(&kept.values[index(height, column, kept.blocks)],
                         &kept.values[index(height, column + 1, kept.blocks)], part, factor.data(),
                         static_cast<std::size_t>(suns_.size() + 1),
-                        static_cast<std::size_t>(kept.blocks), kBlocks, out.data());
+                        static_cast<std::size_t>(kept.blocks), static_cast<std::size_t>(blocks_),
+                        out.data());
   }
 }
 

@@ -2,8 +2,9 @@
 // The source of multiple scattering as a table: light that has been scattered or reflected before
 // and is scattered here toward the eye, per unit of scattering coefficient (1/sr) of each
 // scatterer, at four wavelengths. From the diffuse field of model/solver/diffuse_field.h, whose
-// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine. Levels
-// and suns of the field, and what lies between them, are those of the reference model.
+// Fourier series in the azimuth between view and sun is kept as a polynomial in its cosine.
+// Streams, moments, levels and suns of the field, and what lies between them, are those of the
+// reference model.
 #pragma once
 
 #include <array>
@@ -20,10 +21,6 @@ namespace skyfit {
 using NodeOptics = std::array<Optics<0>, 4>;
 using NodeValues = std::array<double, 4>;  // at the nodes of a colour rule, blue to red
 
-// Streams and moments are the defaults of the reference model, so that the two agree unless that
-// doubles them for a narrow lobe; optics_at() needs the moments.
-inline constexpr ReferenceOptions kSourceOptions{};
-
 // Which light of the reference the tables hold.
 struct TableLight {
   Transfer transfer = Transfer::kVector;
@@ -35,17 +32,17 @@ struct TableLight {
 class DiffuseSource {
  public:
   static constexpr int kPowers = 4;  // of the cosine in a block: 1, c, c^2, c^3
-  // Block b holds the powers 4 b .. 4 b + 3: modes from 12 on change no sky by 0.1 %.
-  static constexpr int kBlocks = 3;
   // Floats of one block: [wavelength][power].
   static constexpr std::size_t kBlock = 4 * kPowers;
 
-  // Kept at `heights`, which ascend from 0 to the top. Of light of k orders, the source of all but
-  // the first.
+  // Kept at `heights`, which ascend from 0 to the top; `options` are those of options_for(), and
+  // the optics have as many moments. Of light of k orders, the source of all but the first.
   DiffuseSource(const Shells& shells, const NodeOptics& optics, const std::vector<double>& heights,
-                const TableLight& light);
+                const ReferenceOptions& options, const TableLight& light);
 
   const SunGrid& suns() const { return suns_; }
+  // Block b holds powers times cos 4 b phi, docs/theory (9.12).
+  int blocks() const { return blocks_; }
 
   // The source at one of the heights toward a view direction (mu is that of the view ray), with a
   // factor per scatterer and wavelength, added to out[1 + sun][block][wavelength][power] for all
@@ -53,7 +50,7 @@ class DiffuseSource {
   void add_slice(int height, double mu, std::span<const NodeValues> factors,
                  std::vector<float>& out) const;
   std::size_t slice_size() const {
-    return static_cast<std::size_t>(suns_.size() + 1) * kBlocks * kBlock;
+    return static_cast<std::size_t>(suns_.size() + 1) * blocks_ * kBlock;
   }
 
  private:
@@ -66,6 +63,7 @@ class DiffuseSource {
                 const std::vector<DiffuseField>& fields);
   std::size_t index(int height, int zenith, int blocks) const;
 
+  int moments_, blocks_;
   SunGrid suns_;
   LevelGrid levels_;
   std::vector<Kept> kept_;

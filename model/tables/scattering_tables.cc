@@ -24,12 +24,12 @@ constexpr int kLevelsPerTexel = kSourceStep;
 class ScatteringBuilder {
  public:
   ScatteringBuilder(const Shells& shells, const NodeOptics& optics, AtmosphereTables& tables,
-                    const TableLight& light)
+                    const ReferenceOptions& options, const TableLight& light)
       : shells_(shells),
         optics_(optics),
         tables_(tables),
         heights_(level_heights()),
-        source_(shells, optics, source_heights(heights_), light),
+        source_(shells, optics, source_heights(heights_), options, light),
         kinds_(tables.phases.count()) {
     set_sun_steps();
     beam_.resize(heights_.size());
@@ -144,7 +144,7 @@ class ScatteringBuilder {
     if (node.has_source()) {
       set_source(node, scratch);
       out.source = scratch.source.data();
-      out.blocks = DiffuseSource::kBlocks;
+      out.blocks = static_cast<std::size_t>(source_.blocks());
     }
     const double r = shells_.bottom_radius + node.height;
     out.sun_factor = static_cast<float>((shells_.bottom_radius + sun_point.height) / r);
@@ -224,9 +224,9 @@ class ScatteringBuilder {
 }  // namespace
 
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            AtmosphereTables& tables, const TableLight& light,
-                            const std::function<void(double)>& progress) {
-  ScatteringBuilder(shells, optics, tables, light).build(progress);
+                            AtmosphereTables& tables, const ReferenceOptions& options,
+                            const TableLight& light, const std::function<void(double)>& progress) {
+  ScatteringBuilder(shells, optics, tables, options, light).build(progress);
 }
 
 }  // namespace skyfit

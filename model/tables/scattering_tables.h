@@ -10,9 +10,10 @@
 
 namespace skyfit {
 
-// `tables` has its atmosphere and sizes; progress in 0..1 per part of this work, may be empty.
+// `tables` has its atmosphere and sizes, `options` are those of options_for(); progress in 0..1 per
+// part of this work, may be empty.
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
-                            AtmosphereTables& tables, const TableLight& light,
-                            const std::function<void(double)>& progress);
+                            AtmosphereTables& tables, const ReferenceOptions& options,
+                            const TableLight& light, const std::function<void(double)>& progress);
 
 }  // namespace skyfit

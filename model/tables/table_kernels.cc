@@ -89,15 +89,18 @@ void add_node(const TableNode& node, const float* __restrict mu_s, const float* 
     for (std::size_t i = 0; i < count; ++i) {
       const SunStep& step = node.sun_steps[sun_step[i]];
       const float* from = node.source + static_cast<std::size_t>(step.first) * node.blocks * 16;
-      const float c = cosine[i], c2 = c * c, c3 = c2 * c, c4 = c2 * c2;
-      Vector16 sum{};
-      for (std::size_t b = node.blocks; b-- > 0;) {  // Horner's rule over the blocks
-        sum *= c4;
+      const float c = cosine[i], c2 = c * c, c3 = c2 * c;
+      const float wave = 8 * c2 * (c2 - 1) + 1;  // cos 4 phi
+      Vector16 sum{}, later{};
+      for (std::size_t b = node.blocks; b-- > 0;) {  // Clenshaw's recurrence over the blocks
+        Vector16 term = (b > 0 ? 2 : 1) * wave * sum - later;
         for (std::size_t k = 0; k < 4; ++k) {
           Vector16 value;
           std::memcpy(&value, from + (k * node.blocks + b) * 16, sizeof value);
-          sum += step.weight[k] * value;
+          term += step.weight[k] * value;
         }
+        later = sum;
+        sum = term;
       }
       const Vector16 powers = {1, c, c2, c3, 1, c, c2, c3, 1, c, c2, c3, 1, c, c2, c3};
       Vector16 before;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The hot loops of the scattering tables on plain arrays of floats, compiled for several
 // instruction sets as those of model/numerics/kernels.h. A cell is one texel of a ray: a sun and an
-// azimuth. Four wavelengths lie side by side; a polynomial in the cosine of the azimuth is laid out
-// in blocks [wavelength][power] of 16, see model/tables/diffuse_source.h.
+// azimuth. Four wavelengths lie side by side; a series in the cosine c of the azimuth phi, sum_b
+// cos(4 b phi) sum_p a_bp c^p, is laid out in blocks [wavelength][power] of 16, see
+// model/tables/diffuse_source.h.
 #pragma once
 
 #include <array>

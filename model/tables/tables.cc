@@ -66,11 +66,11 @@ Table phase_table(const PhaseClasses& phases, const ColorRule& color) {
 }
 
 NodeOptics optics_of(const Shells& shells, const Atmosphere<double>& atmosphere,
-                     const ColorRule& color) {
+                     const ColorRule& color, int moments) {
   const Atmosphere<Dual<0>> plain = seeded<0>(atmosphere, {});
   NodeOptics optics;
   for (std::size_t k = 0; k < 4; ++k)
-    optics[k] = optics_at<0>(shells, plain, color.nodes[k], kSourceOptions.moments);
+    optics[k] = optics_at<0>(shells, plain, color.nodes[k], moments);
   return optics;
 }
 
@@ -245,7 +245,8 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const Atmosphere<double> effective =
       model != nullptr ? model->effective_atmosphere(atmosphere) : atmosphere;
   const Shells shells = shells_of(effective, Keep::kWhatMatters);
-  const NodeOptics optics = optics_of(shells, effective, color);
+  const ReferenceOptions options = options_for(effective, {});
+  const NodeOptics optics = optics_of(shells, effective, color, options.moments);
   const RayTexels texels = tables.sizes.scattering();
   const int heights = tables.sizes.scattering_r;
   tables.rayleigh_like = make_table(texels.mu_s * texels.azimuth, texels.rows(), heights);
@@ -262,7 +263,7 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
     tabulate(*model, std::move(own), shells, tables, of_scattering);
   } else {
     tables.sky_rays = outside_tables(sizes.outside(), tables.phases);
-    make_scattering_tables(shells, optics, tables, light, of_scattering);
+    make_scattering_tables(shells, optics, tables, options, light, of_scattering);
   }
   make_optical_depth(shells, optics, tables);
   make_irradiance(shells.top, closed ? of_daylight(*model, tables) : looked_up(tables), tables);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "model/shared/shared.h"
 
@@ -35,7 +34,7 @@ std::vector<TexelSun> texel_suns(const RayTexels& texels, double bottom_radius, 
   Shared<double> shared;
   std::vector<TexelSun> suns;
   for (int azimuth = 0; azimuth < texels.azimuth; ++azimuth) {
-    const double cosine = std::cos(std::numbers::pi * azimuth / (texels.azimuth - 1));
+    const double cosine = shared.cosine_from_azimuth_unit(azimuth / (texels.azimuth - 1.0));
     for (int sun = 0; sun < texels.mu_s; ++sun) {
       const double sun_height = shared.sun_from_unit(sun / (texels.mu_s - 1.0), kTableLowestSun);
       const double mu_s = shared.mu_s_from_sun_height(height, sun_height, bottom_radius);

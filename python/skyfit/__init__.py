@@ -46,6 +46,7 @@ __all__ = [
     "models",
     "preset_names",
     "read",
+    "read_irradiances",
     "reference",
     "reference_names",
     "render",
@@ -288,6 +289,15 @@ def read(name_or_files, **options):
     return _skyfit.read(_os.fspath(name_or_files), _options(options))
 
 
+def read_irradiances(text_or_file, **options):
+    """Irradiances as a reference: values of one sun, a CSV, or an hour of a weather file.
+
+    ``read_irradiances("direct=96000lx,diffuse=13500lx", sun_zenith_deg=32)``, as `skyfit fit
+    --irradiance` has them (docs/fits.md); the options are those of read().
+    """
+    return _skyfit.read_irradiances(_os.fspath(text_or_file), _options(options))
+
+
 def reference(
     value,
     sun_zenith_deg,
@@ -332,19 +342,25 @@ def _given_preset(options):
     return None if preset is None else _preset(preset)
 
 
-def fit(reference, **options):
+def fit(reference=None, *, irradiance=None, **options):
     """Fits an atmosphere to a reference, as `skyfit fit`; the same options, the same numbers.
 
-    `reference` is what read() takes or gives. Lists are lists, ``free=["mie.scattering"]``;
+    `reference` is what read() takes or gives, or what read_irradiances() gives; `irradiance`, in
+    its place, is what that takes. Lists are lists, ``free=["mie.scattering"]``;
     assignments are dicts, ``fix={"ground.albedo": 0.2}``, ``prior={"ozone.column": (300, 20)}``,
     ``bounds={"mie.phase.g1": (0.5, 0.9)}``; flags are ``True``. Ctrl-C ends the fit at the next
     evaluation of the model.
     """
     options = dict(options)
     preset = _given_preset(options)
+    if (reference is None) == (irradiance is None):
+        raise ValueError("fit: expected either a reference or irradiance")
     if not isinstance(reference, Reference):
         known = {name: options.pop(name) for name in _READING if name in options}
-        reference = read(reference, **known)
+        if irradiance is None:
+            reference = read(reference, **known)
+        else:
+            reference = read_irradiances(irradiance, **known)
     return _skyfit.fit(reference, preset, _options(options))
 
 
@@ -370,11 +386,19 @@ _READING = frozenset(_skyfit.reading_options())
 
 
 def _samples(self):
-    """Samples by name: places, value, sigma (NaN where none is stated), weight, scan; of a fit the
-    values of the fitted and of the start's model, and as sigma what one sample scatters by."""
+    """Samples by name: places, which irradiance where they are such, value, sigma (NaN where none
+    is stated), weight, scan; of a fit the values of the fitted and of the start's model, and as
+    sigma what one sample scatters by."""
     arrays = self._samples() if isinstance(self, Fit) else self._arrays()
-    places = ("sun_zenith_deg", "view_zenith_deg", "relative_azimuth_deg", "wavelength_nm", "scan")
-    coords = {name: ("sample", arrays.pop(name)) for name in places}
+    places = (
+        "sun_zenith_deg",
+        "view_zenith_deg",
+        "relative_azimuth_deg",
+        "wavelength_nm",
+        "scan",
+        "irradiance",
+    )
+    coords = {name: ("sample", arrays.pop(name)) for name in places if name in arrays}
     return Arrays(arrays, dict.fromkeys(arrays, ("sample",)), coords)
 
 

@@ -144,6 +144,7 @@ def irradiance(
     threads: Optional[int] = None,
 ) -> Arrays: ...
 def read(name_or_files: Union[_File, Sequence[_File]], **options: Any) -> Reference: ...
+def read_irradiances(text_or_file: _File, **options: Any) -> Reference: ...
 def reference(
     value: ArrayLike,
     sun_zenith_deg: ArrayLike,
@@ -158,8 +159,9 @@ def reference(
     name: str = "arrays",
 ) -> Reference: ...
 def fit(
-    reference: Union[Reference, _File, Sequence[_File]],
+    reference: Union[Reference, _File, Sequence[_File], None] = None,
     *,
+    irradiance: Optional[_File] = None,
     preset: Optional[_PresetLike] = None,
     **options: Any,
 ) -> Fit: ...

@@ -214,6 +214,9 @@ def test_a_refused_value_leaves_the_preset_as_it_was():
         (lambda: skyfit.fit("cie:12", no_priors=3), "no_priors: expected True or False"),
         (lambda: skyfit.fit(skyfit.read("cie:12"), sampling="tregenza"), "option of read"),
         (lambda: skyfit.fit("cie:99"), "cie:99"),
+        (lambda: skyfit.fit(), "either a reference or irradiance"),
+        (lambda: skyfit.fit("cie:12", irradiance="direct=1lx"), "either a reference or irradiance"),
+        (lambda: skyfit.read_irradiances("direct=800"), "no unit"),
         (lambda: skyfit.render("earth-clear", out="frame.png"), "save"),
         (lambda: skyfit.render("earth-clear", size=(0, 10)), "0x10"),
         (lambda: skyfit.render("earth-clear", view="attic"), "attic"),
@@ -280,6 +283,23 @@ def test_a_fit_of_arrays_is_that_of_the_reference(small_fit):
     angles = 1e-9  # of degrees and back
     for name, value in skyfit.fit(again, **options).parameters.items():
         assert value == pytest.approx(small_fit.parameters[name], rel=angles)
+
+
+def test_a_fit_of_irradiances_is_that_of_the_program(tmp_path):
+    text = "direct=96000lx,diffuse=13500lx"
+    run(
+        "fit", "--irradiance", text, "--sun-zenith-deg", 32, "--starts", 1, "--out",
+        tmp_path / "fit",
+    )  # fmt: skip
+    theirs = json.loads((tmp_path / "fit" / "preset.json").read_text())
+    ours = skyfit.fit(irradiance=text, sun_zenith_deg=32, starts=1)
+    assert without_time(json.loads(ours.preset.to_json())) == without_time(theirs)
+    read = skyfit.read_irradiances(text, sun_zenith_deg=32)
+    assert skyfit.fit(read, starts=1).parameters == ours.parameters
+    assert read.quantity == "illuminance"
+    names = list(read.samples.coords["irradiance"][1])
+    assert names == ["direct_normal", "diffuse_horizontal"]
+    assert list(read.samples["value"]) == [96000, 13500]
 
 
 def test_a_measured_sky_is_read():

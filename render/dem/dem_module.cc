@@ -134,6 +134,17 @@ class Source {
       fail(fmt::format("coordinate system {}: expected latitude and longitude, or a projection",
                        srs_.GetName() == nullptr ? "without a name" : srs_.GetName()));
     }
+    // What GDAL puts in the place of a datum that a file states by a code it does not know, or not
+    // at all.
+    const auto is_unnamed = [&](const char* node) {
+      const char* const name = srs_.GetAttrValue(node);
+      return name != nullptr && name == std::string_view("unnamed");
+    };
+    if (is_of_earth() && is_unnamed("DATUM") && is_unnamed("SPHEROID"))
+      fail(fmt::format(
+          "coordinate system {}: its datum is not known: expected a code that EPSG has, "
+          "or a stated ellipsoid",
+          srs_.GetName()));
     const double area = place_[1] * place_[5] - place_[2] * place_[4];
     if (!std::isfinite(area) || area == 0 || !std::isfinite(place_[0] + place_[3]))
       fail("georeference: expected cells of a size");

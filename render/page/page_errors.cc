@@ -13,8 +13,9 @@ std::vector<SkyPoint> compared_points(double altitude_m, std::span<const double>
   constexpr double kDegree = std::numbers::pi / 180;
   std::vector<SkyPoint> points;
   for (const double sun : suns_deg) {
-    for (const double view : {5.0, 30.0, 55.0, 75.0, 85.0, 89.0}) {
-      for (const double azimuth : {0.0, 10.0, 60.0, 120.0, 180.0})
+    for (const double view : {5.0, 15.0, 30.0, 45.0, 60.0, 75.0, 80.0, 85.0, 89.0}) {
+      for (const double azimuth :
+           {0.0, 4.0, 8.0, 12.0, 20.0, 40.0, 60.0, 90.0, 120.0, 150.0, 170.0, 180.0})
         points.push_back({altitude_m, sun * kDegree, view * kDegree, azimuth * kDegree});
     }
   }
@@ -55,10 +56,14 @@ std::vector<double> table_luminances(const AtmosphereTables& tables,
   return luminances;
 }
 
-double largest_error(std::span<const double> a, std::span<const double> b) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] / b[i] - 1));
-  return largest;
+WorstError largest_error(std::span<const SkyPoint> points, std::span<const double> a,
+                         std::span<const double> b) {
+  WorstError worst;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double error = std::abs(a[i] / b[i] - 1);
+    if (error >= worst.error) worst = {error, points[i]};
+  }
+  return worst;
 }
 
 }  // namespace skyfit

@@ -9,6 +9,9 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "model/atmosphere/derived.h"
+#include "model/solver/reference_model.h"
+#include "model/tables/table_precision.h"
 #include "render/page/changes.h"
 #include "render/page/page_errors.h"
 
@@ -34,10 +37,10 @@ class PageMeasure {
       : request_(request), tables_(tables) {}
 
   // Of the preset, from a height.
-  double error_from(double altitude_m) const {
+  WorstError error_from(double altitude_m) const {
     const Atmosphere<double>& atmosphere = request_.preset.atmosphere;
     const double top = atmosphere.top_radius_m - atmosphere.bottom_radius_m;
-    return error(atmosphere, {}, std::min(altitude_m, 0.9 * top));
+    return worst(atmosphere, {}, std::min(altitude_m, 0.9 * top));
   }
 
   // At the tabulated values, and half-way between neighbours of these and the preset's.
@@ -56,13 +59,15 @@ class PageMeasure {
     const auto shares = change_shares(slider.slider, value);
     const std::array<WeightedTables, 2> weighted = {
         {{slider.changes[0], shares[0]}, {slider.changes[1], shares[1]}}};
-    return error(changed(request_.preset.atmosphere, slider.slider.parameter, value), weighted, 0);
+    return worst(changed(request_.preset.atmosphere, slider.slider.parameter, value), weighted, 0)
+        .error;
   }
 
-  double error(const Atmosphere<double>& atmosphere, std::span<const WeightedTables> changes,
-               double altitude_m) const {
+  WorstError worst(const Atmosphere<double>& atmosphere, std::span<const WeightedTables> changes,
+                   double altitude_m) const {
     const std::vector<SkyPoint> points = compared_points(altitude_m);
-    return largest_error(table_luminances(tables_, changes, phase_classes(atmosphere), points),
+    return largest_error(points,
+                         table_luminances(tables_, changes, phase_classes(atmosphere), points),
                          reference_luminances(atmosphere, request_.spectra, points, 1));
   }
 
@@ -72,14 +77,38 @@ class PageMeasure {
 
 }  // namespace
 
+TableSizes page_sizes(const Atmosphere<double>& atmosphere) {
+  TableSizes sizes = kSmallTableSizes;
+  sizes.outside_sky = 4;
+  sizes.outside_mu_s = 8;
+  sizes.outside_azimuth = 4;
+  const auto is_thick_layer = [&](const Constituent<double>& c) {
+    constexpr double kThick = 1, kGreen = 550;  // nm
+    return c.profile.type == ProfileType::kLayer &&
+           vertical_optical_depth(atmosphere, c, {kGreen, 0}) > kThick;
+  };
+  if (std::ranges::any_of(atmosphere.constituents, is_thick_layer)) return sizes;
+  const bool has_narrow_lobe = options_for(atmosphere, {}).moments > ReferenceOptions{}.moments;
+  sizes.scattering_r = has_narrow_lobe ? 24 : 26;
+  sizes.scattering_mu_s = has_narrow_lobe ? 52 : 48;
+  sizes.scattering_azimuth = has_narrow_lobe ? 20 : 16;
+  if (has_narrow_lobe) sizes.scattering_sky = 42;
+  return sizes;
+}
+
+Packing scattering_packing(const TableSizes& sizes) {
+  return {.step = 1.0 / 160, .row = sizes.scattering_mu_s};
+}
+
 PageTables page_tables(const SkyPageRequest& request) {
   const Atmosphere<double>& atmosphere = request.preset.atmosphere;
   for (const PageSlider& slider : request.sliders) check(atmosphere, slider);
   const ColorRule color = color_rule(request.spectra);
   PageTables page;
-  page.tables = compute_tables(atmosphere, color, kPageSizes, request.threads, {});
-  page.tables.rayleigh_like = as_decoded(page.tables.rayleigh_like, kScatteringPacking);
-  page.tables.single = as_decoded(page.tables.single, kScatteringPacking);
+  page.tables = compute_tables(atmosphere, color, page_sizes(atmosphere), request.threads, {});
+  const Packing packing = scattering_packing(page.tables.sizes);
+  page.tables.rayleigh_like = as_decoded(page.tables.rayleigh_like, packing);
+  page.tables.single = as_decoded(page.tables.single, packing);
   const PageMeasure measure(request, page.tables);
   for (std::size_t i = 0; i < page.errors.size(); ++i)
     page.errors[i] = measure.error_from(kComparedAltitudes_m[i]);

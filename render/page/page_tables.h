@@ -12,8 +12,13 @@
 
 namespace skyfit {
 
-// Of the page's tables; packing rounds them, which the errors include.
-inline constexpr Packing kScatteringPacking{.step = 1.0 / 160, .row = kPageSizes.scattering_mu_s};
+// Texels of a page's tables: as many as small ones have, with hardly any for rays from outside,
+// which it looks up in the others. Where no layer is thick, fewer heights do, and the others stand
+// for suns and azimuths; a lobe that is narrow for the reference has a third more texels.
+TableSizes page_sizes(const Atmosphere<double>& atmosphere);
+
+// Of the page's scattering tables; it rounds them, which the errors include.
+Packing scattering_packing(const TableSizes& sizes);
 
 struct SliderTables {
   PageSlider slider;
@@ -22,8 +27,8 @@ struct SliderTables {
 };
 
 struct PageTables {
-  AtmosphereTables tables;  // of kPageSizes, the scattering tables as the page decodes them
-  std::array<double, kComparedAltitudes_m.size()> errors{};
+  AtmosphereTables tables;  // of page_sizes(), the scattering tables as the page decodes them
+  std::array<WorstError, kComparedAltitudes_m.size()> errors{};
   std::vector<SliderTables> sliders;
 };
 

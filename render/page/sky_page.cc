@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "model/atmosphere/ground_spectrum.h"
+#include "model/numerics/angles.h"
 #include "model/version.h"
 #include "render/glsl/shader_text.h"
 #include "render/glsl/table_defines.h"
@@ -34,8 +35,8 @@ constexpr Packing kScatteringChangePacking{.step = 1.0 / 100, .row = kChangeSize
 json packed_tables(const AtmosphereTables& tables) {
   return {{"optical_depth", packed(tables.optical_depth, kDepthPacking)},
           {"irradiance", packed(tables.irradiance, kIrradiancePacking)},
-          {"rayleigh_like", packed(tables.rayleigh_like, kScatteringPacking)},
-          {"single", packed(tables.single, kScatteringPacking)},
+          {"rayleigh_like", packed(tables.rayleigh_like, scattering_packing(tables.sizes))},
+          {"single", packed(tables.single, scattering_packing(tables.sizes))},
           {"phase", packed(tables.phase, kPhasePacking)}};
 }
 
@@ -112,7 +113,11 @@ json page_data(const SkyPageRequest& request, const PageTables& page) {
   }
   json errors = json::array();
   for (std::size_t i = 0; i < kComparedAltitudes_m.size(); ++i)
-    errors.push_back({{"altitude_m", kComparedAltitudes_m[i]}, {"error", page.errors[i]}});
+    errors.push_back({{"altitude_m", kComparedAltitudes_m[i]},
+                      {"error", page.errors[i].error},
+                      {"sun_zenith_deg", page.errors[i].at.sun_zenith / kRadiansPerDegree},
+                      {"view_zenith_deg", page.errors[i].at.view_zenith / kRadiansPerDegree},
+                      {"azimuth_deg", page.errors[i].at.relative_azimuth / kRadiansPerDegree}});
   json sliders = json::array();
   for (const SliderTables& slider : page.sliders) sliders.push_back(slider_json(slider));
   json uniforms = uniforms_of(tables);

@@ -12,22 +12,12 @@
 #include <vector>
 
 #include "model/atmosphere/preset.h"
+#include "model/geometry/sky_point.h"
 #include "model/photometry/photometry.h"
-#include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/page/page_sliders.h"
 
 namespace skyfit {
-
-// Texels of the page's tables: small ones, with hardly any for rays from outside, which it looks up
-// in the others.
-inline constexpr TableSizes kPageSizes = [] {
-  TableSizes sizes = kSmallTableSizes;
-  sizes.outside_sky = 4;
-  sizes.outside_mu_s = 8;
-  sizes.outside_azimuth = 4;
-  return sizes;
-}();
 
 struct SkyPageRequest {
   const Preset& preset;
@@ -39,11 +29,15 @@ struct SkyPageRequest {
 
 inline constexpr std::size_t kMostPageBytes = 8'000'000;
 
-// |luminance of the page / that of the model reference - 1|, the largest of 180 skies each: views
-// 5 to 89 deg and suns 0 to 88 deg from the zenith.
+// |luminance of the page / that of the model reference - 1|, the largest of 756 skies each: views
+// 5 to 89 deg and suns 0 to 88 deg from the zenith. And where that is.
+struct WorstError {
+  double error = 0;
+  SkyPoint at;
+};
 inline constexpr std::array kComparedAltitudes_m = {0.0, 1500.0, 10000.0};
 struct SkyPageErrors {
-  std::array<double, kComparedAltitudes_m.size()> preset{};  // by altitude
+  std::array<WorstError, kComparedAltitudes_m.size()> preset{};  // by altitude
   // Of each slider, from the ground: at values for which the page has tables, its ends among them;
   // half-way between these and the preset's value.
   std::vector<double> tabulated, half_way;

@@ -7,8 +7,10 @@ const percent = (share) =>
 function describe() {
   element('note').textContent = data.preset.note;
   const skies = data.errors.map(
-      ({altitude_m: m, error}) =>
-          `${percent(error)} ${m === 0 ? 'at the ground' : `from ${m / 1000} km`}`);
+      ({altitude_m: m, error, sun_zenith_deg: sun, view_zenith_deg: view, azimuth_deg: azimuth}) =>
+          `${percent(error)} ${m === 0 ? 'at the ground' : `from ${m / 1000} km`} (at worst: sun ${
+              sun.toFixed(0)}°, view ${view.toFixed(0)}° from the zenith, ${
+              azimuth.toFixed(0)}° apart in azimuth)`);
   const sliders = data.sliders.map((slider) => slider.error);
   element('accuracy').textContent =
       `Luminances are those of the model reference within ${

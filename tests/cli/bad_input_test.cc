@@ -73,7 +73,32 @@ TEST_F(BadInputTest, UnknownNames) {
     expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", nothing},
                        {"expected one of reference"});
   expect_refusal({"render", "--preset", "earth-clear", "--view", "moon", "--out", "frame.png"},
-                 {"moon", "ground", "space"});
+                 {"--view \"moon\"", "ground", "space"});
+}
+
+TEST_F(BadInputTest, NamesOfFilesThatAreEmpty) {
+  expect_refusal({"compare", "--reference", "", "--out", "x"},
+                 {"\"\": no such file or reference, expected cie:1"});
+  expect_refusal({"render", "--preset", "earth-clear", "--dem", "", "--out", "frame.png"},
+                 {"--dem \"\": expected FILE"});
+  expect_refusal({"campaign", "", "--out", "x"}, {"plan \"\": expected PLAN"});
+  expect_refusal({"fit", "--reference", "cie:12", "--out", ""}, {"--out \"\": expected DIR"});
+}
+
+TEST_F(BadInputTest, VariantsOfAModelTwice) {
+  const auto refused = [&](const char* model, const char* row) {
+    expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", model},
+                       {model, row, "once"});
+  };
+  refused("oneil:samples=3:samples=4", "samples=N");
+  refused("oneil:no-shadow:no-shadow", "no-shadow");
+}
+
+TEST_F(BadInputTest, OptionsThatMeasuringTablesHasNoUseFor) {
+  for (const auto& [option, value] :
+       {std::pair{"--size", "small"}, {"--precision", "half"}, {"--format", "dds"}})
+    expect_refusal({"tables", "earth-clear", "--measure", option, value},
+                   {option, value, "without --measure"});
 }
 
 TEST_F(BadInputTest, SamplesWithTheWrongUnit) {

@@ -41,7 +41,7 @@ TEST_F(CampaignTest, LeavesOneResultOfAll) {
   const Outcome first = run({"campaign", in("plan.json"), "--out", in("out")});
   EXPECT_EQ(first.status, 0) << first.err;
   EXPECT_THAT(first.out, StartsWith("3 tasks: 2 fitted, 0 of them outliers, 1 failed\n"));
-  EXPECT_THAT(first.out, HasSubstr("scans/c.csv: "));
+  EXPECT_THAT(first.out, HasSubstr("scans/c.csv:1: "));
   for (const char* name : {"campaign.nc", "campaign.csv", "campaign.txt", "campaign.svg",
                            "campaign.png", "tasks/000000.nc", "tasks/000001.nc"})
     EXPECT_GT(std::filesystem::file_size(folder_ / "out" / name), 0u) << name;
@@ -55,6 +55,17 @@ TEST_F(CampaignTest, LeavesOneResultOfAll) {
     EXPECT_EQ(run({"campaign", in("plan.json"), "--out", in("parts"), "--shard", shard}).status, 0);
   EXPECT_EQ(run({"campaign", in("plan.json"), "--out", in("parts"), "--merge"}).out, first.out);
   EXPECT_EQ(content("parts/campaign.nc"), content("out/campaign.nc"));
+}
+
+TEST_F(CampaignTest, FitsIrradiances) {
+  std::filesystem::copy_file(std::string(SKYFIT_EXAMPLES) + "irradiances.csv",
+                             folder_ / "sun@noon=1.csv");  // a name that is none of an hour
+  write("days.json", R"({"skyfit_campaign": 1, "kind": "irradiances", "inputs": ["sun@*.csv"],
+                         "group": "scan", "options": {"starts": 1}})");
+  const Outcome done = run({"campaign", in("days.json"), "--out", in("days")});
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, StartsWith("5 tasks: 5 fitted"));
+  EXPECT_THAT(content("days/campaign.csv"), HasSubstr("mie.optical_depth"));
 }
 
 TEST_F(CampaignTest, WritesAJobArrayForSlurm) {
@@ -79,13 +90,21 @@ TEST_F(CampaignTest, SaysWhatIsWrongWithThePlan) {
   const std::string good = R"({"skyfit_campaign": 1, "inputs": ["scans/a.csv"]})";
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1})"), HasSubstr("inputs"));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"lobe": 1}})"),
-              HasSubstr("bad.json: options: "));
+              HasSubstr("bad.json:1: options: "));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"help": true}})"),
-              HasSubstr("bad.json: options: The following argument was not expected: --help"));
+              HasSubstr("bad.json:1: options: The following argument was not expected: --help"));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"bootstrap": 10}})"),
               HasSubstr("for single fits"));
+  EXPECT_THAT(complaint("{\"skyfit_campaign\": 1, \"inputs\": [\"a\"],\n\"options\": {\n"
+                        "\"starts\": 1,\n\"lobes\": 7}}"),
+              HasSubstr("bad.json:4: options: fit.lobes = 7"));
+  EXPECT_THAT(complaint("{\"skyfit_campaign\": 1,\n\"inputs\": [\"a\"]}"),
+              HasSubstr("bad.json:2: inputs: a: expected a file or a pattern"));
+  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "kind": "moons"})"),
+              HasSubstr("kind = \"moons\": expected one of skies, irradiances"));
   EXPECT_THAT(complaint(good, {"--shard", "3/2"}), HasSubstr("--shard \"3/2\": expected K/N"));
   EXPECT_THAT(complaint(good, {"--merge"}), HasSubstr("1 of 1 tasks are missing"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << "an empty directory is left";
 }
 
 }  // namespace

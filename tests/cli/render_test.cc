@@ -227,7 +227,7 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--height-range-m", "0..1"}, {"--height-range-m", "with --height-map"});
   expect_render_refusal({"--water-level-m", "-3"}, {"--water-level-m", "with --height-map"});
   expect_render_refusal({"--height-map", "heights.png", "--water-level-m", "-1e6"},
-                        {"water_level_m", "-1000000"});
+                        {"--water-level-m", "-1e6"});
   write("N46E007.hgt", "short");
   expect_render_refusal({"--height-map", "N46E007.hgt"}, {"--height-map", "--dem reads"});
   expect_render_refusal({"--dem", "missing.tif"}, {"missing.tif: cannot be read", "--dem"});
@@ -238,15 +238,18 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
                         {"heights.png: cannot be read: expected a GeoTIFF or an .hgt of SRTM"});
   expect_render_refusal({"--dem", "heights.png", "--dem-surroundings", "lava"},
                         {"--dem-surroundings", "lava", "planet or sea"});
-  expect_render_refusal({"--dem", "heights.png", "--dem-edge-m", "-5"}, {"dem_edge_m", "-5"});
+  expect_render_refusal({"--dem", "heights.png", "--dem-edge-m", "-5"},
+                        {"--dem-edge-m \"-5\"", "0 to"});
   expect_render_refusal({"--dem-edge-m", "100"}, {"--dem-edge-m", "with --dem"});
   expect_render_refusal({"--mesh", "tower.obj"}, {"--mesh", "tower.obj", "FILE@LATITUDE"});
   expect_render_refusal({"--mesh", "tower.obj@47,8,0"},
                         {"tower.obj: cannot be read", "--mesh", "No such"});
   expect_render_refusal({"--moon", "10"}, {"--moon", "10", "ZENITH"});
-  expect_render_refusal({"--moon", "10,20,30,40"}, {"moon.distance_m", "30"});
-  expect_render_refusal({"--second-sun", "10,20,-1"}, {"second_sun.irradiance", "-1"});
-  expect_render_refusal({"--clouds", "2"}, {"clouds.cover", "2"});
+  expect_render_refusal({"--moon", "10,20,30,40"},
+                        {"--moon \"10,20,30,40\"", "moon.distance_m", "30"});
+  expect_render_refusal({"--second-sun", "10,20,-1"},
+                        {"--second-sun \"10,20,-1\"", "second_sun.irradiance", "-1"});
+  expect_render_refusal({"--clouds", "2"}, {"--clouds \"2\"", "clouds.cover", "2"});
   expect_render_refusal({"--aerial", "fog"}, {"--aerial", "fog", "pixel or volume"});
   expect_render_refusal({"--tone", "sepia"}, {"--tone", "sepia", "filmic, exponential or clip"});
   expect_render_refusal({"--exposure", "0"}, {"--exposure", "0", "m^2/cd"});

@@ -6,6 +6,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "tests/render/dem_fixture.h"
@@ -336,6 +340,25 @@ TEST_F(RegionalGroundOf, WhatIsNoElevationModelIsNamed) {
   dem.srs = "LOCAL_CS[\"site\",UNIT[\"metre\",1]]";
   EXPECT_THAT(error("local.tif", dem),
               EndsWith("expected latitude and longitude, or a projection"));
+  // As a file states a datum by a code that the EPSG data set has not.
+  const auto with_code = [&](const std::string& name, std::uint16_t code) {
+    const std::filesystem::path file = write(name, kAlps, plane);
+    std::stringstream stream;
+    stream << std::ifstream(file, std::ios::binary).rdbuf();
+    std::string bytes = stream.str();
+    constexpr std::uint16_t kGeodeticKey = 2048, kWgs84 = 4326;  // OGC 19-008r4, GeodeticCRSGeoKey
+    const std::array<std::uint16_t, 4> key = {kGeodeticKey, 0, 1, kWgs84};
+    const std::size_t at = bytes.find(std::string(reinterpret_cast<const char*>(key.data()), 8));
+    EXPECT_NE(at, std::string::npos);
+    std::memcpy(&bytes[at + 6], &code, sizeof code);
+    std::ofstream(file, std::ios::binary) << bytes;
+    return error_of(scene_of({file}));
+  };
+  EXPECT_EQ(with_code("known.tif", 4326), "no error");
+  for (const std::uint16_t code : {std::uint16_t{9999}, std::uint16_t{32767}})
+    EXPECT_EQ(with_code("unknown.tif", code),
+              "coordinate system WGS 84: its datum is not known: expected a code that EPSG has, or "
+              "a stated ellipsoid");
   dem = kAlps;
   dem.bands = 3;
   EXPECT_EQ(error("colours.tif", dem), "3 bands: expected one, or FILE@BAND that says which");

@@ -64,7 +64,7 @@ TEST(SkyPage, HoldsThePreset) {
 
 TEST(SkyPage, SaysWhatTheReferenceSays) {
   constexpr double kPromised = 0.03;  // what docs/view.md promises for this preset
-  for (const double error : page().errors.preset) EXPECT_LT(error, kPromised);
+  for (const WorstError& worst : page().errors.preset) EXPECT_LT(worst.error, kPromised);
   ASSERT_EQ(page().errors.tabulated.size(), 1);
   EXPECT_LT(page().errors.tabulated[0], kPromised);
   EXPECT_LT(page().errors.half_way[0], kPromised);
