@@ -233,7 +233,7 @@ refs::Reference load_irradiances(const std::string& text, const std::string& sun
     sun = suns.front();
   }
   for (const char* unused : {"--sampling", "--exclude-sun-deg", "--exclude-sample"}) {
-    if (command.count(unused) > 0)
+    if (command.get_option_no_throw(unused) != nullptr && command.count(unused) > 0)
       warn(fmt::format("{} is not used: irradiances have no directions", unused));
   }
   return refs::irradiance_reference(text, sun, parse_import_options(import));

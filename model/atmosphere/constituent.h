@@ -226,6 +226,7 @@ Constituent<T> standard_nitrogen_dioxide() {
   c.name = "nitrogen_dioxide";
   c.absorber = Absorber::kNitrogenDioxide;
   c.amount = T(0.2);
+  c.profile = {};
   c.profile.type = ProfileType::kSameAs;
   c.profile.of = "ozone";
   return c;

@@ -71,6 +71,7 @@ Constituent<double> read_ozone(const PresetReader& object, const PresetTables& t
   Constituent<double> c = standard_ozone<double>();
   c.amount = object.number("column_du");
   if (object.has_object("profile")) {
+    c.profile = {};
     c.profile.type = ProfileType::kTabulated;
     c.profile.table = read_table(object.object("profile"), tables);
     return c;
@@ -79,6 +80,7 @@ Constituent<double> read_ozone(const PresetReader& object, const PresetTables& t
   if (type == kExponential) {
     if (!air_is_exponential)
       object.fail_value("profile", "tent or a table, the air has no scale height");
+    c.profile = {};
     c.profile.type = ProfileType::kSameAs;
     c.profile.of = "rayleigh";
   } else if (type != "tent") {

@@ -31,13 +31,14 @@ vec2 place_in_view(ViewRay ray, vec3 sun, vec3 size) {
 
 // The ray of a column and a row, counted from 0.
 ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
-  float turn = texel.x / (size.x - 1.0) * kPi;
+  float turn_cosine = cosine_from_azimuth_unit(texel.x / (size.x - 1.0));
+  float turn_sine = sqrt(max(1.0 - turn_cosine * turn_cosine, 0.0));
   bool hits_ground = texel.y < size.y - 0.5;
   float h = min(camera_km, thickness_km);
   float mu = mu_from_texture((texel.y + 0.5) / (size.y + size.z), h, size.y, size.z, bottom_km, thickness_km);
   float sine = sqrt(max(1.0 - mu * mu, 0.0));
   vec2 sunward = length(sun.xy) > 1e-9 ? normalize(sun.xy) : vec2(1.0, 0.0);
-  vec2 across = cos(turn) * sunward + sin(turn) * vec2(-sunward.y, sunward.x);
+  vec2 across = turn_cosine * sunward + turn_sine * vec2(-sunward.y, sunward.x);
   return ViewRay(vec3(sine * across, mu), true, hits_ground, 0.0, h, mu,
                  distance_to_inner_sphere(bottom_km, h, mu, 0.0));
 }

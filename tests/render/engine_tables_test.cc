@@ -146,7 +146,7 @@ std::vector<Skies> measured_skies() {
            {0, 30, 60, 75, 84},
            {108.5, 109, 109.5},
            0.008,
-           0.02}};
+           0.03}};
 }
 
 TEST_F(Drawn, LuminanceIsThatOfTheModel) {
