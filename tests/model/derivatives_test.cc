@@ -103,7 +103,7 @@ TEST(SlowDerivatives, NearTheBounds) {
   }
 }
 
-TEST(Derivatives, AtTheBounds) {
+TEST(SlowDerivatives, AtTheBounds) {
   for (const Parameter& id : standard_parameters()) {
     for (const int side : {1, -1}) {
       Atmosphere<double> a = atmosphere(PhaseType::kTwoLobe);

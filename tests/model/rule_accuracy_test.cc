@@ -9,7 +9,7 @@
 namespace skyfit {
 namespace {
 
-TEST(RuleAccuracy, ThroughMuchOzoneInTwilight) {
+TEST(SlowRuleAccuracy, ThroughMuchOzoneInTwilight) {
   Atmosphere<double> a;
   a.at("ozone").amount = 500;
   expect_rules_hold({{a, {10e3}, {88, 92}, {0, 80, 88, 90}}});
