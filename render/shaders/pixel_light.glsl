@@ -258,6 +258,7 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   surface.normal = surface.normal * planet_from_site;  // by the transpose: into the camera frame
   surface.reflectance = min(ground.reflectance * light_or_dark, 1.0);
   surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
+  if (surface.water) surface.normal = surface.up;  // level, whatever the land beside it in the same triangle
   if (ray.hits_ground) surface.d = min(surface.d, ray.entry + ray.to_ground);
   float d = surface.d;
 #else

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "model/base/temporary_directory.h"
+#include "render/gl/terrain/regional_map.h"
 #include "render/render.h"
 
 namespace skyfit {
@@ -107,6 +108,26 @@ inline glm::dvec3 direction_at(double latitude, double longitude) {
   constexpr double kDegree = std::numbers::pi / 180;
   const double f = latitude * kDegree, l = longitude * kDegree;
   return {std::cos(f) * std::cos(l), std::cos(f) * std::sin(l), std::sin(f)};
+}
+
+inline constexpr double kRadius = 6360e3;  // of the planet in these tests, m
+
+// Half a degree about latitude 46, longitude 7, in cells of 0.005 degrees.
+inline const DemFile kAlps = {100, 100, {6.75, 0.005, 0, 46.25, 0, -0.005}};
+
+// m, of degrees.
+inline double plane(double longitude, double latitude) {
+  return 1500 + 800 * (longitude - 7) - 400 * (latitude - 46);
+}
+
+inline RegionalMap map_of(const Scene& scene) {
+  return {scene, scene.dems[0], kRadius, kMostDemCells};
+}
+
+inline RegionalMap map_of(const std::filesystem::path& file) {
+  Scene scene;
+  scene.dems.push_back({file});
+  return map_of(scene);
 }
 
 }  // namespace skyfit

@@ -37,11 +37,11 @@ void add_light(const SkyModel& model, const LuminanceRule& rule, double share,
   }
 }
 
-struct Seen {
+struct Case {
   const char* view;
   std::optional<SecondSun> second_sun;
 };
-class FramePolarisationOf : public ::testing::TestWithParam<Seen> {};
+class FramePolarisationOf : public ::testing::TestWithParam<Case> {};
 
 TEST_P(FramePolarisationOf, SkyIsThatOfTheModel) {
   const auto model = make_sky_model("reference", refs::standard_spectral_data(), 2);
@@ -100,8 +100,8 @@ TEST_P(FramePolarisationOf, SkyIsThatOfTheModel) {
 
 constexpr SecondSun kSecond = {.zenith = 1.2, .azimuth = 0.9, .irradiance = 0.4};
 INSTANTIATE_TEST_SUITE_P(Views, FramePolarisationOf,
-                         ::testing::Values(Seen{"ground", kSecond}, Seen{"10km", std::nullopt},
-                                           Seen{"limb", kSecond}));
+                         ::testing::Values(Case{"ground", kSecond}, Case{"10km", std::nullopt},
+                                           Case{"limb", kSecond}));
 
 }  // namespace
 }  // namespace skyfit

@@ -15,8 +15,9 @@ namespace {
 constexpr double kFinest = 0.1;  // no detail below, m
 // The weight of a map beyond its edge, which counts where no other map is.
 constexpr double kLeastShare = 1e-6;
-// Of the sea around regions, m.
-constexpr double kSeaDepth = 50;
+// How far water lies below its surface, and land at least above it, where a region goes over into
+// its surroundings, m. Little, so that no water lies on the slope between them.
+constexpr double kShallow = 0.1;
 
 }  // namespace
 
@@ -64,15 +65,18 @@ Elevation RegionalGround::elevation(const glm::dvec3& direction, double resoluti
     if (left <= 0) break;
   }
   const auto around = [&]() -> Elevation {
-    if (surroundings_ == DemSurroundings::kSea) return {water_level_m_, -kSeaDepth};
+    if (surroundings_ == DemSurroundings::kSea) return {water_level_m_, -kShallow};
     return planet_->elevation(direction, resolution_m);
   };
   if (shares <= 0) return around();
   Elevation mixed{height / shares, above_water / shares};
   if (presence < 1) {
     const Elevation other = around();
+    const double above = other.above_water_m > 0
+                             ? std::max(other.height_m - water_level_m_, kShallow)
+                             : -kShallow;
     mixed = {std::lerp(other.height_m, mixed.height_m, presence),
-             std::lerp(other.above_water_m, mixed.above_water_m, presence)};
+             std::lerp(above, mixed.above_water_m, presence)};
   }
   mixed.height_m = std::max({mixed.height_m, water_level_m_, 0.0});
   return mixed;
