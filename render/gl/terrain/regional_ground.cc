@@ -72,9 +72,8 @@ Elevation RegionalGround::elevation(const glm::dvec3& direction, double resoluti
   Elevation mixed{height / shares, above_water / shares};
   if (presence < 1) {
     const Elevation other = around();
-    const double above = other.above_water_m > 0
-                             ? std::max(other.height_m - water_level_m_, kShallow)
-                             : -kShallow;
+    const double above =
+        other.above_water_m > 0 ? std::max(other.height_m - water_level_m_, kShallow) : -kShallow;
     mixed = {std::lerp(other.height_m, mixed.height_m, presence),
              std::lerp(above, mixed.above_water_m, presence)};
   }
