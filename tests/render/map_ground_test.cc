@@ -71,13 +71,17 @@ TEST_F(MapGroundFile, ACoastWithoutDepthsIsBetweenTexels) {
   }));
   scene.lowest_m = 0;
   const MapGround ground(scene, kRadius, rule());
-  for (const double resolution : {0.5, 4.0, 16.0}) {  // texels
+  for (const double resolution : {0.5, 2.9, 4.0, 5.4, 7.0, 16.0}) {  // texels
     const auto above = [&](double latitude) {
       return ground.elevation(at(latitude * texel, 1), resolution * texel * kRadius).above_water_m;
     };
     const double half = 0.5 * std::max(1.0, 0.5 * resolution);
     EXPECT_LE(above(-2 * half - 1), 0) << resolution;
     EXPECT_GT(above(2 * half + 1), 0) << resolution;
+    int coasts = 0;  // one: no rim of land before it
+    for (double at = -5 * half - 5; at < 5 * half + 5; at += 0.05 * half)
+      coasts += above(at) <= 0 && above(at + 0.05 * half) > 0 ? 1 : 0;
+    EXPECT_EQ(coasts, 1) << resolution;
   }
 }
 

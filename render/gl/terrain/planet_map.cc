@@ -186,11 +186,15 @@ class SplineMap final : public PlanetMap {
     std::size_t fine = 0;
     while (fine + 1 < levels_.size() && texel_of(fine + 1) <= texel) ++fine;
     Sums sums = sums_of(levels_[fine], direction);
-    const double slope = spline_slope(sums.value[0], sums.square) * texel_angle() / texel_of(fine);
+    const auto slope_of = [&](const Sums& of, std::size_t level) {
+      return spline_slope(of.value[0], of.square) * texel_angle() / texel_of(level);
+    };
+    double slope = slope_of(sums, fine);
     if (fine + 1 < levels_.size() && texel > texel_of(fine)) {
       const Sums coarse = sums_of(levels_[fine + 1], direction);
       const double part =
           std::log(texel / texel_of(fine)) / std::log(texel_of(fine + 1) / texel_of(fine));
+      slope = std::lerp(slope, slope_of(coarse, fine + 1), part);
       for (std::size_t c = 0; c < kChannels; ++c)
         sums.value[c] += part * (coarse.value[c] - sums.value[c]);
     }

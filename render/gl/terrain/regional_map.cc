@@ -223,8 +223,11 @@ std::pair<double, double> RegionalMap::height_and_slope(const Spot& spot,
   const double slope = spline_slope(mean, square) / size;
   const double part = level - static_cast<double>(fine);
   if (part <= 0) return {mean, slope};
-  const double coarse = sums_of(levels_[fine + 1], 0.5 * spot.u / size, 0.5 * spot.v / size).first;
-  return {std::lerp(mean, coarse, part), slope};
+  const auto [coarse, coarse_square] =
+      sums_of(levels_[fine + 1], 0.5 * spot.u / size, 0.5 * spot.v / size);
+  // Both of them: the coarser level reaches farther out to sea.
+  return {std::lerp(mean, coarse, part),
+          std::lerp(slope, spline_slope(coarse, coarse_square) / (2 * size), part)};
 }
 
 // The weighted means of heights and of their squares; gaps of the coarser levels are filled.
