@@ -77,7 +77,7 @@ std::vector<LevelNode> with_short_steps(const std::vector<LevelNode>& coarse, co
 class Interpolation {
  public:
   template <class Keep>
-  Interpolation(const std::vector<LevelNode>& nodes, Keep keep) {
+  Interpolation(const std::vector<LevelNode>& nodes, bool layers, Keep keep) : layers_(layers) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (keep(nodes[i])) index_.push_back(i);
     }
@@ -90,17 +90,28 @@ class Interpolation {
   template <class Add>
   void share(double s, Add add) const {
     const int above = static_cast<int>(std::upper_bound(s_.begin(), s_.end(), s) - s_.begin());
-    const int first = std::clamp(above - 2, 0, static_cast<int>(s_.size()) - count_);
+    int first = std::clamp(above - 2, 0, static_cast<int>(s_.size()) - count_), count = count_;
+    if (layers_) leave_out_edges(above, first, count);
     double shares[4];
-    lagrange_weights(&s_[first], count_, s, shares);
-    for (int n = 0; n < count_; ++n) add(index_[first + n], shares[n]);
+    lagrange_weights(&s_[first], count, s, shares);
+    for (int n = 0; n < count; ++n) add(index_[first + n], shares[n]);
   }
 
  private:
+  // Where a layer begins, levels lie close together and light has a kink: a cubic through two of
+  // them would go astray over the long step before them.
+  void leave_out_edges(int above, int& first, int& count) const {
+    above = std::clamp(above, 1, static_cast<int>(s_.size()) - 1);
+    const double step = s_[above] - s_[above - 1];
+    int end = first + count;
+    while (end > above + 1 && s_[end - 1] - s_[end - 2] < kLeastShare * step) --end;
+    while (first < above - 1 && s_[first + 1] - s_[first] < kLeastShare * step) ++first;
+    count = end - first;
+  }
+
   // Crossings close to the ray's lowest point say nothing new and spoil the interpolation; so does
   // that point close to the ray's beginning.
   void drop_near_lowest(const std::vector<LevelNode>& nodes) {
-    constexpr double kLeastShare = 0.25;  // of the distance to the next
     const auto s = [&](std::size_t i) { return nodes[index_[i]].s; };
     const auto drop = [&](std::size_t i) {
       index_.erase(index_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -118,6 +129,9 @@ class Interpolation {
     }
   }
 
+  static constexpr double kLeastShare = 0.25;  // of the distance to the next
+
+  bool layers_;
   std::vector<std::size_t> index_;
   std::vector<double> s_;
   int count_;
@@ -171,9 +185,10 @@ std::vector<LevelNode> level_path(const Shells& shells, const NodeOptics& optics
                                   int level) {
   std::vector<LevelNode> nodes = with_short_steps(
       crossings(ray, shells.bottom_radius, heights, level), ray, shells.bottom_radius, heights);
-  const Interpolation of_beam(nodes, [](const LevelNode&) { return true; });
-  const Interpolation of_source(nodes, [](const LevelNode& n) { return n.has_source(); });
   const std::vector<double> edges = layer_edges(shells, ray);
+  const Interpolation of_beam(nodes, !edges.empty(), [](const LevelNode&) { return true; });
+  const Interpolation of_source(nodes, !edges.empty(),
+                                [](const LevelNode& n) { return n.has_source(); });
   const std::size_t profiles = shells.profiles.size(), scatterers = optics[0].scatterers.size();
   for (LevelNode& node : nodes) {
     node.beam.resize(scatterers);

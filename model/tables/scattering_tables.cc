@@ -57,7 +57,7 @@ class ScatteringBuilder {
     const int count = kLevelsPerTexel * (tables_.sizes.scattering_r - 1) + 1;
     std::vector<double> heights;
     for (int i = 0; i < count; ++i)
-      heights.push_back(shared.height_from_unit(i / (count - 1.0), shells_.top));
+      heights.push_back(tables_.heights.height(i / (count - 1.0), shells_.top));
     heights.back() = shells_.top;
     return heights;
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "model/atmosphere/preset.h"
 
@@ -37,16 +38,16 @@ struct Header {
   std::array<std::array<int, 3>, 8> extents;
 };
 
-// The order of the parts behind the header and the name in the limits.
+// The order of the parts behind the header, the name in the limits and the nodes of the heights.
 template <class Tables>
 auto all_tables(Tables& tables) {
   // One name for each member: a new one must be thought of here.
-  auto& [atmosphere, phases, color, sizes, optical_depth, irradiance, rayleigh_like, single, phase,
-         sky_rays] = tables;
+  auto& [atmosphere, phases, color, sizes, heights, optical_depth, irradiance, rayleigh_like,
+         single, phase, sky_rays] = tables;
   return std::array{&optical_depth, &irradiance,   &rayleigh_like,    &single,
                     &phase,         &sky_rays.air, &sky_rays.aerosol, &sky_rays.gathered};
 }
-constexpr std::size_t kBefore = 2;
+constexpr std::size_t kBefore = 3;
 
 void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tables) {
   const auto& [mapping, air, aerosol, nielsen, oneil, limits, gathered] = tables.sky_rays;
@@ -58,8 +59,9 @@ void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tabl
   header.limited = limits.has_value();
   header.highest_m = limits ? limits->highest_m : 0;
   const std::string model = limits ? limits->model : "";
-  std::vector<std::span<const std::byte>> parts = {std::as_bytes(std::span(&header, 1)),
-                                                   std::as_bytes(std::span(model))};
+  std::vector<std::span<const std::byte>> parts = {
+      std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(model)),
+      std::as_bytes(std::span(tables.heights.nodes()))};
   for (std::size_t i = 0; const Table* table : all_tables(tables)) {
     header.extents[i++] = {table->width, table->height, table->depth};
     parts.push_back(std::as_bytes(std::span(table->rgba)));
@@ -70,11 +72,16 @@ void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tabl
 bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
   Header header{};
   std::string model;
+  std::vector<double> nodes;
   const auto room = [&](std::size_t part, std::uint64_t bytes) -> std::span<std::byte> {
     if (part == 0) return std::as_writable_bytes(std::span(&header, 1));
     if (part == 1) {
       model.resize(bytes);
       return std::as_writable_bytes(std::span(model));
+    }
+    if (part == 2) {
+      nodes.resize(bytes / sizeof(double));
+      return std::as_writable_bytes(std::span(nodes));
     }
     const auto all = all_tables(tables);
     if (part >= kBefore + all.size()) return {};
@@ -86,6 +93,7 @@ bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
   };
   if (!cache.find(key, room)) return false;
   tables.sizes = header.sizes;
+  tables.heights = HeightAxis(std::move(nodes));
   tables.sky_rays.mapping = header.mapping;
   tables.sky_rays.nielsen = header.nielsen;
   tables.sky_rays.oneil = header.oneil;

@@ -59,7 +59,7 @@ void accumulate(const Table& table, const Between& x, const Between& y, const Be
 }
 
 double height_coordinate(const AtmosphereTables& tables, double height, int size) {
-  return shared.texture_from_unit(shared.unit_from_height(height, Planet(tables).thickness), size);
+  return shared.texture_from_unit(tables.heights.unit(height, Planet(tables).thickness), size);
 }
 
 double sun_coordinate(double sun_height, int size) {

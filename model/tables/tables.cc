@@ -74,15 +74,11 @@ NodeOptics optics_of(const Shells& shells, const Atmosphere<double>& atmosphere,
   return optics;
 }
 
-double height_of_row(int row, int rows, double top) {
-  return std::min(shared.height_from_unit(row / (rows - 1.0), top), top);
-}
-
 void make_optical_depth(const Shells& shells, const NodeOptics& optics, AtmosphereTables& tables) {
   const int columns = tables.sizes.optical_depth_mu, rows = tables.sizes.optical_depth_r;
   tables.optical_depth = make_table(columns, rows, 1);
   tbb::parallel_for(0, rows, [&](int y) {
-    const double h = height_of_row(y, rows, shells.top);
+    const double h = tables.heights.height(y / (rows - 1.0), shells.top);
     for (int x = 0; x < columns; ++x) {
       const double mu =
           shared.mu_from_upward_unit(x / (columns - 1.0), h, shells.bottom_radius, shells.top);
@@ -104,7 +100,7 @@ void make_irradiance(double top, const SkyLight& light, AtmosphereTables& tables
   tbb::parallel_for(0, columns, [&](int x) {
     constexpr int kPolar = 16, kAzimuth = 8;
     for (int y = 0; y < rows; ++y) {
-      const double h = height_of_row(y, rows, top);
+      const double h = tables.heights.height(y / (rows - 1.0), top);
       const double mu_s =
           shared.mu_s_from_sun_height(h, shared.sun_from_unit(x / (columns - 1.0), kTableLowestSun),
                                       tables.atmosphere.bottom_radius_m);
@@ -213,8 +209,8 @@ void tabulate(const SkyModel& model, std::optional<SkyRayTables> own, const Shel
   const int slices = tables.sizes.scattering_r;
   for (int i = 0; i < slices; ++i) {
     tabulate_rays(model, tables.atmosphere, tables.color, shells, texels,
-                  height_of_row(i, slices, shells.top), tables.phases, tables.rayleigh_like,
-                  tables.single, slice * static_cast<std::size_t>(i));
+                  tables.heights.height(i / (slices - 1.0), shells.top), tables.phases,
+                  tables.rayleigh_like, tables.single, slice * static_cast<std::size_t>(i));
     progress((i + 1.0) / (slices + 1));
   }
   if (own) {
@@ -225,6 +221,13 @@ void tabulate(const SkyModel& model, std::optional<SkyRayTables> own, const Shel
                   shells.top, tables.phases, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
   }
   progress(1);
+}
+
+void follow_layers(const Shells& shells, AtmosphereTables& tables) {
+  TableSizes& sizes = tables.sizes;
+  tables.heights = HeightAxis(shells, sizes.scattering_r);
+  for (int* heights : {&sizes.optical_depth_r, &sizes.irradiance_r, &sizes.scattering_r})
+    *heights = tables.heights.texels(*heights);
 }
 
 // `model`: null for the light of the reference.
@@ -247,6 +250,8 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const Shells shells = shells_of(effective, Keep::kWhatMatters);
   const ReferenceOptions options = options_for(effective, {});
   const NodeOptics optics = optics_of(shells, effective, color, options.moments);
+  const bool closed = own && is_closed_form(own->mapping);
+  if (sizes.follow_layers != 0 && !closed) follow_layers(shells, tables);
   const RayTexels texels = tables.sizes.scattering();
   const int heights = tables.sizes.scattering_r;
   tables.rayleigh_like = make_table(texels.mu_s * texels.azimuth, texels.rows(), heights);
@@ -256,7 +261,6 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const auto of_scattering = [&](double part) {
     if (progress) progress(kBefore + kScattering * part);
   };
-  const bool closed = own && is_closed_form(own->mapping);
   if (closed) {
     tables.sky_rays = std::move(*own);
   } else if (model != nullptr) {

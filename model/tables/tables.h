@@ -12,6 +12,7 @@
 #include "model/geometry/sun_disc.h"
 #include "model/photometry/photometry.h"
 #include "model/tables/diffuse_source.h"
+#include "model/tables/height_axis.h"
 #include "model/tables/phase_classes.h"
 #include "model/tables/sky_rays.h"
 
@@ -30,6 +31,8 @@ struct TableSizes {
   int scattering_r = 32, scattering_ground = 22, scattering_sky = 70;  // rays to ground and to sky
   int scattering_mu_s = 64, scattering_azimuth = 24;
   int outside_sky = 100, outside_mu_s = 128, outside_azimuth = 48;  // SkyRayMapping::kFromOutside
+  // 1: beside layers there are as many heights as HeightAxis asks for; 0: as many as stated.
+  int follow_layers = 1;
 
   RayTexels scattering() const {
     return {scattering_ground, scattering_sky, scattering_mu_s, scattering_azimuth};
@@ -46,6 +49,7 @@ struct AtmosphereTables {
   PhaseClasses phases;
   ColorRule color;
   TableSizes sizes;
+  HeightAxis heights;   // of all tables
   Table optical_depth;  // x: mu, y: r; from a point to the top of the atmosphere (pure number). Not
                         // the transmittance: that of a finite path is exp(a difference), which does
                         // not lose its digits in thick air

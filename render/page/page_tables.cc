@@ -87,6 +87,7 @@ TableSizes page_sizes(const Atmosphere<double>& atmosphere) {
     return c.profile.type == ProfileType::kLayer &&
            vertical_optical_depth(atmosphere, c, {kGreen, 0}) > kThick;
   };
+  sizes.scattering_r = 24;
   if (std::ranges::any_of(atmosphere.constituents, is_thick_layer)) return sizes;
   const bool has_narrow_lobe = options_for(atmosphere, {}).moments > ReferenceOptions{}.moments;
   sizes.scattering_r = has_narrow_lobe ? 24 : 26;

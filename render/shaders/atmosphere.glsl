@@ -76,6 +76,9 @@ const vec2 optical_depth_size = vec2(OPTICAL_DEPTH_SIZE);
 const vec2 irradiance_size = vec2(IRRADIANCE_SIZE);
 const vec4 scattering_size = vec4(SCATTERING_SIZE);  // mu_s, azimuth, rays to the ground, rays to the sky
 const float scattering_heights = float(SCATTERING_HEIGHTS);
+#ifdef HEIGHT_NODES
+const float kHeightNodes[HEIGHT_NODES] = LIST(float, HEIGHT_NODES, HEIGHT_UNITS);
+#endif
 
 // The star's disc: its radius (rad), its solid angle (sr), its limb darkening 1 - u1 (1 - mu) - u2 (1 - mu)^2.
 const float kSunRadius = SUN_RADIUS;
@@ -155,21 +158,45 @@ Place place_at(float h, float mu, float mu_s) {
 #include "render/shaders/closed_form.glsl"
 #endif
 
-float height_coordinate(float h, float size) {
-  return texture_from_unit(unit_from_height(h, thickness_km), size);
+// docs/theory (9.13).
+// Coordinate 0..1 of a height: where layers are, by the heights that HeightAxis (model/tables/height_axis.h) chose.
+float unit_from_table_height(float h) {
+  float unit = unit_from_height(h, thickness_km);
+#ifdef HEIGHT_NODES
+  int below = 0, above = HEIGHT_NODES - 1;
+  while (above - below > 1) {
+    int middle = (below + above) / 2;
+    if (unit < kHeightNodes[middle]) above = middle;
+    else below = middle;
+  }
+  unit = (float(below) + (unit - kHeightNodes[below]) / (kHeightNodes[above] - kHeightNodes[below])) /
+         float(HEIGHT_NODES - 1);
+#endif
+  return unit;
 }
+
+float height_coordinate(float h, float size) { return texture_from_unit(unit_from_table_height(h), size); }
 
 // Of two coordinates 0..1, where the second is that of a height.
 vec2 place_in_table(float unit, float h, vec2 size) {
   return vec2(texture_from_unit(unit, size.x), height_coordinate(h, size.y));
 }
 
+#ifdef CHANGES
+// Their heights do not follow layers.
+float height_in_changes(float h, float size) { return texture_from_unit(unit_from_height(h, thickness_km), size); }
+
+vec2 place_in_changes(float unit, float h, vec2 size) {
+  return vec2(texture_from_unit(unit, size.x), height_in_changes(h, size.y));
+}
+#endif
+
 // From the point to the top, for rays that miss the ground.
 vec4 optical_depth_to_top(float h, float mu) {
   float unit = unit_from_upward_ray(h, mu, bottom_km, thickness_km);
   vec4 depth = look_up(optical_depth_table, place_in_table(unit, h, optical_depth_size));
 #ifdef CHANGES
-  depth *= exp(look_up(optical_depth_change, place_in_table(unit, h, vec2(textureSize(optical_depth_change, 0)))));
+  depth *= exp(look_up(optical_depth_change, place_in_changes(unit, h, vec2(textureSize(optical_depth_change, 0)))));
 #endif
   return depth;
 }
@@ -204,7 +231,7 @@ vec4 sky_irradiance(float h, float mu_s) {
   float unit = unit_from_sun(sun, LOWEST_SUN);
   vec4 irradiance = look_up(irradiance_table, place_in_table(unit, h, irradiance_size));
 #ifdef CHANGES
-  irradiance *= exp(look_up(irradiance_change, place_in_table(unit, h, vec2(textureSize(irradiance_change, 0)))));
+  irradiance *= exp(look_up(irradiance_change, place_in_changes(unit, h, vec2(textureSize(irradiance_change, 0)))));
 #endif
   return deep_twilight(sun) * irradiance;
 }
@@ -278,15 +305,15 @@ TableRay table_ray(Place from, float nu, bool hits_ground) {
   return ray;
 }
 
-// What two tables of such texels, as scattering_size and scattering_heights are, hold of a whole ray.
-Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, float heights, Place from, bool hits_ground,
+// What two tables of such texels, as scattering_size is, hold of a whole ray; `height` is the texture coordinate.
+Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, float height, Place from, bool hits_ground,
                       TableRay ray) {
   float turn = ray.azimuth * (size.y - 1.0);
   float first = min(floor(turn), size.y - 2.0);
   float u_sun = texture_from_unit(ray.sun, size.x);
   vec3 left = vec3((first + u_sun) / size.y,
                    texture_from_view(from.h, from.mu, hits_ground, size.z, size.w, bottom_km, thickness_km),
-                   height_coordinate(from.h, heights));
+                   height);
   vec3 right = left + vec3(1.0 / size.y, 0.0, 0.0);
   return between(look_up_classes(rayleigh_like, single, left), look_up_classes(rayleigh_like, single, right),
                  turn - first);
@@ -295,13 +322,14 @@ Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, floa
 // Along the whole ray from a place, to the top or to the ground.
 Scattering scattering(Place from, float nu, bool hits_ground) {
   TableRay ray = table_ray(from, nu, hits_ground);
-  Scattering means = ray_texels(rayleigh_like_table, single_table, scattering_size, scattering_heights, from,
-                                hits_ground, ray);
+  Scattering means = ray_texels(rayleigh_like_table, single_table, scattering_size,
+                                height_coordinate(from.h, scattering_heights), from, hits_ground, ray);
 #ifdef ENCODED
   means = decoded(means, texel_scale.xy, texel_offset.xy);
 #endif
 #ifdef CHANGES
-  Scattering change = ray_texels(rayleigh_like_change, single_change, change_size, change_heights, from, hits_ground, ray);
+  Scattering change = ray_texels(rayleigh_like_change, single_change, change_size,
+                                 height_in_changes(from.h, change_heights), from, hits_ground, ray);
   means.rayleigh_like += change.rayleigh_like;
   for (int c = 0; c < kClasses; ++c) means.single[c] += change.single[c];
 #endif

@@ -140,6 +140,7 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes
   tables_.atmosphere = tables.atmosphere;
   tables_.color = tables.color;
   tables_.sizes = tables.sizes;
+  tables_.heights = tables.heights;
   tables_.sky_rays.mapping = tables.sky_rays.mapping;
   tables_.sky_rays.nielsen = tables.sky_rays.nielsen;
   tables_.sky_rays.oneil = tables.sky_rays.oneil;

@@ -9,7 +9,6 @@
 #include "model/literature/evaluate.h"
 #include "model/literature/hillaire_tables.h"
 #include "model/literature/nielsen.h"
-#include "model/shared/shared.h"
 #include "render/glsl/table_defines.h"
 
 namespace skyfit {
@@ -104,31 +103,30 @@ glm::ivec3 sky_view_size(const AtmosphereTables& tables) {
 }
 
 GlTexture scattering_texture(const AtmosphereTables& tables) {
-  constexpr std::size_t kHeights = 256;
+  const auto heights = static_cast<std::size_t>(tables.heights.texels(256));
   const Atmosphere<double>& a = tables.atmosphere;
   const Shells shells = shells_of(a, Keep::kAll);
   const Atmosphere<Dual<0>> plain = seeded<0>(a, {});
-  std::vector<glm::vec4> values(kHeights * (tables.phases.count() + 1), glm::vec4(0));
-  Shared<double> shared;
+  std::vector<glm::vec4> values(heights * (tables.phases.count() + 1), glm::vec4(0));
   for (int node = 0; node < 4; ++node) {
     const Optics<0> optics =
         true_optics_at(shells, plain, tables.color.nodes[static_cast<std::size_t>(node)]);
-    for (std::size_t i = 0; i < kHeights; ++i) {
-      const double h =
-          shared.height_from_unit(static_cast<double>(i) / (kHeights - 1.0), shells.top);
+    for (std::size_t i = 0; i < heights; ++i) {
+      const double h = tables.heights.height(
+          static_cast<double>(i) / static_cast<double>(heights - 1), shells.top);
       const Densities<0> density = optics.densities(h);
       for (std::size_t k = 0; k < optics.extinction.size(); ++k) {
-        values[tables.phases.count() * kHeights + i][node] +=
+        values[tables.phases.count() * heights + i][node] +=
             static_cast<float>(1e3 * optics.extinction[k].v * density[k].v);
       }
       for (const Scatterer<0>& s : optics.scatterers) {
         const auto row = static_cast<std::size_t>(tables.phases.of_constituent[s.constituent]);
-        values[row * kHeights + i][node] +=
+        values[row * heights + i][node] +=
             static_cast<float>(1e3 * s.scattering.v * density[s.profile].v);
       }
     }
   }
-  const auto width = static_cast<GLsizei>(kHeights),
+  const auto width = static_cast<GLsizei>(heights),
              height = static_cast<GLsizei>(tables.phases.count() + 1);
   return flat_texture(width, height, values.data());
 }

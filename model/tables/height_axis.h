@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the texels of tables lie in height: as docs/theory (9.1) says, and beside layers, in which
+// light changes over metres, at heights of their own.
+#pragma once
+
+#include <vector>
+
+#include "model/atmosphere/shells.h"
+
+namespace skyfit {
+
+class HeightAxis {
+ public:
+  HeightAxis() = default;  // by (9.1) alone
+
+  // Texels as of a table of `heights` by (9.1) where no layer is; within layers of more than a
+  // twentieth of optical depth in steps that grow from either end. Without such layers by (9.1)
+  // alone.
+  HeightAxis(const Shells& shells, int heights);
+  // Ascending values of unit_from_height() of model/shared/mapping.glsl, from 0 to 1, or none.
+  explicit HeightAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {}
+
+  // Which (9.1) gives of the heights; evenly spaced texels are these. Empty: (9.1) alone.
+  const std::vector<double>& nodes() const { return nodes_; }
+
+  // docs/theory (9.13).
+  // Coordinate 0..1 of a height (m) and back; `thickness` is the height of the atmosphere's top.
+  double unit(double height, double thickness) const;
+  double height(double unit, double thickness) const;
+
+  // The least number of texels from `heights` on of which every node is one; `heights` by (9.1).
+  int texels(int heights) const;
+
+  friend bool operator==(const HeightAxis&, const HeightAxis&) = default;
+
+ private:
+  std::vector<double> nodes_;
+};
+
+// Between two axes of as many nodes, linear in `share`.
+HeightAxis interpolated(const HeightAxis& a, const HeightAxis& b, double share);
+
+}  // namespace skyfit
