@@ -109,8 +109,8 @@ TEST(RenderRequest, SceneOptions) {
                "--exposure", "1e-4"});
   EXPECT_NEAR(r.frame.moon->azimuth, -20 * kDegree, 1e-12);
   EXPECT_EQ(r.frame.second_sun->irradiance, 0.5);
-  EXPECT_EQ(r.frame.clouds->altitude_m, 2500);
-  EXPECT_EQ(r.frame.clouds->opacity, CloudLayer{}.opacity);
+  EXPECT_EQ(r.frame.clouds[0].altitude_m, 2500);
+  EXPECT_EQ(r.frame.clouds[0].opacity, CloudLayer{}.opacity);
   EXPECT_TRUE(r.frame.shadows && r.frame.layers);
   EXPECT_EQ(r.frame.aerial, AerialPerspective::kPerPixel);
   EXPECT_EQ(r.device, GraphicsDevice::kGpu);

@@ -163,7 +163,7 @@ TEST(ClosedFormFrames, NoPixelIsBlack) {
   renderer.set_atmosphere(preset, tables_by("nielsen", preset));
   FrameOptions options = options_of("valley");
   options.shadows = true;
-  options.clouds = CloudLayer{};
+  options.clouds = {CloudLayer{}};
   const Frame frame = renderer.draw(options);
   const auto [darkest, brightest] = std::ranges::minmax(frame.luminance);
   EXPECT_GT(darkest, 10) << "cd/m^2";
