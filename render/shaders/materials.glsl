@@ -78,17 +78,27 @@ vec4 with_material(vec3 place, float d, vec3 ray, float rock, vec4 reflectance, 
 #ifdef OWN_MATERIALS
   if (land > 0.0) {
     Footprint pixel = footprint_of(place, d, ray, normal);
+#if defined(OWN_SOIL_COLOR) || defined(OWN_SOIL_RELIEF)
+    if (rocky < 1.0) {
+      OwnMaterial soil = own_material(soil_color, soil_slopes, own_means[0], own_means[1], 0, pixel);
 #ifdef OWN_SOIL_COLOR
-    if (rocky < 1.0) soil_reflectance = own_color(soil_color, 0, pixel);
+      soil_reflectance = soil.reflectance;
 #endif
 #ifdef OWN_SOIL_RELIEF
-    if (rocky < 1.0) soil_gradient = own_gradient(soil_slopes, 0, pixel);
+      soil_gradient = soil.gradient;
 #endif
+    }
+#endif
+#if defined(OWN_ROCK_COLOR) || defined(OWN_ROCK_RELIEF)
+    if (rocky > 0.0) {
+      OwnMaterial own_rock = own_material(rock_color, rock_slopes, own_means[2], own_means[3], 2, pixel);
 #ifdef OWN_ROCK_COLOR
-    if (rocky > 0.0) rock_reflectance = own_color(rock_color, 2, pixel);
+      rock_reflectance = own_rock.reflectance;
 #endif
 #ifdef OWN_ROCK_RELIEF
-    if (rocky > 0.0) rock_gradient = own_gradient(rock_slopes, 2, pixel);
+      rock_gradient = own_rock.gradient;
+#endif
+    }
 #endif
   }
 #endif

@@ -86,6 +86,16 @@ GlTexture texture_of(const OwnPicture& picture, GLenum stored, GLenum channels) 
   return texture;
 }
 
+// Of the channels that it has, 0 of the others.
+glm::vec4 mean_of(const OwnPicture& picture) {
+  const std::size_t texels = std::size_t(picture.side) * static_cast<std::size_t>(picture.side);
+  const std::size_t channels = picture.texels.size() / texels;
+  glm::dvec4 sum(0);
+  for (std::size_t i = 0; i < picture.texels.size(); ++i)
+    sum[static_cast<int>(i % channels)] += picture.texels[i];
+  return glm::vec4(sum / static_cast<double>(texels));
+}
+
 // East, north and up in the middle of the field of the globe that holds a place.
 glm::dmat3 field_axes(const glm::dvec3& place) {
   const auto middle = [](double angle) {
@@ -135,15 +145,20 @@ OwnPicture read_own_slopes(const fs::path& file) {
 
 OwnTextures::OwnTextures(const OwnMaterial& soil, const OwnMaterial& rock,
                          const ColorReflectance& colors)
-    : soil_(soil), rock_(rock), textures_(4) {
+    : soil_(soil), rock_(rock), textures_(4), means_(4, glm::vec4(0)) {
   std::size_t at = 0;
+  const auto upload = [&](std::size_t i, const OwnPicture& picture, GLenum stored,
+                          GLenum channels) {
+    textures_[i] = texture_of(picture, stored, channels);
+    means_[i] = mean_of(picture);
+  };
   for (const auto& [material, name] : {std::pair(&soil_, "SOIL"), std::pair(&rock_, "ROCK")}) {
     if (!material->color.empty()) {
-      textures_[at] = texture_of(read_own_color(material->color, colors), GL_RGBA16, GL_RGBA);
+      upload(at, read_own_color(material->color, colors), GL_RGBA16, GL_RGBA);
       defines_.push_back(fmt::format("OWN_{}_COLOR", name));
     }
     if (!material->normal.empty()) {
-      textures_[at + 1] = texture_of(read_own_slopes(material->normal), GL_RG16F, GL_RG);
+      upload(at + 1, read_own_slopes(material->normal), GL_RG16F, GL_RG);
       defines_.push_back(fmt::format("OWN_{}_RELIEF", name));
     }
     at += 2;
@@ -165,6 +180,7 @@ void OwnTextures::bind(const glm::dvec3& camera, GLuint program, GLuint unit,
   UniformBlock block(program, "OwnMaterials");
   block.set("field_axes", glm::mat3(axes));
   block.set("own_repeats", std::span<const glm::vec4>(phases));
+  block.set("own_means", std::span<const glm::vec4>(means_));
   block.bind(buffers);
 }
 

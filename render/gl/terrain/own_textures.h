@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ class OwnTextures {
   OwnMaterial soil_, rock_;
   std::vector<std::string> defines_;
   std::vector<GlTexture> textures_;  // colour and slopes of the soil, then of the rock
+  std::vector<glm::vec4> means_;     // of each
 };
 
 }  // namespace skyfit
