@@ -109,7 +109,7 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   if (!draws_frames(options.model)) {
     throw UsageError(
         "--model", options.model,
-        fmt::format("expected {}; skyfit compare draws the skies of all models", drawing_models()));
+        fmt::format("expected {}; skyfit compare draws the skies of all variants", drawing_models()));
   }
   request.model = options.model;
   request.light = {transfer_of(options.scalar), options.orders};

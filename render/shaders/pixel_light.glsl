@@ -117,7 +117,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   if (ray.air && surface.d > ray.entry) {
 #ifdef CLOSED_FORM
     path.transmittance = closed_form_through(start, end.h, in_air);
-    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+    path.in_scatter = closed_form_inscatter(start, nu, end.h, in_air);
 #else
     // Both ends from the same table: nothing is left of its errors where they are near each other.
     path.transmittance = transmittance_between(start, end, ray.hits_ground);
@@ -168,7 +168,7 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   if (ray.air) {
 #ifdef CLOSED_FORM
     path.transmittance = closed_form_to_sky(start.h, start.mu);
-    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+    path.in_scatter = closed_form_sky(start, nu);
 #else
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     path.in_scatter = radiance(whole.scattering, nu);
@@ -197,7 +197,7 @@ PathLight light_of(int i, ViewRay ray, float clear) {
     Place at = place_along(start, nu, d);
 #ifdef CLOSED_FORM
     vec4 dimming = closed_form_through(start, at.h, d);
-    vec4 before = closed_form_inscatter(start, nu, dimming);
+    vec4 before = closed_form_inscatter(start, nu, at.h, d);
 #else
     vec4 dimming = transmittance_between(start, at, ray.hits_ground);
     vec4 before = radiance(

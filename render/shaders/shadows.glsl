@@ -82,8 +82,7 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km, int sun) 
     float shaded = shadow_strength(position, sun) * (1.0 - lit);
 #ifdef CLOSED_FORM
     float end_km = float(i + 1) * step_km;
-    vec4 through = closed_form_through(start, place_along(start, nu, end_km).h, end_km);
-    vec4 to_end = max(closed_form_inscatter(start, nu, through), before);
+    vec4 to_end = max(closed_form_beam_inscatter(start, nu, place_along(start, nu, end_km).h, end_km), before);
     sum += shaded * (to_end - before);
     before = to_end;
 #else

@@ -210,6 +210,7 @@ constexpr Shafts kShafts[] = {{"reference", 0.4, 0.95},
                               {"oneil", kOnce, kAll},
                               {"oneil:isotropic-air", kOnce, kAll},
                               {"nielsen:sun-through-sky", kOnce, kAll},
+                              {"preetham", 0.4, 0.95},
                               {"hoffman-preetham", kOnce, kAll}};
 // The last, whose shafts have lines of the shader of their own; the others take a minute.
 INSTANTIATE_TEST_SUITE_P(Models, ShaftsBy,
