@@ -113,10 +113,11 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
   group.option("--second-sun", options.second_sun, "ZENITH,AZIMUTH,SHARE",
                "Another sun (degrees, from the first) and its share of the first's light");
   group
-      .option("--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
-              fmt::format("A sheet of clouds: fraction of the sky, altitude in metres, opacity; may "
-                          "be repeated, up to {} sheets of different altitudes, in any order",
-                          kMostCloudLayers))
+      .option(
+          "--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
+          fmt::format("A sheet of clouds: fraction of the sky, altitude in metres, opacity; may "
+                      "be repeated, up to {} sheets of different altitudes, in any order",
+                      kMostCloudLayers))
       ->allow_extra_args(false);
   group
       .option("--wind-m-s", options.wind, "SPEED",
@@ -130,7 +131,8 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       "--refraction", options.refraction,
       "Suns' discs stand, and are flat, as air refracts them; ground and sky stay as straight\n"
       "rays see them");
-  group.flag("--shadows", options.shadows, "Shadows of the terrain, under each sun, on the ground and in the air");
+  group.flag("--shadows", options.shadows,
+             "Shadows of the terrain, under each sun, on the ground and in the air");
 }
 
 void add_terrain_options(CLI::App& command, RenderOptions& options) {

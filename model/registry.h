@@ -24,7 +24,7 @@ struct SkyModelRequest {
 struct SkyModelVariant {
   std::string_view name, meaning;
   bool draws_frames = true;  // of a renderer, with the ground in its light
-  int least = 0, most = 0;  // N
+  int least = 0, most = 0;   // N
 };
 
 struct SkyModelEntry {

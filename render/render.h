@@ -202,7 +202,7 @@ struct FrameOptions {
   bool refraction = false;
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;
-  std::vector<CloudLayer> clouds;  // of different altitudes, in any order
+  std::vector<CloudLayer> clouds;            // of different altitudes, in any order
   bool layers = false;                       // fill Frame::layers
   Glare glare = Glare::kNone;                // fill Frame::glare
   Primaries primaries = Primaries::kRec709;  // of the light in Frame

@@ -125,8 +125,8 @@ std::optional<SkyRayTables> PreethamModel::sky_rays(
     const Atmosphere<double>& atmosphere, std::span<const WavelengthNode, 4> nodes) const {
   literature::check_request(kName, atmosphere, {}, {});
   literature::check_exponential(kName, atmosphere);
-  SkyRayTables rays = literature::closed_form(SkyRayMapping::kPreetham,
-                                              {std::string(kName), kHighest}, atmosphere);
+  SkyRayTables rays =
+      literature::closed_form(SkyRayMapping::kPreetham, {std::string(kName), kHighest}, atmosphere);
   rays.preetham.turbidity = preetham_turbidity(atmosphere);
   check_turbidity(rays.preetham.turbidity);
   for (std::size_t k = 0; k < 4; ++k)

@@ -50,8 +50,7 @@ auto all_tables(Tables& tables) {
 constexpr std::size_t kBefore = 2;
 
 void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tables) {
-  const auto& [mapping, air, aerosol, nielsen, oneil, preetham, limits, gathered] =
-      tables.sky_rays;
+  const auto& [mapping, air, aerosol, nielsen, oneil, preetham, limits, gathered] = tables.sky_rays;
   Header header{};
   header.sizes = tables.sizes;
   header.mapping = mapping;

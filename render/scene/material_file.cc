@@ -16,8 +16,8 @@ double length_m(const PresetReader& reader, std::string_view field, double usual
   if (!reader.has(field)) return usual;
   const double value = reader.number(field);
   if (!(value >= kShortestRepeat && value <= kLongestRepeat))
-    reader.fail_value(field, fmt::format("metres, {:.9g} to {:.9g}", kShortestRepeat,
-                                         kLongestRepeat));
+    reader.fail_value(field,
+                      fmt::format("metres, {:.9g} to {:.9g}", kShortestRepeat, kLongestRepeat));
   return value;
 }
 

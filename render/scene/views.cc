@@ -56,7 +56,7 @@ constexpr std::array<NamedView, 8> kViews = {{
 
 constexpr int kMaxSide = 16384;
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
-constexpr double kMaxLength = 1e12;  // m
+constexpr double kMaxLength = 1e12;        // m
 constexpr double kLeastBetweenClouds = 1;  // m: two sheets at one height have no order
 
 void require(bool good, std::string_view name, double value, std::string_view expected) {

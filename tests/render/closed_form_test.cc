@@ -112,7 +112,8 @@ TEST(ClosedFormFrames, PreethamsPathsGatherWhatTheirAirScatters) {
   const FrameOptions options = options_of("valley");
   const Frame frame = renderer.draw(options);
   const double mu_s = std::cos(options.sun_zenith), altitude = options.camera.altitude_m;
-  const literature::AirAtNodes air = literature::air_at_nodes(preset.atmosphere, tables.color.nodes);
+  const literature::AirAtNodes air =
+      literature::air_at_nodes(preset.atmosphere, tables.color.nodes);
   const NodeValues sky = lookup_irradiance(tables, altitude, mu_s);
   Shared<double> shared;
   double worst = 0;

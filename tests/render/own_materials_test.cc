@@ -87,8 +87,8 @@ Renderer with_ground(const Scene& scene) {
 
 // Straight down in the middle of a field of the globe, the sun in the east.
 FrameOptions downward(const Renderer& drawn, double above_m, double fov_deg = 20) {
-  FrameOptions options = options_at({above_m, std::numbers::pi, 0, fov_deg * kDegrees},
-                                    50 * kDegrees, 48, 48);
+  FrameOptions options =
+      options_at({above_m, std::numbers::pi, 0, fov_deg * kDegrees}, 50 * kDegrees, 48, 48);
   options.site = Site{45 * kDegrees, 5 * kDegrees, 90 * kDegrees};
   options.camera.altitude_m += drawn.ground_height_m(options.site);
   return options;
@@ -123,7 +123,8 @@ TEST_F(OwnMaterialFiles, ReliefTurnsTheDirectLightByItsSlope) {
     const std::size_t middle = 24 * 48 + 24;
     const glm::dvec3 normal = color_of(frame.layers->normal, middle);
     // x toward the sun, which stands in the east, y to the left of it, in the north.
-    EXPECT_NEAR(normal.x, std::sin(std::atan(std::tan(east) * std::cos(std::atan(std::tan(north))))),
+    EXPECT_NEAR(normal.x,
+                std::sin(std::atan(std::tan(east) * std::cos(std::atan(std::tan(north))))),
                 2 * kEightBits);
     EXPECT_NEAR(std::atan2(normal.y, normal.z), std::atan(std::tan(north)), 2 * kEightBits);
     return luminance_of(frame.layers->direct, middle);
@@ -249,9 +250,10 @@ TEST_F(OwnMaterialFiles, PicturesOfAnotherKindAreRefusedInOneLine) {
   EXPECT_EQ(message([&] { read_own_color(floats, colors); }),
             floats.string() + ": values of type float: expected 8 or 16 bits a channel");
   const auto photograph = plain("photograph.png", {0.5f, 0.4f, 0.2f});
-  EXPECT_EQ(message([&] { read_own_slopes(photograph); }),
-            photograph.string() +
-                ": blue is 0.2 of 1 in column 0 of row 0: expected normals, whose blue is above 0.5");
+  EXPECT_EQ(
+      message([&] { read_own_slopes(photograph); }),
+      photograph.string() +
+          ": blue is 0.2 of 1 in column 0 of row 0: expected normals, whose blue is above 0.5");
   Scene scene;
   scene.height_map = level().height_map;
   scene.color_map = oblong;

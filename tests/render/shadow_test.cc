@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows take the direct light alone, from the ground and from the air, under each sun and by every
-// model that draws.
+// Shadows take the direct light alone, from the ground and from the air, under each sun and by
+// every model that draws.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -77,8 +77,9 @@ class Wall : public ::testing::Test {
       taken.most = std::max(taken.most, of_part);
       ++taken.paths;
     }
-    std::printf("[ shadow ] of %d shaded paths the sun's part of the light is %.3f (%.3f to %.3f)\n",
-                taken.paths, taken.mean, taken.least, taken.most);
+    std::printf(
+        "[ shadow ] of %d shaded paths the sun's part of the light is %.3f (%.3f to %.3f)\n",
+        taken.paths, taken.mean, taken.least, taken.most);
     taken.untouched.print("paths in the light");
     EXPECT_GT(taken.paths, 300);
     EXPECT_GT(taken.untouched.count(), 100);
@@ -213,8 +214,7 @@ constexpr Shafts kShafts[] = {{"reference", 0.4, 0.95},
                               {"preetham", 0.4, 0.95},
                               {"hoffman-preetham", kOnce, kAll}};
 // The last, whose shafts have lines of the shader of their own; the others take a minute.
-INSTANTIATE_TEST_SUITE_P(Models, ShaftsBy,
-                         ::testing::Values(kShafts[std::size(kShafts) - 1]));
+INSTANTIATE_TEST_SUITE_P(Models, ShaftsBy, ::testing::Values(kShafts[std::size(kShafts) - 1]));
 INSTANTIATE_TEST_SUITE_P(SlowModels, ShaftsBy, ::testing::ValuesIn(kShafts));
 
 TEST(Shadow, EveryModelThatDrawsHasShafts) {
@@ -245,9 +245,9 @@ TEST(Shadow, OfTheSecondSunIsThatOfTheFirst) {
   for (std::size_t i = 0; i < a.luminance.size(); ++i) {
     const double of_a = luminance_of(a.layers->direct, i), of_b = luminance_of(b.layers->direct, i);
     const double before = luminance_of(lit.layers->in_scatter, i);
-    air.add(a, i,
-            (luminance_of(a.layers->in_scatter, i) - luminance_of(b.layers->in_scatter, i)) /
-                before);
+    air.add(
+        a, i,
+        (luminance_of(a.layers->in_scatter, i) - luminance_of(b.layers->in_scatter, i)) / before);
     shaded += of_a < 0.9 * luminance_of(lit.layers->direct, i) ? 1 : 0;
     // At the edge of a shadow a rounding may decide.
     if (std::abs(of_a - of_b) > 1e-3 * luminance_of(lit.layers->direct, i)) ++edges;

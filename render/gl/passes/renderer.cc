@@ -222,9 +222,9 @@ class GlRenderer final : public FrameDrawer {
     std::vector<MeasuredNode> drawn;
     for (const CubeBlock& block : current_.blocks.seen)
       drawn.push_back({block, terrain_->store().heights(block).whole});
-    current_.boxes =
-        ObjectPass::upload_mesh(block_boxes({drawn, selection}, view, options.camera.altitude_m,
-                                            options.terrain.boxes, directions_of_suns(options)[0], *color_));
+    current_.boxes = ObjectPass::upload_mesh(
+        block_boxes({drawn, selection}, view, options.camera.altitude_m, options.terrain.boxes,
+                    directions_of_suns(options)[0], *color_));
     current_.boxes->primitive = GL_LINES;
   }
 
@@ -382,8 +382,8 @@ class GlRenderer final : public FrameDrawer {
   ObjectPass objects_;
   Materials materials_;
   std::optional<OwnTextures> own_textures_;  // of the first ground's colour rule
-  std::vector<ObjectPass::Model> meshes_;  // of the scene
-  std::vector<std::string> warnings_;      // of their files
+  std::vector<ObjectPass::Model> meshes_;    // of the scene
+  std::vector<std::string> warnings_;        // of their files
   std::optional<ObjectPass::Model> moon_;
   double moon_reflectance_ = 0;
   ShadowPass shadow_pass_;

@@ -46,8 +46,7 @@ void ShadowPass::make_room(std::size_t maps) {
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
   maps_ = GlTexture(id);
-  glTextureStorage3D(id, 1, GL_DEPTH_COMPONENT32F, kSide, kSide,
-                     static_cast<GLsizei>(maps));
+  glTextureStorage3D(id, 1, GL_DEPTH_COMPONENT32F, kSide, kSide, static_cast<GLsizei>(maps));
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -48,8 +48,8 @@ OwnPicture read_picture(const fs::path& file) {
     fail(file, fmt::format("{} channel{}: expected red, green and blue", spec.nchannels,
                            spec.nchannels == 1 ? "" : "s"));
   if (spec.format != OIIO::TypeDesc::UINT8 && spec.format != OIIO::TypeDesc::UINT16)
-    fail(file, fmt::format("values of type {}: expected 8 or 16 bits a channel",
-                           spec.format.c_str()));
+    fail(file,
+         fmt::format("values of type {}: expected 8 or 16 bits a channel", spec.format.c_str()));
   OwnPicture picture{spec.width, {}};
   picture.texels.resize(std::size_t{3} * spec.width * spec.height);
   const bool done = input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, picture.texels.data());
@@ -104,9 +104,8 @@ glm::dmat3 field_axes(const glm::dvec3& place) {
   };
   const double latitude = std::asin(std::clamp(place.z / glm::length(place), -1.0, 1.0));
   // The sun in the east is along the frame's x axis, and its y axis points north.
-  const SiteAxes axes = site_axes(
-      {middle(std::min(latitude, std::numbers::pi / 2 - 1e-9)),
-       middle(std::atan2(place.y, place.x)), std::numbers::pi / 2});
+  const SiteAxes axes = site_axes({middle(std::min(latitude, std::numbers::pi / 2 - 1e-9)),
+                                   middle(std::atan2(place.y, place.x)), std::numbers::pi / 2});
   return {axes.x, axes.y, axes.z};
 }
 
@@ -114,8 +113,8 @@ glm::dmat3 field_axes(const glm::dvec3& place) {
 
 OwnPicture read_own_color(const fs::path& file, const ColorReflectance& colors) {
   return converted<4>(read_picture(file), [&](const glm::vec3& coded, std::size_t) {
-    const NodeValues value = colors.at({linear_from_srgb(coded.x), linear_from_srgb(coded.y),
-                                        linear_from_srgb(coded.z)});
+    const NodeValues value = colors.at(
+        {linear_from_srgb(coded.x), linear_from_srgb(coded.y), linear_from_srgb(coded.z)});
     return std::array{static_cast<float>(value[0]), static_cast<float>(value[1]),
                       static_cast<float>(value[2]), static_cast<float>(value[3])};
   });
