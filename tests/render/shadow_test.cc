@@ -87,6 +87,13 @@ class Wall : public ::testing::Test {
     return taken;
   }
 
+  // One for all: its ground and its shaders take the most time.
+  Renderer& drawn_by(const AtmosphereTables& tables) const {
+    static Renderer drawn(scene_);
+    drawn.set_atmosphere(earth_clear(), tables);
+    return drawn;
+  }
+
   // How far a point above the floor is inside the wall's shadow, metres; negative: outside. Its
   // beam enters the wall at the near side, below the top.
   double depth_in_shadow(const glm::dvec3& p) const {
@@ -100,7 +107,7 @@ class Wall : public ::testing::Test {
 };
 
 TEST_F(Wall, ShadesTheFloorBehindItAndNothingElse) {
-  Renderer drawn = make_renderer(scene_);
+  Renderer& drawn = drawn_by(small_tables());
   FrameOptions options =
       options_at({kFloor + kEye, 140 * kDegree, 0.2, 80 * kDegree}, sun_, 128, 96);
   const Frame lit = draw_layers(options, drawn);
@@ -142,7 +149,7 @@ TEST_F(Wall, ShadesTheFloorBehindItAndNothingElse) {
 }
 
 TEST_F(Wall, TakesLightFromTheAirInItsShadow) {
-  Renderer drawn = make_renderer(scene_);
+  Renderer& drawn = drawn_by(small_tables());
   const Taken taken = light_taken(drawn);
   constexpr double kStep = 1 / 24.0 / 0.4;  // of the shader's march, of the shortest of these
   EXPECT_GT(taken.mean, 0.4);
@@ -162,19 +169,11 @@ struct Shafts {
   double least, most;  // the sun's part of the light along a short path
   friend void PrintTo(const Shafts& shafts, std::ostream* out) { *out << shafts.model; }
 };
-class ShaftsBy : public Wall, public ::testing::WithParamInterface<Shafts> {
- protected:
-  // Its ground and its shaders take the most time.
-  static Renderer& drawn_by(const char* model, const Scene& scene) {
-    static Renderer drawn(scene);
-    drawn.set_atmosphere(earth_clear(), tables_by(model));
-    return drawn;
-  }
-};
+class ShaftsBy : public Wall, public ::testing::WithParamInterface<Shafts> {};
 
 TEST_P(ShaftsBy, TakeTheSunsPartOfTheLightOfShadedAir) {
   const auto& [model, least, most] = GetParam();
-  Renderer& drawn = drawn_by(model, scene_);
+  Renderer& drawn = drawn_by(tables_by(model));
   const Taken taken = light_taken(drawn);
   EXPECT_GT(taken.mean, least);
   EXPECT_LT(taken.mean, most);
