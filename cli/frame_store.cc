@@ -50,6 +50,11 @@ ordered_json json_of(const TableSizes& sizes) {
           outside.azimuth};
 }
 
+ordered_json json_of(const OwnMaterial& material) {
+  return {hash_of_file(material.color), hash_of_file(material.normal), material.near_m,
+          material.far_m};
+}
+
 ordered_json json_of(const Scene& scene) {
   ordered_json meshes = ordered_json::array();
   for (const PlacedMesh& mesh : scene.meshes) {
@@ -59,13 +64,20 @@ ordered_json json_of(const Scene& scene) {
   ordered_json dems = ordered_json::array();
   for (const RegionalDem& dem : scene.dems)
     dems.push_back({dem.file.filename().string(), hash_of_file(dem.file), dem.band, dem.zero_m});
+  ordered_json textures = ordered_json::array();
+  if (!scene.textures.empty()) {
+    for (const fs::path& file : texture_files(scene.textures))
+      textures.push_back(hash_of_file(file));
+  }
   return {{"height_map", hash_of_file(scene.height_map)},
           {"range_m", {scene.lowest_m, scene.highest_m}},
           {"color_map", hash_of_file(scene.color_map)},
           {"water_level_m", scene.water_level_m},
           {"dems", {dems, static_cast<int>(scene.dem_surroundings), scene.dem_edge_m.value_or(-1)}},
           {"meshes", meshes},
-          {"textures", scene.textures.string()}};
+          {"textures", textures},
+          {"soil", json_of(scene.soil)},
+          {"rock", json_of(scene.rock)}};
 }
 
 ordered_json json_of(const FrameOptions& frame) {
@@ -89,8 +101,8 @@ ordered_json json_of(const FrameOptions& frame) {
   if (const auto& moon = frame.moon)
     json["moon"] = {moon->zenith, moon->azimuth, moon->distance_m, moon->radius_m,
                     moon->reflectance};
-  if (const auto& clouds = frame.clouds)
-    json["clouds"] = {clouds->altitude_m, clouds->cover, clouds->opacity};
+  for (const CloudLayer& clouds : frame.clouds)
+    json["clouds"].push_back({clouds.altitude_m, clouds.cover, clouds.opacity});
   return json;
 }
 

@@ -102,7 +102,8 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
                "How far beyond its edge a region goes over into its surroundings, m; by default a "
                "tenth of its shorter side");
   group.option("--textures", options.textures, "DIR",
-               "Textures of the ground's materials; missing ones are made and kept there");
+               "Textures of the ground's materials; missing ones are made and kept there, and "
+               "materials.json names pictures of your own");
   group
       .option("--mesh", options.meshes, "FILE@LAT,LON,ALT[,HEADING[,SCALE]]",
               "A Wavefront OBJ at a place (degrees, metres above sea level); may be repeated")
@@ -111,8 +112,13 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
                "A moon (degrees, from the sun; metres)");
   group.option("--second-sun", options.second_sun, "ZENITH,AZIMUTH,SHARE",
                "Another sun (degrees, from the first) and its share of the first's light");
-  group.option("--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
-               "A sheet of clouds: fraction of the sky, altitude in metres, opacity");
+  group
+      .option(
+          "--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
+          fmt::format("A sheet of clouds: fraction of the sky, altitude in metres, opacity; may "
+                      "be repeated, up to {} sheets of different altitudes, in any order",
+                      kMostCloudLayers))
+      ->allow_extra_args(false);
   group
       .option("--wind-m-s", options.wind, "SPEED",
               "Wind over the sea, 12.5 m above it, 0 to 30: how rough the sea is")
@@ -125,7 +131,8 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       "--refraction", options.refraction,
       "Suns' discs stand, and are flat, as air refracts them; ground and sky stay as straight\n"
       "rays see them");
-  group.flag("--shadows", options.shadows, "Shadows of the terrain, on the ground and in the air");
+  group.flag("--shadows", options.shadows,
+             "Shadows of the terrain, under each sun, on the ground and in the air");
 }
 
 void add_terrain_options(CLI::App& command, RenderOptions& options) {
@@ -313,8 +320,7 @@ void check_combinations(const CLI::App& command) {
 
 std::string drawing_models() {
   std::vector<std::string_view> names;
-  for (const SkyModelEntry& entry : sky_models())
-    if (entry.draws_frames) names.push_back(entry.name);
+  for (const SkyModelEntry& entry : sky_models()) names.push_back(entry.name);
   return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 

@@ -26,8 +26,8 @@ struct RenderOptions {
   int frames = 0, update_frames = 0;  // 0: not typed
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
-  std::string moon, second_sun, clouds, wind = "5", atmosphere = "on";
-  std::vector<std::string> meshes, dems;
+  std::string moon, second_sun, wind = "5", atmosphere = "on";
+  std::vector<std::string> meshes, dems, clouds;
   std::string lod_constant, culling = "on", block_boxes = "none", overview;
   int terrain_levels = 0;  // 0: not typed
   bool wireframe = false;

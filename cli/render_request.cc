@@ -107,9 +107,9 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   request.scene = parse_scene(options, command);
   request.device = options.gpu ? GraphicsDevice::kGpu : GraphicsDevice::kSoftware;
   if (!draws_frames(options.model)) {
-    throw UsageError(
-        "--model", options.model,
-        fmt::format("expected {}; skyfit compare draws the skies of all models", drawing_models()));
+    throw UsageError("--model", options.model,
+                     fmt::format("expected {}; skyfit compare draws the skies of all variants",
+                                 drawing_models()));
   }
   request.model = options.model;
   request.light = {transfer_of(options.scalar), options.orders};

@@ -8,6 +8,7 @@
 #include "cli/inputs.h"
 #include "cli/render_arguments.h"
 #include "model/base/input_file.h"
+#include "render/scene/material_file.h"
 
 namespace skyfit::cli {
 
@@ -101,16 +102,16 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
     alone.second_sun = frame.second_sun;
     expect_valid("--second-sun", options.second_sun, alone);
   }
-  if (command.count("--clouds") > 0) {
-    const auto values = parse_tuple("--clouds", options.clouds, 1, 3,
-                                    "COVER, COVER,ALTITUDE or COVER,ALTITUDE,OPACITY");
-    frame.clouds = CloudLayer{.cover = values[0]};
-    if (values.size() > 1) frame.clouds->altitude_m = values[1];
-    if (values.size() > 2) frame.clouds->opacity = values[2];
-    FrameOptions alone;
-    alone.clouds = frame.clouds;
-    expect_valid("--clouds", options.clouds, alone);
+  FrameOptions sheets;
+  for (const std::string& text : options.clouds) {
+    const auto values =
+        parse_tuple("--clouds", text, 1, 3, "COVER, COVER,ALTITUDE or COVER,ALTITUDE,OPACITY");
+    CloudLayer& clouds = sheets.clouds.emplace_back(CloudLayer{.cover = values[0]});
+    if (values.size() > 1) clouds.altitude_m = values[1];
+    if (values.size() > 2) clouds.opacity = values[2];
+    expect_valid("--clouds", text, sheets);
   }
+  frame.clouds = sheets.clouds;
 }
 
 TerrainOptions parse_terrain(const RenderOptions& options, const CLI::App& command) {
@@ -171,6 +172,9 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   for (const std::string& mesh : options.meshes) scene.meshes.push_back(parse_mesh(mesh));
   scene.textures = options.textures;
   scene.named_files = named_files();
+  const OwnMaterials own = read_materials(scene.textures, scene.named_files);
+  scene.soil = own.soil;
+  scene.rock = own.rock;
   validate(scene);
   return scene;
 }

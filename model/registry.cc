@@ -138,10 +138,8 @@ std::span<const SkyModelEntry> sky_models() {
        "Hoffman & Preetham 2002: closed form, constant density; day, up to 10 km",
        make<HoffmanPreethamModel>},
       {"preetham",
-       "Preetham, Shirley & Smits 1999: formula over the turbidity; day, ground, sky",
-       make_preetham,
-       {},
-       false},
+       "Preetham, Shirley & Smits 1999: formula over the turbidity; day, up to 3 km, sky",
+       make_preetham},
   };
   return kModels;
 }
@@ -159,9 +157,9 @@ const SkyModelEntry& sky_model_entry(std::string_view name) {
 bool draws_frames(std::string_view name) {
   const SkyModelEntry& entry = sky_model_entry(name);
   const std::vector<std::string_view> parts = split(name);
-  return entry.draws_frames && std::ranges::none_of(entry.variants, [&](const auto& variant) {
-           return !variant.draws_frames && std::ranges::count(parts, variant.name) > 0;
-         });
+  return std::ranges::none_of(entry.variants, [&](const auto& variant) {
+    return !variant.draws_frames && std::ranges::count(parts, variant.name) > 0;
+  });
 }
 
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,

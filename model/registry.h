@@ -23,8 +23,8 @@ struct SkyModelRequest {
 // name that ends in "=N" takes a whole number, as "oneil:samples=3".
 struct SkyModelVariant {
   std::string_view name, meaning;
-  bool draws_frames = true;
-  int least = 0, most = 0;  // N
+  bool draws_frames = true;  // of a renderer, with the ground in its light
+  int least = 0, most = 0;   // N
 };
 
 struct SkyModelEntry {
@@ -32,7 +32,6 @@ struct SkyModelEntry {
   std::string_view meaning;  // one line, with the source
   std::unique_ptr<SkyModel> (*make)(const SkyModelRequest& request);
   std::span<const SkyModelVariant> variants = {};
-  bool draws_frames = true;  // of a renderer, with the ground in its light
 };
 // Whether a renderer can draw the model of that name with all its variants.
 bool draws_frames(std::string_view name);

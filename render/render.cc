@@ -56,6 +56,10 @@ Scene above_its_lowest(Scene scene, double by) {
 
 std::string dem_library() { return module_named<DemModule>("skyfit_dem_module").library(); }
 
+std::vector<fs::path> texture_files(const fs::path& directory) {
+  return module().texture_files(directory);
+}
+
 double basin_depth_m(const Scene& scene) {
   if (scene.height_map.empty()) return 0;
   return std::max(0.0, -std::max(scene.lowest_m, scene.water_level_m));
@@ -101,7 +105,7 @@ FrameOptions Renderer::raised(const FrameOptions& options) const {
   FrameOptions raised = options;
   raised.camera.altitude_m += basin_depth_m_;
   if (raised.terrain.eye) raised.terrain.eye->altitude_m += basin_depth_m_;
-  if (raised.clouds) raised.clouds->altitude_m += basin_depth_m_;
+  for (CloudLayer& clouds : raised.clouds) clouds.altitude_m += basin_depth_m_;
   return raised;
 }
 

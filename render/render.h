@@ -79,6 +79,18 @@ struct RegionalDem {
   double zero_m = 0;  // where its heights count from, above the bottom radius
 };
 
+inline constexpr double kShortestRepeat = 0.01, kLongestRepeat = 1e6;  // m
+
+// A user's own colours and relief of one of the ground's two materials, as pictures of a square of
+// the ground, north up. Where there is none, those of the program.
+struct OwnMaterial {
+  std::filesystem::path color;   // sRGB; its reflectance in the place of the ground's
+  std::filesystem::path normal;  // tangent space: red to the east, green to the north, blue up
+  // Sides of the square near the eye and far away, in metres.
+  double near_m = 4, far_m = 60;
+  friend bool operator==(const OwnMaterial&, const OwnMaterial&) = default;
+};
+
 // What lies around the regions, and where they have no data.
 enum class DemSurroundings {
   kPlanet,  // the ground of the planet
@@ -107,6 +119,7 @@ struct Scene {
   // A directory of the materials' textures; those that are missing are made and saved there. Empty:
   // made and not saved.
   std::filesystem::path textures;
+  OwnMaterial soil, rock;
   NamedFiles named_files = NamedFiles::kInItsFolder;  // which a mesh may name: its materials
 };
 
@@ -131,6 +144,7 @@ struct CloudLayer {
   double cover = 0.5;        // share of the sky
   double opacity = 0.9;      // of the densest clouds
 };
+inline constexpr int kMostCloudLayers = 4;
 
 // How the air between the eye and what it sees is evaluated.
 enum class AerialPerspective {
@@ -181,14 +195,14 @@ struct FrameOptions {
   double sun_zenith = 0.5;
   int samples_per_side = 2;  // each pixel is the mean of samples_per_side^2 samples: 1 to 4
   AerialPerspective aerial = AerialPerspective::kVolume;
-  bool shadows = false;  // of the terrain, on the ground and in the air
+  bool shadows = false;  // of the terrain, under each sun, on the ground and in the air
   double wind_m_s = 5;   // 12.5 m above the sea: how rough it is, 0 to 30
   // The suns' discs stand where air refracts them to, and as flat: those of the light of one
   // wavelength, 550 nm, toward which the ground and the sky are drawn as along straight rays.
   bool refraction = false;
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;
-  std::optional<CloudLayer> clouds;
+  std::vector<CloudLayer> clouds;            // of different altitudes, in any order
   bool layers = false;                       // fill Frame::layers
   Glare glare = Glare::kNone;                // fill Frame::glare
   Primaries primaries = Primaries::kRec709;  // of the light in Frame
@@ -203,6 +217,10 @@ void validate(const Scene& scene);
 
 // The library that reads regions, and its version. Throws std::runtime_error where there is none.
 std::string dem_library();
+
+// The files of the program's own textures in a directory (Scene::textures), made where they are
+// missing. Throws std::runtime_error that names one that cannot be read or written.
+std::vector<std::filesystem::path> texture_files(const std::filesystem::path& directory);
 
 // How far the lowest ground of a scene lies below the bottom radius, >= 0, in metres. Its frames
 // want the tables of the atmosphere lowered_by() this depth (model/atmosphere/lowered_ground.h).

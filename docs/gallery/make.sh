@@ -123,6 +123,40 @@ s11=(--preset sperlhofer-2011)
 source_of s11 "Sperlhofer 2011: tables of Bruneton and Neyret, deferred shading"
 text "Tables 4-1 and 4-2: the atmosphere" "The published coefficients as a preset, and what they amount to." check sperlhofer-2011
 
+# Pictures of grass and stone, and of their normals, from slices of the program's own textures.
+ground=$scratch/ground
+mkdir "$ground"
+"$skyfit" render "${s11[@]}" --textures "$ground" --size 32x18 --out "$scratch/ground.png" >/dev/null
+oiiotool "$ground/grains.png" --cut 64x64+0+0 --ch A,A,A --mulc 0.6,0.85,0.35 -o "$ground/grass.png"
+oiiotool "$ground/crags.png" --cut 64x64+0+0 --ch A,A,A --mulc 1,0.93,0.85 -o "$ground/stone.png"
+oiiotool "$ground/grains.png" --cut 64x64+0+0 --ch R,G,B --mulc -0.5,0.5,0 --addc 0.749,0.251,1 -o "$ground/grass-normal.png"
+oiiotool "$ground/crags.png" --cut 64x64+0+0 --ch R,G,B --mulc -0.7,0.7,0 --addc 0.849,0.151,1 -o "$ground/stone-normal.png"
+materials() { # NORMAL-OF-GRASS NORMAL-OF-STONE
+  printf '{"skyfit_materials": 1,\n "soil": {"color": "grass.png"%s, "near_m": 2, "far_m": 60},\n "rock": {"color": "stone.png"%s, "near_m": 8, "far_m": 120}}\n' \
+    "$1" "$2" >"$ground/materials.json"
+}
+# textured NAME ARGUMENTS: a picture with them; the folder is called "ground" under the figure.
+textured() {
+  local name=$1
+  shift
+  picture "$name" --textures "$ground" "$@"
+  commands=${commands//$ground/ground}
+}
+materials ', "normal": "grass-normal.png"' ', "normal": "stone-normal.png"'
+begin
+textured s11-4-13-far "${s11[@]}" --model bruneton --view valley --sun-zenith-deg 60 "${small[@]}"
+textured s11-4-13-near "${s11[@]}" --model bruneton --view valley --sun-zenith-deg 60 --view-zenith-deg 105 "${small[@]}"
+textured s11-4-13-eye "${s11[@]}" --model bruneton --view ground --sun-zenith-deg 60 --azimuth-deg 100 --view-zenith-deg 105 "${small[@]}"
+commands+=$'# ground/materials.json\n'$(<"$ground/materials.json")$'\n'
+figure "4-13: textured terrain at several scales" "Stone high and steep, grass low and level. Each has two scales, 2 and 60 m, 8 and 120 m, and repeats do not show." \
+  "far and near" "down the slope" "from 2 m"
+begin
+textured s11-4-17-normals "${s11[@]}" --model bruneton --view ground --sun-zenith-deg 75 --azimuth-deg 100 --view-zenith-deg 110 "${small[@]}"
+materials ', "normal": "level.png"' ', "normal": "level.png"'
+oiiotool --pattern constant:color=0.5,0.5,1 64x64 3 -o "$ground/level.png"
+textured s11-4-17-level "${s11[@]}" --model bruneton --view ground --sun-zenith-deg 75 --azimuth-deg 100 --view-zenith-deg 110 "${small[@]}"
+figure "4-17: normal maps" "Fine relief in the light of a low sun, without more vertices." "normals of the picture" "level normals"
+
 begin
 picture s11-4-23-eye "${s11[@]}" --model bruneton --view 10km --block-boxes culling "${small[@]}"
 picture s11-4-23-outside "${s11[@]}" --model bruneton --view 10km --block-boxes culling --overview-m 1e6 "${small[@]}"
@@ -339,7 +373,7 @@ figure "4g, 4h: Mars without dust, from space and in a valley" "Another colour b
 cat >>"$page" <<'HTML'
 <h2 id="missing">What is not shown</h2>
 <ul>
-<li>Sperlhofer: the terrain (4-11 to 4-17), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
+<li>Sperlhofer: the noise of the terrain (4-11, 4-12), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
 <code>--tone clip</code>), an object half in the air (4-50), and the three repairs (5-1 to 5-3):
 the renderer has no options for them.</li>
 <li>Bodare and Sandberg: the update over frames as frames (12; <code>--update-frames</code> draws them), the seam of the difference of

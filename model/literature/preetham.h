@@ -8,8 +8,15 @@
 // wavelength that has the model's X, Y, Z, so that a rule of few wavelengths gives them back; at
 // the ends of the spectrum it is negative for some reddish skies near the horizon. Known: far too
 // bright against measurements, by a factor of about 2.4. Left out: everything of the atmosphere but
-// T. Valid on the ground, toward the sky, sun above the horizon, T 1.7 .. 10 (below, F is negative
-// at the zenith); throws std::domain_error for a turbidity outside.
+// T. Valid on the ground, up to 3 km high, toward the sky, sun above the horizon, T 1.7 .. 10
+// (below, F is negative at the zenith); throws std::domain_error for a turbidity outside.
+//
+// Frames have his paths before the ground, section 4: air and aerosol with the exponential
+// densities of the preset, lit by the sun as from the ground and by the sky. Deviations: he fills a
+// table of the scattered light over all directions and fits polynomials to the integrals along a
+// path, here the sky's light comes evenly from its half of all directions, and a path is summed in
+// 8 steps; the sun's beam is that of these constituents through Kasten's air mass, without his
+// ozone and gases.
 #pragma once
 
 #include <array>
@@ -28,10 +35,15 @@ class PreethamModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
+  std::optional<SkyRayTables> sky_rays(const Atmosphere<double>& atmosphere,
+                                       std::span<const WavelengthNode, 4> nodes) const override;
   // The aerosol's amount alone: the sky fixes one number.
   bool can_fit(const Parameter& parameter) const override;
 
  private:
+  // Per cd/m^2 of X, Y and Z.
+  std::array<double, 3> radiance_from_xyz(double wavelength_nm) const;
+
   // [power][X, Y, Z]: coefficient of the power of the wavelength (550 nm = 1) per cd/m^2 of X, Y,
   // Z.
   std::array<std::array<double, 3>, 3> power_from_xyz_;

@@ -4,6 +4,7 @@
 // Four wavelengths in RGBA, values per unit solar irradiance.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,9 +33,11 @@ enum class SkyRayMapping {
   // No tables: closed forms in the shader, of rays to the sky and of those to the ground.
   kNielsen,
   kHoffmanPreetham,
+  kPreetham,
 };
 constexpr bool is_closed_form(SkyRayMapping mapping) {
-  return mapping == SkyRayMapping::kNielsen || mapping == SkyRayMapping::kHoffmanPreetham;
+  return mapping == SkyRayMapping::kNielsen || mapping == SkyRayMapping::kHoffmanPreetham ||
+         mapping == SkyRayMapping::kPreetham;
 }
 
 // What kNielsen leaves open, see model/literature/nielsen.h.
@@ -58,6 +61,13 @@ struct ONeilChoices {
   ONeilDepths depths = ONeilDepths::kExact;
 };
 
+// What kPreetham needs of the preset and of the colour rule, see model/literature/preetham.h.
+struct PreethamSky {
+  double turbidity = 0;
+  // [node]: per cd/m^2 of X, Y and Z.
+  std::array<std::array<double, 3>, 4> radiance_from_xyz = {};
+};
+
 // The observers whom a model without twilight and space knows: those below a height, by day.
 struct DaylightLimits {
   std::string model;
@@ -69,6 +79,7 @@ struct SkyRayTables {
   Table air, aerosol;  // by which of them light was scattered last
   NielsenChoices nielsen = {};
   ONeilChoices oneil = {};
+  PreethamSky preetham = {};
   std::optional<DaylightLimits> limits = {};
   Table gathered = {};  // kBodare: all light but the sun's that falls on a place, x: sun, y: height
 };

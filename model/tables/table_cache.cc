@@ -33,6 +33,7 @@ struct Header {
   SkyRayMapping mapping;
   NielsenChoices nielsen;
   ONeilChoices oneil;
+  PreethamSky preetham;
   bool limited;
   double highest_m;
   std::array<std::array<int, 3>, 8> extents;
@@ -50,12 +51,13 @@ auto all_tables(Tables& tables) {
 constexpr std::size_t kBefore = 3;
 
 void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tables) {
-  const auto& [mapping, air, aerosol, nielsen, oneil, limits, gathered] = tables.sky_rays;
+  const auto& [mapping, air, aerosol, nielsen, oneil, preetham, limits, gathered] = tables.sky_rays;
   Header header{};
   header.sizes = tables.sizes;
   header.mapping = mapping;
   header.nielsen = nielsen;
   header.oneil = oneil;
+  header.preetham = preetham;
   header.limited = limits.has_value();
   header.highest_m = limits ? limits->highest_m : 0;
   const std::string model = limits ? limits->model : "";
@@ -97,6 +99,7 @@ bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
   tables.sky_rays.mapping = header.mapping;
   tables.sky_rays.nielsen = header.nielsen;
   tables.sky_rays.oneil = header.oneil;
+  tables.sky_rays.preetham = header.preetham;
   if (header.limited) tables.sky_rays.limits = DaylightLimits{model, header.highest_m};
   return true;
 }

@@ -27,7 +27,7 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 13;
+  static constexpr int kRevision = 14;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);
@@ -35,6 +35,7 @@ struct RenderModule {
   void (*write_map)(const SkyMap&, Primaries, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);
   void (*write_grid)(const FrameGrid&, const std::filesystem::path&);
+  std::vector<std::filesystem::path> (*texture_files)(const std::filesystem::path&);
   void (*write_table)(const EncodedTable&, const std::filesystem::path&);
 };
 

@@ -56,7 +56,8 @@ constexpr std::array<NamedView, 8> kViews = {{
 
 constexpr int kMaxSide = 16384;
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
-constexpr double kMaxLength = 1e12;  // m
+constexpr double kMaxLength = 1e12;        // m
+constexpr double kLeastBetweenClouds = 1;  // m: two sheets at one height have no order
 
 void require(bool good, std::string_view name, double value, std::string_view expected) {
   if (!good)
@@ -77,6 +78,34 @@ void require_place(std::string_view name, double latitude, double longitude) {
           "-90 to 90 degrees in radians");
   require(std::abs(longitude) <= 2 * std::numbers::pi, fmt::format("{}.longitude", name), longitude,
           "-360 to 360 degrees in radians");
+}
+
+void require_material(std::string_view name, const OwnMaterial& material, const Scene& scene) {
+  const auto expected = fmt::format("{:.9g} to {:.9g} m", kShortestRepeat, kLongestRepeat);
+  require(within(material.near_m, kShortestRepeat, kLongestRepeat), fmt::format("{}.near_m", name),
+          material.near_m, expected);
+  require(within(material.far_m, kShortestRepeat, kLongestRepeat), fmt::format("{}.far_m", name),
+          material.far_m, expected);
+  if (!material.color.empty() && !scene.color_map.empty())
+    throw std::invalid_argument(fmt::format(
+        "render.{}.color = {}: must be none with a color_map, which has the ground's colours", name,
+        material.color.string()));
+}
+
+void require_clouds(std::span<const CloudLayer> sheets) {
+  require(sheets.size() <= kMostCloudLayers, "clouds, sheets", static_cast<double>(sheets.size()),
+          fmt::format("at most {}", kMostCloudLayers));
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const CloudLayer& clouds = sheets[i];
+    require(within(clouds.altitude_m, 1, 1e5), "clouds.altitude_m", clouds.altitude_m,
+            "1 to 1e5 m");
+    require(within(clouds.cover, 0, 1), "clouds.cover", clouds.cover, "0 to 1");
+    require(within(clouds.opacity, 0, 1), "clouds.opacity", clouds.opacity, "0 to 1");
+    for (const CloudLayer& before : sheets.first(i))
+      require(std::abs(clouds.altitude_m - before.altitude_m) >= kLeastBetweenClouds,
+              "clouds.altitude_m", clouds.altitude_m,
+              fmt::format("at least {} m from that of every other sheet", kLeastBetweenClouds));
+  }
 }
 
 }  // namespace
@@ -141,16 +170,13 @@ void validate(const FrameOptions& options) {
             moon->distance_m, "more than its radius and at most 1e12 m");
     require(within(moon->reflectance, 0, 1), "moon.reflectance", moon->reflectance, "0 to 1");
   }
-  if (const auto& clouds = options.clouds) {
-    require(within(clouds->altitude_m, 1, 1e5), "clouds.altitude_m", clouds->altitude_m,
-            "1 to 1e5 m");
-    require(within(clouds->cover, 0, 1), "clouds.cover", clouds->cover, "0 to 1");
-    require(within(clouds->opacity, 0, 1), "clouds.opacity", clouds->opacity, "0 to 1");
-  }
+  require_clouds(options.clouds);
 }
 
 void validate(const Scene& scene) {
   constexpr double kHighest = 1e5;  // m
+  require_material("soil", scene.soil, scene);
+  require_material("rock", scene.rock, scene);
   require(within(scene.lowest_m, -kHighest, kHighest), "lowest_m", scene.lowest_m, "-1e5 to 1e5 m");
   require(scene.highest_m > scene.lowest_m && scene.highest_m <= kHighest, "highest_m",
           scene.highest_m, "more than lowest_m and at most 1e5 m");

@@ -42,8 +42,7 @@ March march_step(March march, Place from, float nu, float begin, float end, bool
   vec4 light = (end - begin) * exp(-march.depth) * (share_taken(of_step) / of_step) *
                (sun_transmittance(at.h, at.mu_s) + gathered_light(at));
   Scattering here = scattering_at(at.h);
-  float by_phase = elek_rayleigh_phase(nu) / rayleigh_phase(depolarisation, nu);
-  march.light.rayleigh_like += by_phase * light * here.rayleigh_like;
+  march.light.rayleigh_like += own_air_phase(nu) * light * here.rayleigh_like;
   for (int c = 0; c < kClasses; ++c) march.light.single[c] += light * here.single[c];
   march.depth = depth;
   return march;

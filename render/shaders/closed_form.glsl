@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light along straight paths by the closed forms of Nielsen 2003 (NIELSEN) and of Hoffman & Preetham 2002, as
-// model/literature/nielsen.cc and hoffman_preetham.cc compute it, with the ground at its own height. They know no light from
-// below the horizon, no shadow in the air and no space. Included by atmosphere.glsl, which has the constants and the formulas.
+// Light along straight paths by the closed forms of Nielsen 2003 (NIELSEN), of Hoffman & Preetham 2002 and of Preetham, Shirley &
+// Smits 1999 (PREETHAM), as model/literature/nielsen.cc, hoffman_preetham.cc and preetham.cc compute it, with the ground at its
+// own height. They know no light from below the horizon and no space. Included by atmosphere.glsl, which has the constants and
+// the formulas.
+#ifdef PREETHAM
+#include "model/shared/preetham.glsl"
+#endif
 
 vec4 closed_form_dimming(float air_m, float aerosol_m) { return exp(-(air_beta * air_m + aerosol_beta * aerosol_m)); }
 
@@ -50,7 +54,12 @@ vec4 closed_form_to_sky(float h, float mu) {
 }
 
 vec4 closed_form_in_air(float from_h, float to_h, float length_km) {
+#ifdef PREETHAM
+  return closed_form_dimming(preetham_path_depth(1e3 * from_h, 1e3 * to_h, 1e3 * length_km, scale_heights_m.x),
+                             preetham_path_depth(1e3 * from_h, 1e3 * to_h, 1e3 * length_km, scale_heights_m.y));
+#else
   return closed_form_dimming(1e3 * length_km, 1e3 * length_km);
+#endif
 }
 
 vec4 closed_form_sun(float h, float mu_s) { return closed_form_to_sky(h, mu_s); }
@@ -65,15 +74,69 @@ vec4 closed_form_through(Place from, float to_h, float length_km) {
   return to_h < thickness_km ? closed_form_in_air(from.h, to_h, length_km) : closed_form_to_sky(from.h, from.mu);
 }
 
-// What it scatters toward its beginning.
-vec4 closed_form_inscatter(Place from, float nu, vec4 through) {
-  if (from.mu_s <= 0.0) return vec4(0.0);
-  float air = closed_form_air_phase(nu);
-  vec4 aerosol = closed_form_aerosol_phase(from.h, from.mu_s, nu), sum;
-  for (int k = 0; k < 4; ++k) sum[k] = mixed_path_inscatter(air_beta[k], air, aerosol_beta[k], aerosol[k], through[k]);
-  return closed_form_sun(from.h, from.mu_s) * sum;
+// What a mixture with such coefficients scatters of light on its way; `air` and `aerosol`: the light times the phase functions.
+vec4 closed_form_mixture(vec4 air_extinction, vec4 air, vec4 aerosol_extinction, vec4 aerosol, vec4 through) {
+  vec4 sum;
+  for (int k = 0; k < 4; ++k)
+    sum[k] = mixed_path_inscatter(air_extinction[k], air[k], aerosol_extinction[k], aerosol[k], through[k]);
+  return sum;
 }
 
+#ifdef PREETHAM
+vec4 sky_irradiance(float h, float mu_s);
+
 vec4 closed_form_sky(Place from, float nu) {
-  return closed_form_inscatter(from, nu, closed_form_to_sky(from.h, from.mu));
+  if (from.mu_s <= 0.0) return vec4(0.0);
+  float mu = max(from.mu, 1e-3), gamma = acos(nu), sun_zenith = acos(from.mu_s);  // below the horizon: as at it
+  float luminance = preetham_luminance(turbidity, mu, gamma, sun_zenith);
+  float x = preetham_x(turbidity, mu, gamma, sun_zenith), y = preetham_y(turbidity, mu, gamma, sun_zenith);
+  return (luminance / y) *
+         (x * radiance_from_xyz[0] + y * radiance_from_xyz[1] + (1.0 - x - y) * radiance_from_xyz[2]);
 }
+
+// What a path scatters toward its beginning, of the sun's beam and of `sky`, the light of the sky from each of its directions.
+// In each step the proportion of air and aerosol is that of its middle.
+vec4 preetham_path(Place from, float nu, float to_h, float length_km, vec4 sky) {
+  const int kSteps = 8;
+  vec4 beam = closed_form_sun(from.h, from.mu_s);
+  vec4 air = beam * closed_form_air_phase(nu) + 0.5 * sky;
+  vec4 aerosol = beam * closed_form_aerosol_phase(from.h, from.mu_s, nu) + 0.5 * sky;
+  vec4 sum = vec4(0.0), before = vec4(1.0);
+  for (int i = 1; i <= kSteps; ++i) {
+    float share = float(i) / float(kSteps);
+    vec4 through = closed_form_in_air(from.h, mix(from.h, to_h, share), share * length_km);
+    vec2 density = exp(-1e3 * mix(from.h, to_h, share - 0.5 / float(kSteps)) / scale_heights_m);
+    sum += before * closed_form_mixture(density.x * air_beta, air, density.y * aerosol_beta, aerosol,
+                                        through / max(before, 1e-30));
+    before = through;
+  }
+  return sum;
+}
+
+// Up to where it ends, at a height, or outside of the air. Light of the sky comes evenly from its half of all directions.
+vec4 closed_form_inscatter(Place from, float nu, float to_h, float length_km) {
+  if (from.mu_s <= 0.0) return vec4(0.0);
+  if (to_h >= thickness_km) return closed_form_sky(from, nu);
+  return preetham_path(from, nu, to_h, length_km, sky_irradiance(from.h, from.mu_s) * kInversePi);
+}
+
+// The part of it that is the sun's beam's, within the air.
+vec4 closed_form_beam_inscatter(Place from, float nu, float to_h, float length_km) {
+  return from.mu_s <= 0.0 ? vec4(0.0) : preetham_path(from, nu, to_h, length_km, vec4(0.0));
+}
+#else
+// What it scatters toward its beginning.
+vec4 closed_form_inscatter(Place from, float nu, float to_h, float length_km) {
+  if (from.mu_s <= 0.0) return vec4(0.0);
+  return closed_form_sun(from.h, from.mu_s) *
+         closed_form_mixture(air_beta, vec4(closed_form_air_phase(nu)), aerosol_beta,
+                             closed_form_aerosol_phase(from.h, from.mu_s, nu), closed_form_through(from, to_h, length_km));
+}
+
+// All of it is the sun's beam's.
+vec4 closed_form_beam_inscatter(Place from, float nu, float to_h, float length_km) {
+  return closed_form_inscatter(from, nu, to_h, length_km);
+}
+
+vec4 closed_form_sky(Place from, float nu) { return closed_form_inscatter(from, nu, thickness_km, 0.0); }
+#endif

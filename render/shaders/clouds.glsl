@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sheet of clouds: at one height, without thickness; it dims what lies behind it and scatters like a rough white surface
-// seen from both sides. No scattering inside, one crossing of a ray.
+// Sheets of clouds, CLOUDS of them: each at one height, without thickness; it dims what lies behind it and scatters like a
+// rough white surface seen from both sides. No scattering inside, one crossing of a ray with each sheet.
 #include "render/shaders/view_ray.glsl"
 #include "render/shaders/surface_light.glsl"
 
 layout(binding = 14) uniform sampler3D cloud_noise;  // mean 1/2, deviation 1/6
 
 layout(std140, binding = 4) uniform Clouds {
-  float cloud_km;         // height
-  float cloud_opacity;    // of the densest
-  float cloud_threshold;  // of the noise, for the cover
+  // In the order in which rays from the eye meet them: height, km; opacity of the densest; threshold of the noise, for the
+  // cover.
+  vec4 cloud_sheets[CLOUDS];
 };
 
 const vec4 kCloudLengths = vec4(1400.0, 170.0, 37.0, 9.0);  // km, periods of the noise
@@ -17,29 +17,32 @@ const vec4 kCloudWeights = vec4(0.30, 0.40, 0.22, 0.08);
 // A turn about (1, 2, 3) by 1.1 rad: the lattices of the octaves do not line up with one another.
 const mat3 kCloudTurn = mat3(0.492624970, 0.792613254, -0.359283826, -0.636497861, 0.609711515, 0.472358277, 0.593456917, -0.004012095, 0.804855758);
 
-// At a point above or below the sheet, relative to the planet's centre, seen along the vertical: the mean over about a
+// Periods of the noise between sheets a kilometre apart: clouds do not lie straight above others of the same form.
+const vec3 kSheetShift = vec3(0.61, 0.37, 0.23);
+
+// At a point above or below a sheet, relative to the planet's centre, seen along the vertical: the mean over about a
 // pixel, `distance_km` away.
-float cloud_opacity_at(vec3 from_centre, float distance_km) {
+float cloud_opacity_at(vec4 sheet, vec3 from_centre, float distance_km) {
   vec3 place = planet_from_site * normalize(from_centre) * bottom_km;
   float pixel_km = distance_km * pixel_angle;
   float noise = 0.0, kept = 0.0;
   for (int i = 0; i < 4; ++i) {
     float level = log2(max(64.0 * pixel_km / kCloudLengths[i], 1.0));
-    noise += kCloudWeights[i] * textureLod(cloud_noise, place / kCloudLengths[i] + vec3(0.37 * float(i)), level).x;
+    noise += kCloudWeights[i] * textureLod(cloud_noise, place / kCloudLengths[i] + vec3(0.37 * float(i)) + sheet.x * kSheetShift, level).x;
     float part = kCloudWeights[i] * clamp(1.0 - 0.25 * level, 0.0, 1.0);  // of its deviation; the fifth mipmap is flat
     kept += part * part;
     place = kCloudTurn * place;
   }
   // Of the same deviation, so that the cover stays.
   noise = 0.5 + (noise - 0.5) * sqrt(dot(kCloudWeights, kCloudWeights) / max(kept, 0.01));
-  return cloud_opacity * smoothstep(cloud_threshold - 0.02, cloud_threshold + 0.07, noise);
+  return sheet.y * smoothstep(sheet.z - 0.02, sheet.z + 0.07, noise);
 }
 
 // Of a sheet that a ray crosses at a slant.
 float slanted(float opacity, float cosine) { return 1.0 - pow(max(1.0 - opacity, 0.0), 1.0 / max(abs(cosine), 0.1)); }
 
-// To where a ray meets the sheet first; infinite where it does not.
-float cloud_distance(ViewRay ray) {
+// To where a ray meets a sheet first; infinite where it does not.
+float cloud_distance(float cloud_km, ViewRay ray) {
   float impact = (bottom_km + ray.h) * sqrt(max(1.0 - ray.mu * ray.mu, 0.0));
   bool below = ray.h < cloud_km;
   bool meets = ray.air && (below ? !ray.hits_ground : ray.mu < 0.0 && impact < bottom_km + cloud_km);
@@ -48,27 +51,47 @@ float cloud_distance(ViewRay ray) {
   return meets ? ray.entry + d : uintBitsToFloat(0x7f800000u);
 }
 
-// Of the clouds that a ray meets before the distance `end`.
-float cloud_opacity_on(ViewRay ray, float end) {
-  float d = cloud_distance(ray);
-  if (isinf(d) || d >= end) return 0.0;
-  vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + d * ray.direction;
-  return slanted(cloud_opacity_at(from_centre, d), dot(normalize(from_centre), ray.direction));
+// Of the ray that seen_at() is asked for: where it meets each sheet, km, and how much that takes; 0 beyond the distance `end`.
+float cloud_distances[CLOUDS];
+float cloud_opacities[CLOUDS];
+
+// Returns the share that all of them let pass.
+float meet_clouds(ViewRay ray, float end) {
+  float clear = 1.0;
+  for (int i = 0; i < CLOUDS; ++i) {
+    float d = cloud_distance(cloud_sheets[i].x, ray);
+    float opacity = 0.0;
+    if (!isinf(d) && d < end) {
+      vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + d * ray.direction;
+      opacity = slanted(cloud_opacity_at(cloud_sheets[i], from_centre, d), dot(normalize(from_centre), ray.direction));
+    }
+    cloud_distances[i] = d;
+    cloud_opacities[i] = opacity;
+    clear *= 1.0 - opacity;
+  }
+  return clear;
 }
 
-// Share of a sun's beam that the sheet takes on its way to a place; `position` is relative to the camera.
-float cloud_shadow(vec3 position, Place at, vec3 sun) {
-  if (at.h >= cloud_km || at.mu_s <= 0.0) return 0.0;
-  float d = distance_to_outer_sphere(bottom_km, at.h, at.mu_s, cloud_km);
-  vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + position + d * sun;
-  return slanted(cloud_opacity_at(from_centre, length(position)), dot(normalize(from_centre), sun));
+// Share of a sun's beam that gets through the sheets on its way to a place; `position` is relative to the camera. Of a place in
+// a sheet, `own`, that sheet does not count.
+float clear_of_clouds(vec3 position, Place at, vec3 sun, int own) {
+  float clear = 1.0;
+  for (int i = 0; i < CLOUDS; ++i) {
+    if (i == own || at.h >= cloud_sheets[i].x || at.mu_s <= 0.0) continue;
+    float d = distance_to_outer_sphere(bottom_km, at.h, at.mu_s, cloud_sheets[i].x);
+    vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + position + d * sun;
+    clear *= 1.0 - slanted(cloud_opacity_at(cloud_sheets[i], from_centre, length(position)), dot(normalize(from_centre), sun));
+  }
+  return clear;
 }
+const int kNoCloud = -1;
 
 // Two thirds of the light come back from the side that it falls on, the rest passes. The roughness keeps a low sun's beam
 // from vanishing.
-vec4 cloud_radiance(Place at, float eye_h) {
+// `lit`: share of the beam that other sheets let through.
+vec4 cloud_radiance(float cloud_km, Place at, float eye_h, float lit) {
   bool from_above = eye_h > cloud_km;
-  vec4 beam = sun_transmittance(at.h, at.mu_s);
+  vec4 beam = lit * sun_transmittance(at.h, at.mu_s);
   vec4 sky = sky_irradiance(at.h, at.mu_s);
   vec4 direct = beam * ((abs(at.mu_s) + 0.2) / 1.2);
   vec4 ground = ground_albedo * (beam * max(at.mu_s, 0.0) + sky);

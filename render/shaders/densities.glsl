@@ -13,6 +13,17 @@ Scattering scattering_at(float h) {
   return s;
 }
 
+// The phase function of air over that of the tables, where the model has its own.
+float own_air_phase(float nu) {
+#if defined(BODARE)
+  return elek_rayleigh_phase(nu) / rayleigh_phase(depolarisation, nu);
+#elif defined(ONEIL_ISOTROPIC_AIR)
+  return 0.25 * kInversePi / rayleigh_phase(depolarisation, nu);
+#else
+  return 1.0;
+#endif
+}
+
 vec4 extinction_at(float h) {
   float x = height_coordinate(h, float(textureSize(scattering_coefficients, 0).x));
   return texture(scattering_coefficients, vec2(x, 1.0 - 0.5 / float(kClasses + 2)));

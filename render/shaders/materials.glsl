@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ground's two materials, soil and rock, at two scales: grains near the eye and crags far away. The textures are solid
-// noise in the planet's axes, so that no surface has a seam.
+// noise in the planet's axes, so that no surface has a seam. What a user has of his own (OWN_SOIL_COLOR and so on) takes the
+// place of that.
 #include "render/shaders/view_ray.glsl"
+#ifdef OWN_MATERIALS
+#include "render/shaders/own_materials.glsl"
+#endif
 
 layout(binding = 18) uniform sampler3D grains;
 layout(binding = 19) uniform sampler3D crags;
@@ -49,9 +53,9 @@ vec4 grains_at(vec3 place, float d, vec3 ray, vec3 normal) {
 }
 #endif
 
-// Tilts the normal and returns the factor of the reflectance. `place` is relative to the camera, km, in the planet's axes,
-// as `ray` and `normal` are; rock < 0: neither material.
-float add_material(vec3 place, float d, vec3 ray, float rock, inout vec3 normal) {
+// Tilts the normal and returns the reflectance. `place` is relative to the camera, km, in the planet's axes, as `ray` and
+// `normal` are; rock < 0: neither material.
+vec4 with_material(vec3 place, float d, vec3 ray, float rock, vec4 reflectance, inout vec3 normal) {
   // Between the two mipmaps whose texels are about a pixel, seen at a slant.
   float texels = 64.0 * d * pixel_angle * inversesqrt(max(abs(dot(ray, normal)), 0.1));
   float level = log2(texels * crags_per_km);
@@ -65,10 +69,41 @@ float add_material(vec3 place, float d, vec3 ray, float rock, inout vec3 normal)
                   textureLod(crags, far_crag_phase + far_crags_per_km * place, log2(texels * far_crags_per_km)),
                   smoothstep(0.5, 2.5, level));
   float rocky = max(rock, 0.0), land = rock < 0.0 ? 0.0 : 1.0;
-  vec3 gradient = (255.0 / 127.0) * (mix(kGrainSlope.x, kGrainSlope.y, rocky) * (grain.xyz - 127.0 / 255.0) +
-                                     mix(kCragSlope.x, kCragSlope.y, rocky) * (crag.xyz - 127.0 / 255.0));
+  // Of soil and of rock.
+  vec3 fine = (255.0 / 127.0) * (grain.xyz - 127.0 / 255.0), coarse = (255.0 / 127.0) * (crag.xyz - 127.0 / 255.0);
+  vec3 soil_gradient = kGrainSlope.x * fine + kCragSlope.x * coarse;
+  vec3 rock_gradient = kGrainSlope.y * fine + kCragSlope.y * coarse;
+  vec2 light = 1.0 + land * (kGrainContrast * (2.0 * grain.w - 1.0) + kCragContrast * (2.0 * crag.w - 1.0));
+  vec4 soil_reflectance = light.x * reflectance, rock_reflectance = light.y * reflectance;
+#ifdef OWN_MATERIALS
+  if (land > 0.0) {
+    Footprint pixel = footprint_of(place, d, ray, normal);
+#if defined(OWN_SOIL_COLOR) || defined(OWN_SOIL_RELIEF)
+    if (rocky < 1.0) {
+      OwnMaterial soil = own_material(soil_color, soil_slopes, own_means[0], own_means[1], 0, pixel);
+#ifdef OWN_SOIL_COLOR
+      soil_reflectance = soil.reflectance;
+#endif
+#ifdef OWN_SOIL_RELIEF
+      soil_gradient = soil.gradient;
+#endif
+    }
+#endif
+#if defined(OWN_ROCK_COLOR) || defined(OWN_ROCK_RELIEF)
+    if (rocky > 0.0) {
+      OwnMaterial own_rock = own_material(rock_color, rock_slopes, own_means[2], own_means[3], 2, pixel);
+#ifdef OWN_ROCK_COLOR
+      rock_reflectance = own_rock.reflectance;
+#endif
+#ifdef OWN_ROCK_RELIEF
+      rock_gradient = own_rock.gradient;
+#endif
+    }
+#endif
+  }
+#endif
+  vec3 gradient = mix(soil_gradient, rock_gradient, rocky);
   // What of the gradient lies in the surface tilts its normal.
   normal = normalize(normal - land * (gradient - dot(gradient, normal) * normal));
-  return 1.0 + land * (mix(kGrainContrast.x, kGrainContrast.y, rocky) * (2.0 * grain.w - 1.0) +
-                       mix(kCragContrast.x, kCragContrast.y, rocky) * (2.0 * crag.w - 1.0));
+  return mix(soil_reflectance, rock_reflectance, rocky);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single scattering summed over samples in the middle of equal steps along the ray, O'Neil 2005, as
 // model/literature/oneil.cc computes it: ONEIL_SAMPLES of them; ONEIL_POLYNOMIAL: optical depths by his polynomial;
-// ONEIL_ISOTROPIC_AIR, ONEIL_NO_SHADOW: his demo's choices.
+// ONEIL_ISOTROPIC_AIR (densities.glsl), ONEIL_NO_SHADOW: his demo's choices.
 #include "render/shaders/densities.glsl"
 
 // From a point to the top, by the zenith angle there.
@@ -40,9 +40,7 @@ Scattering oneil_sum(Place from, float nu, float length_km) {
     sum.rayleigh_like += here.rayleigh_like * through;
     for (int c = 0; c < kClasses; ++c) sum.single[c] += here.single[c] * through;
   }
-#ifdef ONEIL_ISOTROPIC_AIR
-  sum.rayleigh_like *= 0.25 * kInversePi / rayleigh_phase(depolarisation, nu);
-#endif
+  sum.rayleigh_like *= own_air_phase(nu);
   return scaled(sum, step_km);
 }
 

@@ -117,7 +117,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   if (ray.air && surface.d > ray.entry) {
 #ifdef CLOSED_FORM
     path.transmittance = closed_form_through(start, end.h, in_air);
-    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+    path.in_scatter = closed_form_inscatter(start, nu, end.h, in_air);
 #else
     // Both ends from the same table: nothing is left of its errors where they are near each other.
     path.transmittance = transmittance_between(start, end, ray.hits_ground);
@@ -137,10 +137,10 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
 #endif
   float lit = 1.0;
 #ifdef SHADOWS
-  if (i == 0) lit *= sunlit(surface.d * ray.direction, surface.normal);
+  lit *= sunlit(surface.d * ray.direction, surface.normal, i);
 #endif
 #ifdef CLOUDS
-  lit *= 1.0 - cloud_shadow(surface.d * ray.direction, end, sun);
+  lit *= clear_of_clouds(surface.d * ray.direction, end, sun, kNoCloud);
 #endif
 #ifdef VOLUME
   Place at = end;
@@ -168,7 +168,7 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   if (ray.air) {
 #ifdef CLOSED_FORM
     path.transmittance = closed_form_to_sky(start.h, start.mu);
-    path.in_scatter = closed_form_inscatter(start, nu, path.transmittance);
+    path.in_scatter = closed_form_sky(start, nu);
 #else
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
     path.in_scatter = radiance(whole.scattering, nu);
@@ -184,24 +184,30 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #ifndef SURFACE
   const float in_air = kInfinity;
 #endif
-#if defined(SHADOWS) && !defined(CLOSED_FORM)
-  if (i == 0 && ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air), 0.0);
+#ifdef SHADOWS
+  if (ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air, i), 0.0);
 #endif
 #ifdef CLOUDS
-  // Of the light behind a cloud the cloud lets the rest pass.
-  if (clear < 1.0) {
-    Place at = place_along(start, nu, cloud_distance(ray) - ray.entry);
+  // Of the light behind a cloud the cloud lets the rest pass; from the farthest sheet to the nearest.
+  vec4 of_clouds = vec4(0.0);
+  for (int c = CLOUDS - 1; c >= 0; --c) {
+    float opacity = cloud_opacities[c];
+    if (opacity <= 0.0) continue;
+    float d = cloud_distances[c] - ray.entry;
+    Place at = place_along(start, nu, d);
 #ifdef CLOSED_FORM
-    vec4 dimming = closed_form_through(start, at.h, cloud_distance(ray) - ray.entry);
-    vec4 before = closed_form_inscatter(start, nu, dimming);
+    vec4 dimming = closed_form_through(start, at.h, d);
+    vec4 before = closed_form_inscatter(start, nu, at.h, d);
 #else
     vec4 dimming = transmittance_between(start, at, ray.hits_ground);
     vec4 before = radiance(
         scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground)), nu);
 #endif
-    path.in_scatter = mix(min(before, path.in_scatter), path.in_scatter, clear);
-    path.reflected += (1.0 - clear) * dimming * cloud_radiance(at, ray.h);
+    path.in_scatter = mix(path.in_scatter, min(before, path.in_scatter), opacity);
+    float lit = clear_of_clouds(cloud_distances[c] * ray.direction, at, sun, c);
+    of_clouds = mix(of_clouds, dimming * cloud_radiance(cloud_sheets[c].x, at, ray.h, lit), opacity);
   }
+  path.reflected += of_clouds;
 #endif
   path.in_scatter *= suns[i].w;
   path.reflected *= suns[i].w;
@@ -253,10 +259,9 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   surface.d = along_axis * stretch;
   surface.water = ground.rock < WATER_LIMIT;
   surface.normal = ground.normal;
-  float light_or_dark =
-      add_material(along_axis * planet_ray, surface.d, planet_ray * (1.0 / stretch), ground.rock, surface.normal);
+  surface.reflectance = min(with_material(along_axis * planet_ray, surface.d, planet_ray * (1.0 / stretch), ground.rock,
+                                          ground.reflectance, surface.normal), 1.0);
   surface.normal = surface.normal * planet_from_site;  // by the transpose: into the camera frame
-  surface.reflectance = min(ground.reflectance * light_or_dark, 1.0);
   surface.up = normalize(vec3(0.0, 0.0, bottom_km + camera_km) + surface.d * ray.direction);
   if (surface.water) surface.normal = surface.up;  // level, whatever the land beside it in the same triangle
   if (ray.hits_ground) surface.d = min(surface.d, ray.entry + ray.to_ground);
@@ -267,7 +272,7 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   const float d = kInfinity;
 #endif
 #ifdef CLOUDS
-  float clear = 1.0 - cloud_opacity_on(ray, d);
+  float clear = meet_clouds(ray, d);
 #else
   const float clear = 1.0;
 #endif

@@ -43,6 +43,10 @@ void pass_constants() {
 #else
   atmosphere.scale_heights_m = scale_heights_m;
 #endif
+#ifdef PREETHAM
+  atmosphere.turbidity = turbidity;
+  atmosphere.radiance_from_xyz = radiance_from_xyz;
+#endif
 #endif
   material.grain_phase = grain_phase;
   material.grains_per_km = grains_per_km;

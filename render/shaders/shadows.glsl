@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows that the terrain casts under the first sun, on surfaces and in the air: maps of the depth seen from the sun,
-// each of a larger part of the terrain about the camera.
+// Shadows that the terrain casts under each sun, on surfaces and in the air: maps of the depth seen from the sun, each of a
+// larger part of the terrain about the camera.
 #include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
 
@@ -8,17 +8,20 @@ layout(binding = 12) uniform sampler2DArrayShadow shadow_maps;
 
 const int kShadowMaps = 3;
 layout(std140, binding = 3) uniform Shadows {
-  mat4 map_from_site[kShadowMaps];  // of positions relative to the camera; x, y, depth in 0..1
-  vec4 shadow_offset_km;            // off a surface that must not shade itself, of each map
-  float shadow_map_count;           // that hold, from the finest on
-  float shadow_reach_km;            // half a side of the largest of them
+  mat4 map_from_site[kSuns * kShadowMaps];  // of positions relative to the camera; x, y, depth in 0..1; sun after sun
+  vec4 shadow_offset_km;                    // off a surface that must not shade itself, of each of a sun's maps
+  float shadow_map_count;                   // of a sun, that hold, from the finest on
+  float shadow_reach_km;                    // half a side of the largest of them
 };
 
-// x, y, map, depth of the finest map that holds the position; a map of -1 where none does.
-vec4 place_in_maps(vec3 position) {
+// The number of a sun's map among all that hold.
+int map_of(int sun, int i) { return sun * int(shadow_map_count) + i; }
+
+// x, y, map of those of a sun, depth of the finest that holds the position; a map of -1 where none does.
+vec4 place_in_maps(vec3 position, int sun) {
   vec4 found = vec4(0.0, 0.0, -1.0, 0.0);
   for (int i = kShadowMaps - 1; i >= 0; --i) {
-    vec3 p = (map_from_site[i] * vec4(position, 1.0)).xyz;
+    vec3 p = (map_from_site[map_of(sun, i)] * vec4(position, 1.0)).xyz;
     vec2 from_middle = abs(p.xy - 0.5);
     // Beyond its end, a map says that everything is shaded; what lies before its beginning is held there.
     bool inside = max(from_middle.x, from_middle.y) < 0.49 && p.z < 1.0;
@@ -28,33 +31,38 @@ vec4 place_in_maps(vec3 position) {
 }
 
 // The place in the maps for a position on or above a surface that faces `normal`, off it by the offset of the map.
-vec4 place_off(vec3 position, vec3 normal) {
-  float map = place_in_maps(position).z;
-  return place_in_maps(position + shadow_offset_km[int(max(map, 0.0))] * normal);
+vec4 place_off(vec3 position, vec3 normal, int sun) {
+  float map = place_in_maps(position, sun).z;
+  return place_in_maps(position + shadow_offset_km[int(max(map, 0.0))] * normal, sun);
+}
+
+// Share of the sun that the map lets through there.
+float lit_in_map(vec4 place, int sun) {
+  return texture(shadow_maps, vec4(place.xy, float(map_of(sun, int(place.z))), place.w));
 }
 
 // Of the shadow that the largest map holds at a position: it fades toward the map's border, beyond which there is none.
-float shadow_strength(vec3 position) {
-  vec2 from_middle = abs((map_from_site[int(shadow_map_count) - 1] * vec4(position, 1.0)).xy - 0.5);
+float shadow_strength(vec3 position, int sun) {
+  vec2 from_middle = abs((map_from_site[map_of(sun, int(shadow_map_count) - 1)] * vec4(position, 1.0)).xy - 0.5);
   return 1.0 - smoothstep(0.36, 0.48, max(from_middle.x, from_middle.y));
 }
 
-// Share of the sun that reaches a surface.
-float sunlit(vec3 position, vec3 normal) {
-  vec4 place = place_off(position, normal);
+// Share of a sun that reaches a surface.
+float sunlit(vec3 position, vec3 normal, int sun) {
+  vec4 place = place_off(position, normal, sun);
   if (place.z < 0.0) return 1.0;
   vec2 texel = 0.75 / vec2(textureSize(shadow_maps, 0).xy);
   float sum = 0.0;
   for (int i = 0; i < 4; ++i) {
     vec2 corner = vec2((i & 1) == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0);
-    sum += texture(shadow_maps, vec4(place.xy + corner * texel, place.zw));
+    sum += lit_in_map(vec4(place.xy + corner * texel, place.zw), sun);
   }
-  return mix(1.0, 0.25 * sum, shadow_strength(position));
+  return mix(1.0, 0.25 * sum, shadow_strength(position, sun));
 }
 
-// What the sun's beam would scatter into a view ray from the parts that are in shadow, which the tables hold as lit.
-// Steps along the ray, begun at another place in each pixel.
-vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
+// Of the light that a sun's beam scatters into a view ray up to a distance, as the model has it lit all along: the part that
+// comes from where the beam does not reach. Steps along the ray, begun at another place in each pixel.
+vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km, int sun) {
   const int kSteps = 24;
   float reach = min(length_km, shadow_reach_km - ray.entry);
   if (reach <= 0.0) return vec4(0.0);
@@ -62,15 +70,28 @@ vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km) {
   // Jimenez 2014: interleaved gradient noise.
   float begin = fract(52.9829189 * fract(dot(pixel_centre, vec2(0.06711056, 0.00583715))));
   vec4 sum = vec4(0.0);
+#ifdef CLOSED_FORM
+  vec4 before = vec4(0.0);  // light of the path up to a step
+#endif
   for (int i = 0; i < kSteps; ++i) {
     float t = (float(i) + begin) * step_km;
     vec3 position = (ray.entry + t) * ray.direction;
     // The air above level ground is not in its shadow.
-    vec4 place = place_off(position, normalize(position + vec3(0.0, 0.0, bottom_km + camera_km)));
-    float lit = place.z < 0.0 ? 1.0 : texture(shadow_maps, place);
+    vec4 place = place_off(position, normalize(position + vec3(0.0, 0.0, bottom_km + camera_km)), sun);
+    float lit = place.z < 0.0 ? 1.0 : lit_in_map(place, sun);
+    float shaded = shadow_strength(position, sun) * (1.0 - lit);
+#ifdef CLOSED_FORM
+    float end_km = float(i + 1) * step_km;
+    vec4 to_end = max(closed_form_beam_inscatter(start, nu, place_along(start, nu, end_km).h, end_km), before);
+    sum += shaded * (to_end - before);
+    before = to_end;
+#else
     Place at = place_along(start, nu, t);
     vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);
-    sum += shadow_strength(position) * (1.0 - lit) * light * radiance(scattering_at(at.h), nu);
+    Scattering here = scattering_at(at.h);
+    here.rayleigh_like *= own_air_phase(nu);
+    sum += (shaded * step_km) * light * radiance(here, nu);
+#endif
   }
-  return sum * step_km;
+  return sum;
 }

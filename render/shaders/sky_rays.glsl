@@ -46,8 +46,7 @@ Scattering sky_ray_scattering(Place from, float nu) {
   Scattering texels = sky_ray_texels(texture_from_units(
       vec3(bodare_unit_from_sun(from.mu_s), view, bodare_unit_from_height(from.h, thickness_km))));
   float dusk = exp(min((from.mu_s - bodare_sun_from_unit(0.0)) * 57.3, 0.0));
-  float by_phase = elek_rayleigh_phase(nu) / rayleigh_phase(depolarisation, nu);
-  texels.rayleigh_like *= by_phase;
+  texels.rayleigh_like *= own_air_phase(nu);
   return scaled(texels, dusk);
 }
 #elif SKY_RAYS == 3  // Schafhitzel

@@ -5,12 +5,17 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "cli/arguments.h"
+#include "cli/frame_store.h"
 #include "cli/grid_request.h"
 #include "cli/render_arguments.h"
+#include "cli/render_session.h"
 #include "model/atmosphere/preset.h"
+#include "model/base/temporary_directory.h"
 
 namespace skyfit::cli {
 namespace {
@@ -109,8 +114,8 @@ TEST(RenderRequest, SceneOptions) {
                "--exposure", "1e-4"});
   EXPECT_NEAR(r.frame.moon->azimuth, -20 * kDegree, 1e-12);
   EXPECT_EQ(r.frame.second_sun->irradiance, 0.5);
-  EXPECT_EQ(r.frame.clouds->altitude_m, 2500);
-  EXPECT_EQ(r.frame.clouds->opacity, CloudLayer{}.opacity);
+  EXPECT_EQ(r.frame.clouds[0].altitude_m, 2500);
+  EXPECT_EQ(r.frame.clouds[0].opacity, CloudLayer{}.opacity);
   EXPECT_TRUE(r.frame.shadows && r.frame.layers);
   EXPECT_EQ(r.frame.aerial, AerialPerspective::kPerPixel);
   EXPECT_EQ(r.device, GraphicsDevice::kGpu);
@@ -130,7 +135,51 @@ TEST(RenderRequest, WithoutAtmosphereNothingScatters) {
 TEST(RenderRequest, ModelsThatDoNotDrawAreRefused) {
   EXPECT_EQ(request({"--model", "nielsen:sun-through-sky", "--out", "x.png"}).model,
             "nielsen:sun-through-sky");
-  EXPECT_THROW(request({"--model", "preetham", "--out", "x.png"}), UsageError);
+  EXPECT_EQ(request({"--model", "preetham", "--out", "x.png"}).model, "preetham");
+  EXPECT_THROW(request({"--model", "reference:refraction", "--out", "x.png"}), UsageError);
+}
+
+TEST(RenderRequest, SheetsOfCloudsMayBeSeveral) {
+  const RenderRequest r =
+      request({"--clouds", "0.4,9000,0.5", "--clouds", "0.3", "--out", "x.png"});
+  ASSERT_EQ(r.frame.clouds.size(), 2u);
+  EXPECT_EQ(r.frame.clouds[0].altitude_m, 9000);
+  EXPECT_EQ(r.frame.clouds[1].cover, 0.3);
+  EXPECT_THROW(request({"--clouds", "0.4,3000", "--clouds", "0.3,3000", "--out", "x.png"}),
+               UsageError);
+}
+
+// A frame that is there stays as long as its textures have the same content.
+TEST(RenderRequest, FramesAreKnownByTheContentOfTheirTextures) {
+  const TemporaryDirectory directory;
+  const auto write = [&](const char* name, const char* text) {
+    std::ofstream(directory.path() / name) << text;
+  };
+  const auto fingerprint = [&] {
+    const RenderRequest r = request({"--textures", directory.path().string(), "--out-dir", "x",
+                                     "--frames", "2", "--time", "05:00..21:00", "--date",
+                                     "2026-06-21", "--latitude-deg", "47", "--longitude-deg", "8"});
+    const std::vector<TimelineStep> timeline = timeline_of(r.sequence);
+    return Fingerprints(r, timeline).of(shot_at(r.sequence, 0, sun_over), 0);
+  };
+  const std::string made = fingerprint();
+  EXPECT_EQ(fingerprint(), made);
+  write("grass.png", "one");
+  write("materials.json", R"({"skyfit_materials": 1, "soil": {"color": "grass.png"}})");
+  const std::string own = fingerprint();
+  EXPECT_NE(own, made);
+  write("grass.png", "two");
+  EXPECT_NE(fingerprint(), own);
+  write("grass.png", "one");
+  EXPECT_EQ(fingerprint(), own);
+  write("materials.json",
+        R"({"skyfit_materials": 1, "soil": {"color": "grass.png", "near_m": 5}})");
+  EXPECT_NE(fingerprint(), own);
+  std::filesystem::remove(directory.path() / "materials.json");
+  EXPECT_EQ(fingerprint(), made);
+  std::filesystem::copy_file(directory.path() / "grains.png", directory.path() / "crags.png",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_NE(fingerprint(), made);
 }
 
 std::vector<double> altitudes_of(const GridRequest& grid) {

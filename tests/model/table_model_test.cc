@@ -207,9 +207,6 @@ TEST(TableModel, TablesOfAnotherModelHoldItsLight) {
       }
     }
   }
-  EXPECT_THROW(compute_tables_of(*make_sky_model("preetham", spectra, 1), a, color_rule(spectra),
-                                 TableSizes{}, 1, {}),
-               std::invalid_argument);
 }
 
 TEST(TableModel, SaysWhatItCannotDo) {

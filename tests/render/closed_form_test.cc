@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames by the closed forms, `nielsen` and `hoffman-preetham`: what the air before the ground lets
-// through is that of the formulas with the ground at its own height; observers that the models do
-// not know are refused. Their sky is in sky_agreement_test.cc.
+// Frames by the closed forms, `nielsen`, `hoffman-preetham` and `preetham`: what the air before the
+// ground lets through, and of the last what it scatters, is that of the formulas with the ground at
+// its own height; observers that the models do not know are refused. Their sky is in
+// sky_agreement_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <numeric>
 #include <string>
 
 #include "data_refs/spectra.h"
+#include "model/literature/evaluate.h"
 #include "model/literature/nielsen.h"
 #include "model/registry.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
+#include "model/tables/table_lookup.h"
 #include "render/render.h"
 #include "tests/render/gl_fixture.h"
 
@@ -98,6 +102,67 @@ TEST(ClosedFormFrames, GroundIsSeenThroughTheAirAtItsOwnHeight) {
                        [](double, double, double length) { return length; });
 }
 
+// Against sums of 400 steps by the densities themselves, along a path over which the height changes
+// evenly.
+TEST(ClosedFormFrames, PreethamsPathsGatherWhatTheirAirScatters) {
+  const Preset preset = shipped("earth-hazy");
+  const AtmosphereTables tables = tables_by("preetham", preset);
+  Renderer renderer;
+  renderer.set_atmosphere(preset, tables);
+  const FrameOptions options = options_of("valley");
+  const Frame frame = renderer.draw(options);
+  const double mu_s = std::cos(options.sun_zenith), altitude = options.camera.altitude_m;
+  const literature::AirAtNodes air =
+      literature::air_at_nodes(preset.atmosphere, tables.color.nodes);
+  const NodeValues sky = lookup_irradiance(tables, altitude, mu_s);
+  Shared<double> shared;
+  double worst = 0;
+  int compared = 0;
+  for (std::size_t i = 0; i < frame.depth_m.size(); i += 3) {
+    if (!std::isfinite(frame.depth_m[i])) continue;
+    const double zenith = frame.view_zenith_deg[i] * kDegree, length = frame.depth_m[i];
+    const double to = std::max(Shared<double>{}.height_after(preset.atmosphere.bottom_radius_m,
+                                                             altitude, std::cos(zenith), length),
+                               0.0);
+    const double nu = std::cos(zenith) * mu_s + std::sin(zenith) * std::sin(options.sun_zenith) *
+                                                    std::cos(frame.view_azimuth_deg[i] * kDegree);
+    double luminance = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double mass = shared.relative_air_mass(mu_s);
+      const double beam = std::exp(-mass * (air.air[k] * air.air_scale_height_m +
+                                            air.aerosol[k] * air.aerosol_scale_height_m));
+      const double diffuse = sky[k] / (2 * std::numbers::pi);
+      const double air_light =
+          beam * shared.rayleigh_phase(tables.phases.depolarisation, nu) + diffuse;
+      const double aerosol_light =
+          beam * phase_value(phase_at(tables.phases.others[0], tables.color.nodes[k].wavelength_nm),
+                             nu) +
+          diffuse;
+      double depth = 0, sum = 0;
+      constexpr int kSteps = 400;
+      for (int step = 0; step < kSteps; ++step) {
+        const double h = altitude + (step + 0.5) / kSteps * (to - altitude);
+        const double of_air = air.air[k] * std::exp(-h / air.air_scale_height_m),
+                     of_aerosol = air.aerosol[k] * std::exp(-h / air.aerosol_scale_height_m);
+        const double of_step = (of_air + of_aerosol) * length / kSteps;
+        sum += (of_air * air_light + of_aerosol * aerosol_light) * length / kSteps *
+               std::exp(-depth - 0.5 * of_step);
+        depth += of_step;
+      }
+      luminance += tables.color.xyz_from_nodes[1][k] * sum;
+    }
+    const double drawn = 0.2126729 * frame.layers->in_scatter[3 * i] +
+                         0.7151522 * frame.layers->in_scatter[3 * i + 1] +
+                         0.0721750 * frame.layers->in_scatter[3 * i + 2];
+    worst = std::max(worst, std::abs(drawn / luminance - 1));
+    ++compared;
+  }
+  std::printf("[preetham] light of %d paths, worst error %.2g\n", compared, worst);
+  EXPECT_GT(compared, 200);
+  constexpr double kEightSteps = 5e-3;  // and floats of short paths
+  EXPECT_LT(worst, kEightSteps);
+}
+
 // The direct light of dry ground is the beam's, Lambert's law; the rest of the reflected light is
 // ambient.
 TEST(ClosedFormFrames, DirectLightIsTheBeamsShareOfTheReflected) {
@@ -163,7 +228,7 @@ TEST(ClosedFormFrames, NoPixelIsBlack) {
   renderer.set_atmosphere(preset, tables_by("nielsen", preset));
   FrameOptions options = options_of("valley");
   options.shadows = true;
-  options.clouds = CloudLayer{};
+  options.clouds = {CloudLayer{}};
   const Frame frame = renderer.draw(options);
   const auto [darkest, brightest] = std::ranges::minmax(frame.luminance);
   EXPECT_GT(darkest, 10) << "cd/m^2";

@@ -28,7 +28,7 @@ void add_sky_objects(FrameOptions& options) {
 const Feature kFeatures[] = {
     {"nothing", [](FrameOptions&) {}},
     {"shadows", [](FrameOptions& options) { options.shadows = true; }},
-    {"clouds", [](FrameOptions& options) { options.clouds.emplace(); }},
+    {"clouds", [](FrameOptions& options) { options.clouds.emplace_back(); }},
     {"moon and second sun", add_sky_objects},
     {"layers", [](FrameOptions& options) { options.layers = true; }},
     {"air by the pixel",
@@ -36,7 +36,7 @@ const Feature kFeatures[] = {
     {"all",
      [](FrameOptions& options) {
        options.shadows = options.layers = true;
-       options.clouds.emplace();
+       options.clouds.emplace_back();
        add_sky_objects(options);
      }},
 };

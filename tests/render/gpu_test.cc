@@ -44,7 +44,7 @@ TEST(Gpu, DrawsTheSamePicture) {
   }
   FrameOptions all = options_of("valley", 96, 60);
   all.shadows = true;
-  all.clouds = CloudLayer{};
+  all.clouds = {CloudLayer{}};
   all.second_sun = SecondSun{};
   all.moon = Moon{all.camera.view_zenith - 0.1, all.camera.azimuth, 50e3, 2e3, 0.3};
   const Frame a = draw_layers(all), b = draw_layers(all, *gpu);

@@ -56,6 +56,14 @@ TEST_F(PlanetMapFile, EveryDirectionFindsItsTexel) {
   }
 }
 
+TEST_F(PlanetMapFile, OfOneValueLiesAtTheLowestHeight) {
+  const auto file =
+      write("level.png", 16, 8, 1, OIIO::TypeDesc::UINT8, std::vector<float>(16 * 8, 0.5f));
+  const auto map = read_planet_map(file, kHeights);
+  constexpr double kShorts = 1e-9 * 65535;  // sums of weights, of the stored values
+  for (const glm::dvec3& d : directions(50)) EXPECT_NEAR(map->at(d, 0).value.x, 0, kShorts);
+}
+
 // Of all points a and b close together; `places` are those of the edges of the picture.
 void expect_no_seam(const PlanetMap& map, const std::vector<glm::dvec3>& places, double texel) {
   std::mt19937 random(3);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows take the direct light alone, from the ground and from the air.
+// Shadows take the direct light alone, from the ground and from the air, under each sun and by
+// every model that draws.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
+#include <string_view>
 #include <utility>
 
+#include "data_refs/spectra.h"
+#include "model/registry.h"
 #include "model/tables/table_lookup.h"
 #include "render/gl/passes/shadow_pass.h"
 #include "tests/render/mesh_fixture.h"
@@ -33,6 +38,62 @@ class Wall : public ::testing::Test {
     scene_.meshes.front().reflectance = kReflectance;
   }
 
+  // Of the light along paths of which 0.4 and more lie in the wall's shadow: what the shadow takes,
+  // over the shaded part of the path. Checks that no path becomes brighter.
+  struct Taken {
+    int paths = 0;
+    double mean = 0, least = 1, most = 0;
+    WorstPixel untouched;  // of paths outside of the shadow
+  };
+  Taken light_taken(Renderer& drawn) const {
+    FrameOptions options =
+        options_at({kFloor + kEye, 135 * kDegree, 0, 80 * kDegree}, sun_, 96, 64);
+    const Frame lit = draw_layers(options, drawn);
+    options.shadows = true;
+    const Frame shaded = draw_layers(options, drawn);
+    // What a path loses is about the shaded part of it, where the sun's part of the light is about
+    // the same everywhere.
+    Taken taken;
+    for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
+      const double before = luminance_of(lit.layers->in_scatter, i),
+                   after = luminance_of(shaded.layers->in_scatter, i);
+      EXPECT_GE(after, 0) << "pixel " << i;
+      EXPECT_LE(after, before * (1 + kFloatSum)) << "pixel " << i;
+      const glm::dvec3 end = double{lit.depth_m[i]} * ray_of(lit, i);
+      if (is_sky(lit, i) || end.x > kNear + 0.1) continue;
+      constexpr int kSteps = 400;
+      int inside = 0, near = 0;
+      for (int k = 0; k < kSteps; ++k) {
+        const double depth = depth_in_shadow((k + 0.5) / kSteps * end + glm::dvec3(0, 0, kEye));
+        inside += depth > 0 ? 1 : 0;
+        near += depth > -3 ? 1 : 0;  // texels of the map
+      }
+      const double part = static_cast<double>(inside) / kSteps;
+      if (near == 0) taken.untouched.add(lit, i, after / before - 1);
+      if (part <= 0.4) continue;
+      const double of_part = (1 - after / before) / part;
+      taken.mean = (taken.mean * taken.paths + of_part) / (taken.paths + 1);
+      taken.least = std::min(taken.least, of_part);
+      taken.most = std::max(taken.most, of_part);
+      ++taken.paths;
+    }
+    std::printf(
+        "[ shadow ] of %d shaded paths the sun's part of the light is %.3f (%.3f to %.3f)\n",
+        taken.paths, taken.mean, taken.least, taken.most);
+    taken.untouched.print("paths in the light");
+    EXPECT_GT(taken.paths, 300);
+    EXPECT_GT(taken.untouched.count(), 100);
+    EXPECT_EQ(taken.untouched.error(), 0);
+    return taken;
+  }
+
+  // One for all: its ground and its shaders take the most time.
+  Renderer& drawn_by(const AtmosphereTables& tables) const {
+    static Renderer drawn(scene_);
+    drawn.set_atmosphere(earth_clear(), tables);
+    return drawn;
+  }
+
   // How far a point above the floor is inside the wall's shadow, metres; negative: outside. Its
   // beam enters the wall at the near side, below the top.
   double depth_in_shadow(const glm::dvec3& p) const {
@@ -46,7 +107,7 @@ class Wall : public ::testing::Test {
 };
 
 TEST_F(Wall, ShadesTheFloorBehindItAndNothingElse) {
-  Renderer drawn = make_renderer(scene_);
+  Renderer& drawn = drawn_by(small_tables());
   FrameOptions options =
       options_at({kFloor + kEye, 140 * kDegree, 0.2, 80 * kDegree}, sun_, 128, 96);
   const Frame lit = draw_layers(options, drawn);
@@ -88,52 +149,113 @@ TEST_F(Wall, ShadesTheFloorBehindItAndNothingElse) {
 }
 
 TEST_F(Wall, TakesLightFromTheAirInItsShadow) {
-  Renderer drawn = make_renderer(scene_);
-  FrameOptions options = options_at({kFloor + kEye, 135 * kDegree, 0, 80 * kDegree}, sun_, 96, 64);
-  const Frame lit = draw_layers(options, drawn);
-  options.shadows = true;
-  const Frame shaded = draw_layers(options, drawn);
-  // What a path loses is about the shaded part of it, where the sun's part of the light is about
-  // the same everywhere.
-  int clear = 0, dark = 0;
-  double share = 0, least = 1, most = 0;
-  WorstPixel untouched;
-  for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
-    const double before = luminance_of(lit.layers->in_scatter, i),
-                 after = luminance_of(shaded.layers->in_scatter, i);
-    EXPECT_GE(after, 0) << "pixel " << i;
-    EXPECT_LE(after, before * (1 + kFloatSum)) << "pixel " << i;
-    const glm::dvec3 end = double{lit.depth_m[i]} * ray_of(lit, i);
-    if (is_sky(lit, i) || end.x > kNear + 0.1) continue;
-    constexpr int kSteps = 400;
-    int inside = 0, near = 0;
-    for (int k = 0; k < kSteps; ++k) {
-      const double depth = depth_in_shadow((k + 0.5) / kSteps * end + glm::dvec3(0, 0, kEye));
-      inside += depth > 0 ? 1 : 0;
-      near += depth > -3 ? 1 : 0;  // texels of the map
-    }
-    const double part = static_cast<double>(inside) / kSteps;
-    if (near == 0) untouched.add(lit, i, after / before - 1), ++clear;
-    if (part > 0.4) {
-      const double taken = (1 - after / before) / part;
-      share += taken;
-      least = std::min(least, taken);
-      most = std::max(most, taken);
-      ++dark;
-    }
-  }
-  share /= std::max(dark, 1);
-  std::printf("[ shadow ] of %d shaded paths the sun's part of the light is %.3f (%.3f to %.3f)\n",
-              dark, share, least, most);
-  untouched.print("paths in the light");
-  ASSERT_GT(dark, 300);
-  ASSERT_GT(clear, 100);
-  EXPECT_EQ(untouched.error(), 0);
+  Renderer& drawn = drawn_by(small_tables());
+  const Taken taken = light_taken(drawn);
   constexpr double kStep = 1 / 24.0 / 0.4;  // of the shader's march, of the shortest of these
-  EXPECT_GT(share, 0.4);
-  EXPECT_LT(most, 1);
-  EXPECT_LT(most, share * (1 + kStep) + 0.1);
-  EXPECT_GT(least, share * (1 - kStep) - 0.1);
+  EXPECT_GT(taken.mean, 0.4);
+  EXPECT_LT(taken.most, 1);
+  EXPECT_LT(taken.most, taken.mean * (1 + kStep) + 0.1);
+  EXPECT_GT(taken.least, taken.mean * (1 - kStep) - 0.1);
+}
+
+AtmosphereTables tables_by(const char* model) {
+  const SpectralData& spectra = refs::standard_spectral_data();
+  return compute_tables_of(*make_sky_model(model, spectra, 2), earth_clear().atmosphere,
+                           color_rule(spectra), kSmallTables, 2, {});
+}
+
+struct Shafts {
+  const char* model;
+  double least, most;  // the sun's part of the light along a short path
+  friend void PrintTo(const Shafts& shafts, std::ostream* out) { *out << shafts.model; }
+};
+class ShaftsBy : public Wall, public ::testing::WithParamInterface<Shafts> {};
+
+TEST_P(ShaftsBy, TakeTheSunsPartOfTheLightOfShadedAir) {
+  const auto& [model, least, most] = GetParam();
+  Renderer& drawn = drawn_by(tables_by(model));
+  const Taken taken = light_taken(drawn);
+  EXPECT_GT(taken.mean, least);
+  EXPECT_LT(taken.mean, most);
+  // Without meshes the air comes from the volume, of the models that have one.
+  for (const AerialPerspective aerial :
+       {AerialPerspective::kVolume, AerialPerspective::kPerPixel}) {
+    FrameOptions options = options_of("valley", 48, 32);
+    options.sun_zenith = 74 * kDegree;
+    options.aerial = aerial;
+    const Frame lit = draw_layers(options, drawn);
+    options.shadows = true;
+    const Frame shaded = draw_layers(options, drawn);
+    int darker = 0;
+    for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
+      const double before = luminance_of(lit.layers->in_scatter, i),
+                   after = luminance_of(shaded.layers->in_scatter, i);
+      EXPECT_LE(after, before * (1 + kFloatSum)) << "pixel " << i;
+      darker += after < 0.97 * before ? 1 : 0;
+    }
+    std::printf("[ shafts ] %s: %d of %zu paths are darker\n", model, darker, lit.luminance.size());
+    EXPECT_GT(darker, 50);
+  }
+}
+
+// What is scattered once is the sun's alone.
+constexpr double kMarch = 0.05;  // of 24 steps and the shadow's edge, in the mean of all paths
+constexpr double kOnce = 1 - kMarch, kAll = 1 + kMarch;
+constexpr double kDifference = 1.25;  // of two long rays in small tables: the light of 60 m
+constexpr Shafts kShafts[] = {{"reference", 0.4, 0.95},
+                              {"bruneton", 0.4, 0.95},
+                              {"bodare", 0.4, 0.95},
+                              {"hillaire", 0.4, 0.95},
+                              {"schafhitzel", kOnce, kDifference},
+                              {"oneil", kOnce, kAll},
+                              {"oneil:isotropic-air", kOnce, kAll},
+                              {"nielsen:sun-through-sky", kOnce, kAll},
+                              {"preetham", 0.4, 0.95},
+                              {"hoffman-preetham", kOnce, kAll}};
+// The last, whose shafts have lines of the shader of their own; the others take a minute.
+INSTANTIATE_TEST_SUITE_P(Models, ShaftsBy, ::testing::Values(kShafts[std::size(kShafts) - 1]));
+INSTANTIATE_TEST_SUITE_P(SlowModels, ShaftsBy, ::testing::ValuesIn(kShafts));
+
+TEST(Shadow, EveryModelThatDrawsHasShafts) {
+  for (const SkyModelEntry& entry : sky_models()) {
+    if (!draws_frames(entry.name) || entry.name == "tables") continue;  // drawn as `reference`
+    EXPECT_TRUE(std::ranges::any_of(kShafts, [&](const Shafts& shafts) {
+      return std::string_view(shafts.model).starts_with(entry.name);
+    })) << entry.name;
+  }
+}
+
+// Two suns of the same light: which of them is the first makes no difference.
+TEST(Shadow, OfTheSecondSunIsThatOfTheFirst) {
+  FrameOptions options = options_of("valley", 64, 40);
+  options.shadows = true;
+  options.sun_zenith = 74 * kDegree;
+  options.second_sun = SecondSun{65 * kDegree, 70 * kDegree, 1};
+  FrameOptions swapped = options;
+  swapped.sun_zenith = options.second_sun->zenith;
+  swapped.second_sun = SecondSun{options.sun_zenith, -options.second_sun->azimuth, 1};
+  swapped.camera.azimuth -= options.second_sun->azimuth;
+  if (swapped.site) swapped.site->sun_azimuth += options.second_sun->azimuth;
+  const Frame a = draw_layers(options), b = draw_layers(swapped);
+  options.shadows = false;
+  const Frame lit = draw_layers(options);
+  WorstPixel direct, air;
+  int edges = 0, shaded = 0;
+  for (std::size_t i = 0; i < a.luminance.size(); ++i) {
+    const double of_a = luminance_of(a.layers->direct, i), of_b = luminance_of(b.layers->direct, i);
+    const double before = luminance_of(lit.layers->in_scatter, i);
+    air.add(
+        a, i,
+        (luminance_of(a.layers->in_scatter, i) - luminance_of(b.layers->in_scatter, i)) / before);
+    shaded += of_a < 0.9 * luminance_of(lit.layers->direct, i) ? 1 : 0;
+    // At the edge of a shadow a rounding may decide.
+    if (std::abs(of_a - of_b) > 1e-3 * luminance_of(lit.layers->direct, i)) ++edges;
+  }
+  air.print("air under suns in the other order");
+  std::printf("[ shadow ] %d pixels shaded, %d differ\n", shaded, edges);
+  EXPECT_GT(shaded, 300);
+  EXPECT_LT(edges, 0.01 * 64 * 40);
+  EXPECT_LT(air.rms(), 2e-3);
 }
 
 // From orbit the maps have texels of half a kilometre and more. No texel of theirs may shade the

@@ -15,6 +15,7 @@
 #include "render/gl/context/shader.h"
 #include "render/gl/context/uniform_block.h"
 #include "render/gl/context/uniforms.h"
+#include "render/gl/passes/frame_setup.h"
 
 namespace skyfit {
 namespace {
@@ -43,7 +44,7 @@ constexpr int kGroup = 8;  // of atmosphere.comp, on a side
 
 // After those of kAtmosphereReads.
 constexpr GLuint kShadowUnit = 12, kScatteringUnit = 13, kCloudUnit = 14, kVolumeUnit = 15,
-                 kMaterialUnit = 18;
+                 kMaterialUnit = 18, kOwnMaterialUnit = 20;
 // Of kBodare while there is no volume to be read.
 constexpr GLuint kGatheredUnit = kVolumeUnit;
 
@@ -68,12 +69,6 @@ double grainless_depth(const AtmosphereView& view) {
 // Behind light, distance and the layers.
 GLuint disc_location(const FrameOptions& options) {
   return 2 + (options.layers ? static_cast<GLuint>(kLayerWrites.size()) : 0);
-}
-
-glm::vec4 second_sun(const SecondSun& sun) {
-  const double s = std::sin(sun.zenith);
-  return {s * std::cos(sun.azimuth), -s * std::sin(sun.azimuth), std::cos(sun.zenith),
-          sun.irradiance};
 }
 
 double thickness_m(const AtmosphereTables& tables) {
@@ -144,6 +139,7 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes
   tables_.sky_rays.mapping = tables.sky_rays.mapping;
   tables_.sky_rays.nielsen = tables.sky_rays.nielsen;
   tables_.sky_rays.oneil = tables.sky_rays.oneil;
+  tables_.sky_rays.preetham = tables.sky_rays.preetham;
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
   tables_.phases = tables.phases;
   scattering_coefficients_ = scattering_texture(tables);
@@ -179,9 +175,9 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   block.set("pixel_angle", pixel_rad(options));
   block.set("volume_km", view.farthest_km);
   block.set("slope_variance", SharedSea<double>{}.sea_slope_variance(options.wind_m_s));
-  std::vector<glm::vec4> suns = {
-      {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith), 1}};
-  if (const auto& sun = options.second_sun) suns.push_back(second_sun(*sun));
+  std::vector<glm::vec4> suns;
+  for (const glm::dvec3& sun : directions_of_suns(options)) suns.emplace_back(sun, 1);
+  if (options.second_sun) suns.back().w = static_cast<float>(options.second_sun->irradiance);
   block.set("suns", std::span<const glm::vec4>(suns));
   if (options.refraction) {
     constexpr double kWavelength = 550;  // of which the bending is that of all
@@ -245,11 +241,13 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
   if (!surface && view.sky_rays(tables_))
     defined.push_back(fmt::format("SKY_RAYS {}", static_cast<int>(tables_.sky_rays.mapping)));
   if (view.volume(tables_)) defined.push_back("VOLUME");
+  if (surface) std::ranges::copy(view.own_textures.defines(), std::back_inserter(defined));
   if (surface && tables_.atmosphere.sea) defined.push_back("SEA");
   if (view.options.layers) defined.push_back("LAYERS");
   if (std::ranges::find(what, kDisc) != what.end())
     defined.push_back(fmt::format("DISC_LOCATION {}", disc_location(view.options)));
-  if (view.options.clouds) defined.push_back("CLOUDS");
+  if (!view.options.clouds.empty())
+    defined.push_back(fmt::format("CLOUDS {}", view.options.clouds.size()));
   if (!view.shadows.empty()) defined.push_back("SHADOWS");
   return program(path, defined);
 }
@@ -268,12 +266,15 @@ void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_m
                           GLuint grainy) {
   bind_blocks(sky, view);
   if (!view.shadows.empty()) {
-    shadow_maps.bind(view.shadows, grainy, kShadowUnit, blocks_);
+    shadow_maps.bind(view.shadows, directions_of_suns(view.options).size(), grainy, kShadowUnit,
+                     blocks_);
   }
   glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
-  if (view.options.clouds) {
+  if (!view.options.clouds.empty()) {
     if (!clouds_) clouds_.emplace();
-    clouds_->bind(*view.options.clouds, sky, kCloudUnit, blocks_);
+    clouds_->bind(view.options.clouds,
+                  std::min(view.options.camera.altitude_m, thickness_m(tables_)), sky, kCloudUnit,
+                  blocks_);
   }
   if (view.volume(tables_)) {
     volume_->bind(kVolumeUnit);
@@ -283,6 +284,7 @@ void AtmospherePass::bind(const AtmosphereView& view, const ShadowPass& shadow_m
   const glm::dvec3 camera =
       (tables_.atmosphere.bottom_radius_m + view.options.camera.altitude_m) * view.axes.z;
   view.materials.bind(camera, grainy, kMaterialUnit, blocks_);
+  view.own_textures.bind(camera, grainy, kOwnMaterialUnit, blocks_);
 }
 
 void AtmospherePass::clear_disc(const AtmosphereView& view) const {

@@ -27,6 +27,7 @@
 #include "render/gl/passes/shadow_pass.h"
 #include "render/gl/passes/site_axes.h"
 #include "render/gl/terrain/materials.h"
+#include "render/gl/terrain/own_textures.h"
 
 namespace skyfit {
 
@@ -59,6 +60,7 @@ struct AtmosphereView {
   double nearest_m;    // of the ground that is seen, or less
   double highest_m;    // of all ground
   const Materials& materials;
+  const OwnTextures& own_textures;
   bool read;  // the frame will be: the last colour target is kDiscWrite
 
   // The volume holds one sun's light before the ground, for an eye in the lower air; VOLUME

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <utility>
 #include <vector>
 
 #include "render/gl/context/uniform_block.h"
@@ -21,16 +22,29 @@ const double kSumDeviation =
     kDeviation * std::sqrt(0.30 * 0.30 + 0.40 * 0.40 + 0.22 * 0.22 + 0.08 * 0.08);
 constexpr double kMiddleOfEdge = 0.025;  // of the smoothstep in clouds.glsl, above its threshold
 
-// Fractal, repeating, mean 1/2, deviation 1/6.
-std::vector<std::uint16_t> noise_texels() {
+// The value that a share `part` of a normal distribution exceeds, in deviations from its mean.
+double exceeded_by(double part) {
+  double low = -8, high = 8;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(middle / std::sqrt(2.0)) > part ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> cloud_noise() {
   std::vector<double> values;
   for (int z = 0; z < kSide; ++z) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         const glm::dvec3 p = glm::dvec3(x, y, z) / double{kSide};
         double sum = 0, amplitude = 1;
+        glm::dvec3 shift(0);
         for (int period = 3; period <= 24; period *= 2) {
-          sum += amplitude * periodic_gradient_noise(p * double(period), period);
+          shift += kOctaveShift;
+          sum += amplitude * periodic_gradient_noise(p * double(period) + shift, period);
           amplitude *= 0.55;
         }
         values.push_back(sum);
@@ -49,37 +63,34 @@ std::vector<std::uint16_t> noise_texels() {
   return texels;
 }
 
-// The value that a share `part` of a normal distribution exceeds, in deviations from its mean.
-double exceeded_by(double part) {
-  double low = -8, high = 8;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(middle / std::sqrt(2.0)) > part ? low : high) = middle;
-  }
-  return low;
-}
-
-}  // namespace
-
 Clouds::Clouds() {
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_3D, 1, &id);
   noise_ = GlTexture(id);
   glTextureStorage3D(id, kLevels, GL_R16, kSide, kSide, kSide);
   glTextureSubImage3D(id, 0, 0, 0, 0, kSide, kSide, kSide, GL_RED, GL_UNSIGNED_SHORT,
-                      noise_texels().data());
+                      cloud_noise().data());
   glGenerateTextureMipmap(id);
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
 }
 
-void Clouds::bind(const CloudLayer& clouds, GLuint program, GLuint unit,
+void Clouds::bind(std::span<const CloudLayer> sheets, double eye_m, GLuint program, GLuint unit,
                   UniformBuffers& buffers) const {
+  // A ray meets the sheets below the eye first, from the highest to the lowest, then, where it
+  // rises again, those above, from the lowest to the highest.
+  std::vector<CloudLayer> in_order(sheets.begin(), sheets.end());
+  std::ranges::sort(in_order, {}, [eye_m](const CloudLayer& clouds) {
+    const bool below = clouds.altitude_m < eye_m;
+    return std::pair(!below, below ? -clouds.altitude_m : clouds.altitude_m);
+  });
+  std::vector<glm::vec4> values;
+  for (const CloudLayer& clouds : in_order)
+    values.emplace_back(1e-3 * clouds.altitude_m, clouds.opacity,
+                        0.5 + kSumDeviation * exceeded_by(clouds.cover) - kMiddleOfEdge, 0);
   glBindTextureUnit(unit, noise_.id());
   UniformBlock block(program, "Clouds");
-  block.set("cloud_km", 1e-3 * clouds.altitude_m);
-  block.set("cloud_opacity", clouds.opacity);
-  block.set("cloud_threshold", 0.5 + kSumDeviation * exceeded_by(clouds.cover) - kMiddleOfEdge);
+  block.set("cloud_sheets", std::span<const glm::vec4>(values));
   block.bind(buffers);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "render/gl/atmosphere/atmosphere_pass.h"
@@ -39,6 +40,16 @@ void add_targets(int width, int height, bool layers, FrameGraph& graph) {
   graph.add_target(kDiscWrite, GL_RGBA32F, width, height);
   if (!layers) return;
   for (const std::string& layer : kLayerWrites) graph.add_target(layer, GL_RGBA32F, width, height);
+}
+
+std::vector<glm::dvec3> directions_of_suns(const FrameOptions& options) {
+  const auto direction = [](double zenith, double azimuth) {
+    return glm::dvec3(std::sin(zenith) * std::cos(azimuth), -std::sin(zenith) * std::sin(azimuth),
+                      std::cos(zenith));
+  };
+  std::vector<glm::dvec3> suns = {direction(options.sun_zenith, 0)};
+  if (const auto& sun = options.second_sun) suns.push_back(direction(sun->zenith, sun->azimuth));
+  return suns;
 }
 
 std::int64_t device_clock_ns() {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "render/gl/passes/passes.h"
@@ -17,6 +18,9 @@ int affordable_samples(const FrameOptions& options);
 
 // The textures of a frame of so many samples.
 void add_targets(int width, int height, bool layers, FrameGraph& graph);
+
+// Unit vectors in the camera frame, one or two.
+std::vector<glm::dvec3> directions_of_suns(const FrameOptions& options);
 
 std::int64_t device_clock_ns();
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -50,6 +51,7 @@ class GlRenderer final : public FrameDrawer {
     }
     radius_m_ = bottom;
     color_.emplace(color);
+    if (!own_textures_) own_textures_.emplace(scene_.soil, scene_.rock, *color_);
     // The made-up planet's colours have the preset's ground albedo as their mean.
     NodeValues albedo;
     for (std::size_t k = 0; k < 4; ++k)
@@ -199,7 +201,7 @@ class GlRenderer final : public FrameDrawer {
     std::optional<Placed> moon;
     std::optional<ObjectPass::Model> boxes;  // of blocks; kilometres from the camera, site axes
     std::vector<ShadowView> shadows;
-    std::array<TerrainDraw, kShadowMaps> casters;
+    std::array<TerrainDraw, 2 * kShadowMaps> casters;  // of each sun
     double farthest_km = 0;
   };
 
@@ -213,10 +215,6 @@ class GlRenderer final : public FrameDrawer {
     return terrain_view(seen, axes_of(options.site), *ground_, radius_m_, ground_distance_m(seen));
   }
 
-  static glm::dvec3 sun_of(const FrameOptions& options) {
-    return {std::sin(options.sun_zenith), 0, std::cos(options.sun_zenith)};
-  }
-
   void add_boxes(const FrameOptions& options, const TerrainView& view,
                  const BlockSelection& selection) {
     current_.boxes.reset();
@@ -224,9 +222,9 @@ class GlRenderer final : public FrameDrawer {
     std::vector<MeasuredNode> drawn;
     for (const CubeBlock& block : current_.blocks.seen)
       drawn.push_back({block, terrain_->store().heights(block).whole});
-    current_.boxes =
-        ObjectPass::upload_mesh(block_boxes({drawn, selection}, view, options.camera.altitude_m,
-                                            options.terrain.boxes, sun_of(options), *color_));
+    current_.boxes = ObjectPass::upload_mesh(
+        block_boxes({drawn, selection}, view, options.camera.altitude_m, options.terrain.boxes,
+                    directions_of_suns(options)[0], *color_));
     current_.boxes->primitive = GL_LINES;
   }
 
@@ -264,7 +262,12 @@ class GlRenderer final : public FrameDrawer {
   }
 
   std::vector<ShadowView> shadow_views_of(const FrameOptions& options) const {
-    return shadow_views(sun_of(options), ground_distance_m(options), ground_->highest_m());
+    std::vector<ShadowView> views;
+    for (const glm::dvec3& sun : directions_of_suns(options)) {
+      std::ranges::move(shadow_views(sun, ground_distance_m(options), ground_->highest_m()),
+                        std::back_inserter(views));
+    }
+    return views;
   }
 
   void place_objects(const FrameOptions& options, FrameStatistics& statistics) {
@@ -294,6 +297,7 @@ class GlRenderer final : public FrameDrawer {
                               current_.blocks.nearest_m,
                               ground_->highest_m(),
                               materials_,
+                              *own_textures_,
                               read};
     std::vector<Pass> list;
     if (!current_.shadows.empty())
@@ -324,7 +328,7 @@ class GlRenderer final : public FrameDrawer {
       list.push_back({"atmosphere",
                       kAtmosphereReads,
                       {},
-                      [this, view] { atmosphere_.dispatch(view, shadow_maps()); },
+                      [this, view] { atmosphere_.dispatch(view, shadow_pass_); },
                       lights});
       // Not the G-buffer again, whose depth it tests against; the sky's view is still bound.
       list.push_back({"suns", kTableReads, lights_and_depth,
@@ -336,7 +340,7 @@ class GlRenderer final : public FrameDrawer {
           {"classes", {"depth"}, {"depth"}, [this, view] { atmosphere_.classify(view); }});
     }
     list.push_back({"atmosphere", kAtmosphereReads, lights_and_depth,
-                    [this, view] { atmosphere_.draw(view, shadow_maps()); }});
+                    [this, view] { atmosphere_.draw(view, shadow_pass_); }});
     return list;
   }
 
@@ -353,14 +357,9 @@ class GlRenderer final : public FrameDrawer {
                     current_.axes);
   }
 
-  const ShadowPass& shadow_maps() {
-    if (!shadow_pass_) shadow_pass_.emplace();
-    return *shadow_pass_;
-  }
-
   void draw_shadows() {
     const glm::dmat4 site_from_planet(current_.axes.site_from_planet());
-    shadow_maps().draw(current_.shadows.size(), [&](std::size_t map) {
+    shadow_pass_.draw(current_.shadows.size(), [&](std::size_t map) {
       const glm::dmat4& clip_from_site = current_.shadows[map].clip_from_site;
       terrain_->draw_depth(current_.casters[map], glm::mat4(clip_from_site * site_from_planet));
       for (const Placed& mesh : current_.meshes)
@@ -382,11 +381,12 @@ class GlRenderer final : public FrameDrawer {
   std::optional<TerrainPass> terrain_;
   ObjectPass objects_;
   Materials materials_;
-  std::vector<ObjectPass::Model> meshes_;  // of the scene
-  std::vector<std::string> warnings_;      // of their files
+  std::optional<OwnTextures> own_textures_;  // of the first ground's colour rule
+  std::vector<ObjectPass::Model> meshes_;    // of the scene
+  std::vector<std::string> warnings_;        // of their files
   std::optional<ObjectPass::Model> moon_;
   double moon_reflectance_ = 0;
-  std::optional<ShadowPass> shadow_pass_;  // made when first used
+  ShadowPass shadow_pass_;
   AtmospherePass atmosphere_;
   FrameScene current_;
   std::optional<SubmittedFrame> before_;  // the last one of submit()

@@ -2,7 +2,6 @@
 #include "render/gl/passes/shadow_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "render/gl/context/uniform_block.h"
@@ -41,11 +40,13 @@ std::vector<ShadowView> shadow_views(const glm::dvec3& sun, double ground_distan
   return views;
 }
 
-ShadowPass::ShadowPass() {
+void ShadowPass::make_room(std::size_t maps) {
+  if (maps <= room_) return;
+  room_ = maps;
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
   maps_ = GlTexture(id);
-  glTextureStorage3D(id, 1, GL_DEPTH_COMPONENT32F, kSide, kSide, kShadowMaps);
+  glTextureStorage3D(id, 1, GL_DEPTH_COMPONENT32F, kSide, kSide, static_cast<GLsizei>(maps));
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -54,7 +55,8 @@ ShadowPass::ShadowPass() {
   glTextureParameteri(id, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
-void ShadowPass::draw(std::size_t maps, const std::function<void(std::size_t)>& draw) const {
+void ShadowPass::draw(std::size_t maps, const std::function<void(std::size_t)>& draw) {
+  make_room(maps);
   GLuint id = 0;
   glCreateFramebuffers(1, &id);
   const GlFramebuffer target(id);
@@ -73,23 +75,24 @@ void ShadowPass::draw(std::size_t maps, const std::function<void(std::size_t)>& 
   }
 }
 
-void ShadowPass::bind(std::span<const ShadowView> views, GLuint program, GLuint unit,
-                      UniformBuffers& buffers) const {
+void ShadowPass::bind(std::span<const ShadowView> views, std::size_t suns, GLuint program,
+                      GLuint unit, UniformBuffers& buffers) const {
   glBindTextureUnit(unit, maps_.id());
   // From -1..1 to texture coordinates.
   glm::dmat4 texture_from_clip(1);
   texture_from_clip[0][0] = texture_from_clip[1][1] = 0.5;
   texture_from_clip[3] = glm::dvec4(0.5, 0.5, 0, 1);
-  std::array<glm::mat4, kShadowMaps> matrices{};
+  const std::size_t count = views.size() / suns;
+  std::vector<glm::mat4> matrices(suns * kShadowMaps);
   glm::vec4 offsets(0);
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  for (std::size_t i = 0; i < views.size(); ++i)
     matrices[i] = glm::mat4(texture_from_clip * views[i].clip_from_site);
+  for (std::size_t i = 0; i < count; ++i)
     offsets[static_cast<int>(i)] = static_cast<float>(kShadowOffTexels * texel_m(views[i].half_km));
-  }
   UniformBlock block(program, "Shadows");
   block.set("map_from_site", std::span<const glm::mat4>(matrices));
   block.set("shadow_offset_km", offsets);
-  block.set("shadow_map_count", static_cast<double>(views.size()));
+  block.set("shadow_map_count", static_cast<double>(count));
   block.set("shadow_reach_km", views.back().half_km);
   block.bind(buffers);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth seen from the sun, in up to three maps about the camera, each of a larger part of the
+// Depth seen from each sun, in up to three maps about the camera, each of a larger part of the
 // terrain; see render/shaders/shadows.glsl.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace skyfit {
 
-inline constexpr int kShadowMaps = 3;  // at most
+inline constexpr int kShadowMaps = 3;  // of a sun, at most
 
 // An orthographic view along the sun's beam; the axes of the site, kilometres from the camera.
 struct ShadowView {
@@ -37,17 +37,19 @@ inline constexpr double kShadowOffTexels = 1.75 * 1.41421356;
 
 class ShadowPass {
  public:
-  ShadowPass();
-
   // Calls draw(i) for the first `maps` with the map i as the depth target.
-  void draw(std::size_t maps, const std::function<void(std::size_t)>& draw) const;
+  void draw(std::size_t maps, const std::function<void(std::size_t)>& draw);
 
-  // The maps as texture `unit`, and what render/shaders/shadows.glsl needs of the views.
-  void bind(std::span<const ShadowView> views, GLuint program, GLuint unit,
+  // The maps as texture `unit`, and what render/shaders/shadows.glsl needs of the views: those of
+  // the first sun, then as many of the next.
+  void bind(std::span<const ShadowView> views, std::size_t suns, GLuint program, GLuint unit,
             UniformBuffers& buffers) const;
 
  private:
+  void make_room(std::size_t maps);
+
   GlTexture maps_;
+  std::size_t room_ = 0;  // maps that it can hold
 };
 
 }  // namespace skyfit

@@ -36,8 +36,7 @@ double relief_of(Texture texture, const glm::dvec3& p) {
   double sum = 0, amplitude = 1;
   glm::dvec3 shift(0);
   for (int period = texture == Texture::kGrains ? 4 : 2; period <= kSide / 4; period *= 2) {
-    // Noise is 0 at its lattice points, which octaves must not share.
-    shift += glm::dvec3(0.37, 0.73, 0.19);
+    shift += kOctaveShift;
     const double noise = periodic_gradient_noise(p * static_cast<double>(period) + shift, period);
     sum += amplitude * (texture == Texture::kGrains ? noise : 0.5 - std::abs(1.6 * noise));
     amplitude *= texture == Texture::kGrains ? 0.6 : 0.55;
@@ -45,7 +44,9 @@ double relief_of(Texture texture, const glm::dvec3& p) {
   return sum;
 }
 
-const char* name_of(Texture texture) { return texture == Texture::kGrains ? "grains" : "crags"; }
+std::filesystem::path file_of(Texture texture, const std::filesystem::path& directory) {
+  return directory / (texture == Texture::kGrains ? "grains.png" : "crags.png");
+}
 
 // The next mipmap. The weights 1, 3, 3, 1 along each axis leave less of the waves that two of its
 // texels cannot tell from a lattice than the mean of two would.
@@ -174,7 +175,7 @@ MaterialTexels load_texture(Texture texture, const std::filesystem::path& direct
                             ContentCache* cache) {
   if (directory.empty())
     return cache != nullptr ? kept_texture(texture, *cache) : make_texture(texture);
-  const std::filesystem::path file = directory / fmt::format("{}.png", name_of(texture));
+  const std::filesystem::path file = file_of(texture, directory);
   if (!std::filesystem::exists(file)) {
     MaterialTexels texels = make_texture(texture);
     write_png_texels(texels, kSide, kSide * kSide, file);
@@ -196,6 +197,15 @@ MaterialTexels load_texture(Texture texture, const std::filesystem::path& direct
     throw std::runtime_error(fmt::format("{}: cannot read: {}", file.string(), input->geterror()));
   }
   return texels;
+}
+
+std::vector<std::filesystem::path> made_texture_files(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  for (const Texture texture : {Texture::kGrains, Texture::kCrags}) {
+    load_texture(texture, directory);
+    files.push_back(file_of(texture, directory));
+  }
+  return files;
 }
 
 Materials::Materials(const std::filesystem::path& directory, ContentCache* cache)

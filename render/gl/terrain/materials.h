@@ -30,6 +30,9 @@ MaterialTexels make_texture(Texture texture);
 MaterialTexels load_texture(Texture texture, const std::filesystem::path& directory,
                             ContentCache* cache = nullptr);
 
+// Those files, made where they are missing. Throws as above.
+std::vector<std::filesystem::path> made_texture_files(const std::filesystem::path& directory);
+
 // The texture and its mipmaps down to one texel: weighted means of 4 x 4 x 4 texels, each rounded
 // once. Drivers round those of bytes in their own way and level by level, which tilts the distant
 // ground. The last but one, whose texels hold next to nothing of the noise, is the mean of all as

@@ -14,6 +14,10 @@ double gradient_noise(const glm::dvec3& x);
 // At three points, in little more time than at one.
 glm::dvec3 gradient_noises(const std::array<glm::dvec3, 3>& x);
 
+// Lattice steps between an octave and the next: noise is 0 at its lattice points, which octaves of
+// the same axes must not share.
+inline constexpr glm::dvec3 kOctaveShift(0.37, 0.73, 0.19);
+
 // The same with a period of `period` lattice steps in each direction.
 double periodic_gradient_noise(const glm::dvec3& x, int period);
 

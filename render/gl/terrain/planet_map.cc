@@ -14,16 +14,13 @@
 #include <typeinfo>
 #include <vector>
 
+#include "render/gl/terrain/color_reflectance.h"
 #include "render/gl/terrain/cubic_spline.h"
 #include "render/gl/terrain/map_file.h"
 #include "render/gl/terrain/map_layout.h"
 
 namespace skyfit {
 namespace {
-
-double linear_from_srgb(double x) {
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
-}
 
 // Between what is stored and what it means: integers of colours are sRGB coded, 1 = their largest.
 template <class T, int kChannels>
@@ -165,7 +162,8 @@ class SplineMap final : public PlanetMap {
     if constexpr (kChannels == 1) {
       const auto [low, high] = std::ranges::minmax_element(finest.texels);
       darkest_ = static_cast<double>(*low);
-      range_ = std::max(static_cast<double>(*high) - darkest_, 1e-30);
+      // A map of one value lies at the lowest height.
+      if (*low < *high) range_ = static_cast<double>(*high) - darkest_;
     }
     add(std::move(finest));
     constexpr int kFewestRows = 4;
