@@ -114,10 +114,10 @@ py::dict arrays_of(const refs::Reference& reference) {
       [](const Sample& s) { return s.sigma.value_or(std::numeric_limits<double>::quiet_NaN()); });
   add("weight", [](const Sample& s) { return s.weight; });
   add("scan", [](const Sample& s) { return s.scan; });
-  if (refs::is_irradiance(reference.quantity)) {
+  if (refs::is_irradiance(reference.quantity) || reference.irradiance_quantity) {
     py::list names;
     for (const Sample& sample : reference.samples)
-      names.append(std::string(kIrradianceNames[sample.irradiance.value()]));
+      names.append(sample.irradiance ? std::string(kIrradianceNames[*sample.irradiance]) : "");
     arrays["irradiance"] = py::module_::import("numpy").attr("array")(names);
   }
   return arrays;

@@ -71,6 +71,19 @@ std::vector<int> scans_of(bool per_scan, int scans) {
   return result;
 }
 
+// Those that an instrument has pointed or scaled: not those of irradiances beside a sky alone.
+std::vector<int> scans_of_sky(const refs::Reference& reference, const Dataset& data) {
+  std::vector<int> result;
+  for (int scan = 0; scan < std::ssize(data.scans); ++scan) {
+    const int number = data.scans[static_cast<std::size_t>(scan)].number;
+    if (std::ranges::any_of(reference.samples, [&](const refs::Sample& sample) {
+          return sample.scan == number && !refs::is_beside_sky(reference, sample);
+        }))
+      result.push_back(scan);
+  }
+  return result;
+}
+
 void add_atmosphere(const FitOptions& options, const std::vector<FreeParameter>& parameters,
                     int scans, std::vector<Unknown>& unknowns) {
   for (const Parameter id : options.per_scan) {
@@ -84,7 +97,7 @@ void add_atmosphere(const FitOptions& options, const std::vector<FreeParameter>&
   }
 }
 
-void add_instrument(const FitOptions& options, Instrument id, bool per_scan, int scans,
+void add_instrument(const FitOptions& options, Instrument id, const std::vector<int>& scans,
                     std::vector<Unknown>& unknowns) {
   const InstrumentInfo& info = instrument_info(id);
   std::optional<Prior> prior = options.use_priors ? info.prior : std::nullopt;
@@ -92,21 +105,22 @@ void add_instrument(const FitOptions& options, Instrument id, bool per_scan, int
       given != options.instrument_priors.end()) {
     prior = Prior{given->second.mean * info.unit_value, given->second.sigma * info.unit_value};
   }
-  for (const int scan : scans_of(per_scan, scans)) {
+  for (const int scan : scans) {
     unknowns.push_back({{info.lower, info.upper, id == Instrument::kScale, prior}, id, scan});
   }
 }
 
-void add_instruments(const FitOptions& options, Pointing pointing, Scale scale, int scans,
-                     std::vector<Unknown>& unknowns) {
+// `scans`: those of the sky.
+void add_instruments(const FitOptions& options, Pointing pointing, Scale scale,
+                     const std::vector<int>& scans, std::vector<Unknown>& unknowns) {
   if (pointing != Pointing::kStated)
-    add_instrument(options, Instrument::kAzimuthOffset, true, scans, unknowns);
+    add_instrument(options, Instrument::kAzimuthOffset, scans, unknowns);
   if (pointing == Pointing::kAzimuthAndTilt) {
-    add_instrument(options, Instrument::kTiltNorth, true, scans, unknowns);
-    add_instrument(options, Instrument::kTiltEast, true, scans, unknowns);
+    add_instrument(options, Instrument::kTiltNorth, scans, unknowns);
+    add_instrument(options, Instrument::kTiltEast, scans, unknowns);
   }
-  if (scale == Scale::kShared || scale == Scale::kPerScan)
-    add_instrument(options, Instrument::kScale, scale == Scale::kPerScan, scans, unknowns);
+  if (scale == Scale::kPerScan) add_instrument(options, Instrument::kScale, scans, unknowns);
+  if (scale == Scale::kShared) add_instrument(options, Instrument::kScale, {kAllScans}, unknowns);
   for (const auto& [id, prior] : options.instrument_priors) {
     const bool varied = std::ranges::any_of(unknowns, [&](const Unknown& unknown) {
       const Instrument* instrument = std::get_if<Instrument>(&unknown.what);
@@ -178,7 +192,7 @@ SkyState Problem::state(const Eigen::VectorXd& scaled) const {
 int Problem::profiled_scales() const {
   if (likelihood.scale != Scale::kProfiled) return 0;
   std::set<int> with_samples;
-  for (const LineOfSight& line : fitted.lines_of_sight) with_samples.insert(line.scan);
+  for (const LineOfSight& line : only_sky(fitted).lines_of_sight) with_samples.insert(line.scan);
   return static_cast<int>(with_samples.size());
 }
 
@@ -237,7 +251,7 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
       with_fixed_values(evaluate_only ? given : with_lobes(given, options.lobes), options);
   const Pointing pointing = pointing_of(options, reference);
   const bool several_wavelengths =
-      problem.fitted.channels.size() > 1 && reference.quantity == refs::Quantity::kSpectralRadiance;
+      only_sky(problem.fitted).channels.size() > 1 && reference.quantity == refs::Quantity::kSpectralRadiance;
   const FitOptions with_defaults =
       with_default_parameters(with_free_of_irradiances(options, reference, model, base), model,
                               several_wavelengths, pointing != Pointing::kStated, base);
@@ -248,7 +262,8 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
       options.start ? start_state(as_given(given, options), problem.scans()) : problem.start;
   problem.lobes_may_swap = may_swap_lobes(options, parameters);
   add_atmosphere(options, parameters, problem.scans(), problem.unknowns);
-  add_instruments(options, pointing, problem.likelihood.scale, problem.scans(), problem.unknowns);
+  add_instruments(options, pointing, problem.likelihood.scale,
+                  scans_of_sky(reference, problem.fitted), problem.unknowns);
   check_counts(reference, problem, options);
   return problem;
 }

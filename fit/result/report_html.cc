@@ -152,6 +152,15 @@ void add_errors(xml_node body, const Result& result) {
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     row(scan_name(result, s), result.scans[s].errors);
   add(body, "p", errors_meaning(result), "small");
+  if (!result.irradiances.empty()) {
+    xml_node beside = add_table(body, {irradiances_title(result), "samples", "start", "fitted",
+                                       "mean bias", "one sigma"});
+    for (const IrradianceErrors& e : result.irradiances) {
+      add_row(beside, {std::string(kIrradianceNames[e.what]), std::to_string(e.samples),
+                       number_text(e.start_rms, 4), number_text(e.rms, 4),
+                       number_text(e.mean_bias, 3), number_text(e.sigma, 3)});
+    }
+  }
   if (result.polarisation.empty()) return;
   xml_node readings = add_table(
       body, {"Polarisation, RMS in percentage points", "readings", "start", "fitted", "one sigma"});

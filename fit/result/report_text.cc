@@ -78,6 +78,19 @@ std::string polarisation_text(const Result& result) {
   return text + "\n";
 }
 
+std::string irradiances_text(const Result& result) {
+  if (result.irradiances.empty()) return "";
+  constexpr std::string_view kRow = "{:<44}{:>10}{:>12}{:>12}{:>12}{:>12}\n";
+  std::string text = fmt::format(kRow, irradiances_title(result), "samples", "start", "fitted",
+                                 "mean bias", "one sigma");
+  for (const IrradianceErrors& errors : result.irradiances) {
+    text += fmt::format(kRow, kIrradianceNames[errors.what], errors.samples,
+                        number_text(errors.start_rms, 4), number_text(errors.rms, 4),
+                        number_text(errors.mean_bias, 3), number_text(errors.sigma, 3));
+  }
+  return text + "\n";
+}
+
 std::string rms_text(const Result& result) {
   if (refs::is_irradiance(result.reference.quantity)) return "";  // the errors say it all
   const auto row = [](std::string_view name, double start, double fitted) {
@@ -277,7 +290,7 @@ std::string brief_report(const Result& result) {
 
 std::string full_report(const Result& result, const Checks& checks) {
   return header(result) + reference_remarks(result) + errors_text(result) +
-         polarisation_text(result) + rms_text(result) + scales_text(result) +
+         polarisation_text(result) + irradiances_text(result) + rms_text(result) + scales_text(result) +
          unknowns_text(result) + pulled_text(pulled_priors(result)) + downweighted_text(result) +
          correlation_text(result) + findings_text(result) + starts_text(result) +
          profiles_text(checks.profiles) +
