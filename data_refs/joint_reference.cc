@@ -64,6 +64,11 @@ std::string angles_text(const Moment& scan, const Moment& irradiances) {
                      irradiances.suns.front() * kDegreesPerRadian);
 }
 
+const Moment& nearest_of(const std::vector<Moment>& scans, const Moment& irradiances) {
+  return *std::ranges::min_element(
+      scans, {}, [&](const Moment& scan) { return sun_difference(scan, irradiances); });
+}
+
 // The scan of the sky that irradiances belong to; nothing: none.
 std::optional<int> scan_of(const std::vector<Moment>& scans, const Moment& irradiances,
                            const std::string& source) {
@@ -124,7 +129,7 @@ Reference joined(Reference sky, const Reference& irradiances, bool own_scans) {
       if (!moment.time && moments.size() == 1) {
         throw std::invalid_argument(fmt::format(
             "{}: {}: expected within {:g} deg of a scan, or the time of both", irradiances.name,
-            angles_text(scans.front(), moment), kSameSun * kDegreesPerRadian));
+            angles_text(nearest_of(scans, moment), moment), kSameSun * kDegreesPerRadian));
       }
       place[m] = static_cast<int>(sky.scans.size());
       sky.scans.push_back(info);
@@ -132,8 +137,8 @@ Reference joined(Reference sky, const Reference& irradiances, bool own_scans) {
   }
   if (place.empty()) {
     throw std::invalid_argument(
-        fmt::format("{}: no line is of the minute of a scan of {}: expected the irradiances of "
-                    "each scan's time",
+        fmt::format("{}: no irradiances are of the minute of a scan of {}: expected those of each "
+                    "scan's time",
                     irradiances.name, sky.name));
   }
   for (Sample sample : irradiances.samples) {
