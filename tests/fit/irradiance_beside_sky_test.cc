@@ -12,6 +12,7 @@
 #include "fit/problem/problem.h"
 #include "fit/result/record.h"
 #include "fit/result/report.h"
+#include "fit/uncertainty/checks.h"
 #include "tests/fit/synthetic.h"
 
 namespace skyfit::fit {
@@ -189,6 +190,19 @@ TEST(IrradianceBesideSky, TheNoiseOfTheSkyIsNotThatOfTheIrradiances) {
     EXPECT_NEAR(once(row), std::log(values.value(row) / sample.value) / 0.05,
                 kRounding * (1 + std::abs(once(row))));
   }
+}
+
+TEST(IrradianceBesideSky, HoldOutsAndBootstrapLeaveTheIrradiances) {
+  const ToySky model;
+  FitOptions wanted = options();
+  wanted.free = {Parameter::kMieScattering};
+  const Result result = fit_atmosphere(with_evening(), spectra(), model, wanted);
+  const std::vector<HoldOut> scans = leave_one_scan_out(spectra(), model, wanted, result);
+  ASSERT_EQ(scans.size(), 4u);  // not the evening
+  const std::vector<HoldOut> parts = hold_out_directions(spectra(), model, wanted, result, 2, 1);
+  for (const HoldOut& part : parts) EXPECT_TRUE(std::isfinite(part.predicted.luminance));
+  const Bootstrap drawn = bootstrap(spectra(), model, wanted, result, 2, 1);
+  EXPECT_EQ(drawn.failed, 0);
 }
 
 TEST(IrradianceBesideSky, ReportsRecordsAndTablesHoldBoth) {
