@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
@@ -18,6 +19,8 @@
 #include "data_refs/radiance_sky.h"
 #include "data_refs/table_csv.h"
 #include "fit/exchange/programs.h"
+#include "model/atmosphere/particles.h"
+#include "model/base/content_cache.h"
 #include "model/registry.h"
 #include "model/solver/reference_model.h"
 
@@ -300,6 +303,18 @@ void add_scalar_option(CLI::App& command, bool& scalar) {
                    "Leave the polarisation of light out of the models reference and tables:\n"
                    "a quarter of the time less, and radiances off by up to 13 % in the blue,\n"
                    "4 % in the green (docs/accuracy.md)");
+}
+
+void add_particle_cache_option(CLI::App& command) {
+  const auto no_cache = std::make_shared<bool>(false);
+  command.add_flag("--no-cache", *no_cache,
+                   "Compute the scattering of spheres (size-distribution) anew instead of reading\n"
+                   "or keeping it in $XDG_CACHE_HOME/skyfit or ~/.cache/skyfit");
+  command.parse_complete_callback([no_cache] {
+    const auto directory = user_cache_directory();
+    keep_particles_in(*no_cache || !directory ? nullptr
+                                              : std::make_shared<ContentCache>(*directory));
+  });
 }
 
 CLI::Option* add_refraction_option(CLI::App& command, bool& refraction) {

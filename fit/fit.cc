@@ -58,10 +58,12 @@ class Fit {
     result_.reference.notes.insert(result_.reference.notes.end(), as_stated.assumptions.begin(),
                                    as_stated.assumptions.end());
     const Problem problem = make_problem(result_.reference, spectra_, model_, as_pointed(options_));
-    const Eigen::VectorXd scaled = refine(problem, found);
+    Evaluations evaluations(problem, problem.fitted);
+    const Eigen::VectorXd scaled = refine(problem, evaluations, found);
     describe_problem(problem);
     describe_values(problem, scaled);
-    describe_uncertainty(problem, scaled);
+    describe_uncertainty(problem, evaluations.at(scaled, true), scaled);
+    count_work(evaluations);
     result_.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result_.preset = fitted_preset(result_);
@@ -74,10 +76,9 @@ class Fit {
     if (options_.progress) options_.progress(fraction, status);
   }
 
-  void count_work(const Minimum& minimum) {
-    result_.iterations += minimum.iterations;
-    result_.model_evaluations += minimum.evaluations;
-    result_.derivative_evaluations += minimum.derivative_evaluations;
+  void count_work(const Evaluations& evaluations) {
+    result_.model_evaluations += evaluations.values_computed();
+    result_.derivative_evaluations += evaluations.derivatives_computed();
   }
 
   // The best start after a search with few wavelengths.
@@ -96,7 +97,9 @@ class Fit {
         });
     for (std::size_t s = 0; s < searched.minima.size(); ++s) {
       const Minimum& minimum = searched.minima[s];
-      count_work(minimum);
+      result_.iterations += minimum.iterations;
+      result_.model_evaluations += minimum.evaluations;
+      result_.derivative_evaluations += minimum.derivative_evaluations;
       result_.starts.push_back(
           {problem.starts[s].name, minimum.cost, minimum.iterations, s == searched.best});
     }
@@ -127,18 +130,20 @@ class Fit {
     return result;
   }
 
-  Noise noise_at(const Problem& problem, const Dataset& data, const Eigen::VectorXd& scaled) {
-    ++result_.model_evaluations;
-    return estimate_noise(data, problem.likelihood, problem.residuals(data, scaled, 1),
+  // The derivatives are asked for next.
+  Noise noise_at(const Problem& problem, Evaluations& at, const Eigen::VectorXd& scaled) {
+    const Whitened white = whiten(at.data(), problem.likelihood, at.at(scaled, true), 1);
+    return estimate_noise(at.data(), problem.likelihood, white.residual,
                           static_cast<int>(problem.unknowns.size()) + problem.profiled_scales());
   }
 
-  Eigen::VectorXd refine(const Problem& problem, Eigen::VectorXd scaled) {
+  // `all`: evaluations of all that is fitted.
+  Eigen::VectorXd refine(const Problem& problem, Evaluations& all, Eigen::VectorXd scaled) {
     constexpr double kFactorAgrees = 0.05;  // relative change that is not worth a refit
-    const auto solve = [&](const Dataset& data, double factor) {
-      const Minimum minimum = problem.solve(data, problem.with_ordered_lobes(scaled), factor,
+    const auto solve = [&](Evaluations& at, double factor) {
+      const Minimum minimum = problem.solve(at, problem.with_ordered_lobes(scaled), factor,
                                             {options_.max_iterations, schedule_.tolerance});
-      count_work(minimum);
+      result_.iterations += minimum.iterations;
       scaled = minimum.scaled;
       result_.converged = minimum.converged;
       result_.termination = minimum.termination;
@@ -146,28 +151,31 @@ class Fit {
     noise_.effective_samples = static_cast<double>(only_sky(problem.fitted).samples.size());
     if (problem.likelihood.noise_is_known) {
       report(0.6, "refining the best start");
-      solve(problem.fitted, 1);
+      solve(all, 1);
       return problem.with_ordered_lobes(scaled);
     }
-    const Dataset& rounds_data = schedule_.rounds_with_all ? problem.fitted : problem.coarse;
+    Evaluations few(problem, problem.coarse);
+    const bool few_are_all = problem.coarse.nodes.size() == problem.fitted.nodes.size();
+    Evaluations& of_rounds = schedule_.rounds_with_all || few_are_all ? all : few;
     double factor = 1;
     bool agrees = false;
     for (int round = 0; round < schedule_.noise_rounds; ++round) {
       report(0.6 + 0.05 * round, "refining the best start");
-      noise_ = noise_at(problem, rounds_data, scaled);
+      noise_ = noise_at(problem, of_rounds, scaled);
       const double before = std::exchange(
           factor, round < schedule_.independent_rounds ? noise_.independent_factor : noise_.factor);
       agrees =
           round > schedule_.independent_rounds && std::abs(factor / before - 1) < kFactorAgrees;
       if (agrees) break;
-      solve(rounds_data, factor);
+      solve(of_rounds, factor);
     }
+    count_work(few);
     if (!schedule_.rounds_with_all) {
       report(0.85, "refining with all wavelengths");
-      noise_ = noise_at(problem, problem.fitted, scaled);
-      solve(problem.fitted, noise_.factor);
+      noise_ = noise_at(problem, all, scaled);
+      solve(all, noise_.factor);
     } else if (!agrees) {
-      noise_ = noise_at(problem, problem.fitted, scaled);
+      noise_ = noise_at(problem, all, scaled);
     }
     return problem.with_ordered_lobes(scaled);
   }
@@ -295,11 +303,9 @@ class Fit {
                                      jacobian.transpose() * spread);
   }
 
-  void describe_uncertainty(const Problem& problem, const Eigen::VectorXd& scaled) {
+  void describe_uncertainty(const Problem& problem, const SampleValues& values,
+                            const Eigen::VectorXd& scaled) {
     const SkyState fitted = problem.state(scaled);
-    const SampleValues values =
-        sky_values(*problem.model, problem.fitted, fitted, problem.unknowns);
-    ++(problem.unknowns.empty() ? result_.model_evaluations : result_.derivative_evaluations);
     const Whitened white = whiten(problem.fitted, problem.likelihood, values, noise_.factor);
     const Uncertainty uncertain = uncertainty_at(problem, scaled, white);
     describe_unknowns(problem, fitted, uncertain);

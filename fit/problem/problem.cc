@@ -32,16 +32,13 @@ void require_possible(const SkyState& state) {
 
 class SkyResiduals : public ResidualFunction {
  public:
-  SkyResiduals(const Problem& problem, const Dataset& data, double factor)
-      : problem_(problem), data_(data), factor_(factor) {}
+  SkyResiduals(const Problem& problem, Evaluations& evaluations, double factor)
+      : problem_(problem), evaluations_(evaluations), factor_(factor) {}
 
   Residuals evaluate(const Eigen::VectorXd& scaled, bool with_jacobian) override {
     const std::vector<Unknown>& unknowns = problem_.unknowns;
-    const SkyState state = problem_.state(scaled);
-    require_possible(state);
-    const SampleValues values = sky_values(*problem_.model, data_, state,
-                                           with_jacobian ? unknowns : std::vector<Unknown>{});
-    Whitened white = whiten(data_, problem_.likelihood, values, factor_);
+    Whitened white = whiten(evaluations_.data(), problem_.likelihood,
+                            evaluations_.at(scaled, with_jacobian), factor_);
     for (Eigen::Index u = 0; u < white.jacobian_per_unit.cols(); ++u) {
       white.jacobian_per_unit.col(u) *=
           unknowns[static_cast<std::size_t>(u)].value_per_scaled(scaled(u));
@@ -51,7 +48,7 @@ class SkyResiduals : public ResidualFunction {
 
  private:
   const Problem& problem_;
-  const Dataset& data_;
+  Evaluations& evaluations_;
   double factor_;
 };
 
@@ -216,19 +213,39 @@ SkyState Problem::with_profiled_scales(SkyState at, const Dataset& data) const {
   return at;
 }
 
-Eigen::VectorXd Problem::residuals(const Dataset& data, const Eigen::VectorXd& scaled,
-                                   double factor) const {
-  return whiten(data, likelihood, sky_values(*model, data, state(scaled), {}), factor).residual;
+SampleValues Evaluations::at(const Eigen::VectorXd& scaled, bool with_derivatives) {
+  constexpr std::size_t kKept = 3;
+  auto known = std::ranges::find_if(latest_, [&](const Point& point) {
+    return point.with_derivatives >= with_derivatives && point.scaled == scaled;
+  });
+  if (known == latest_.end()) {
+    const SkyState state = problem_.state(scaled);
+    require_possible(state);
+    ++(with_derivatives ? derivatives_computed_ : values_computed_);
+    SampleValues values = sky_values(*problem_.model, data_, state,
+                                     with_derivatives ? problem_.unknowns : std::vector<Unknown>{});
+    if (latest_.size() == kKept) latest_.erase(latest_.begin());
+    latest_.push_back({scaled, with_derivatives, std::move(values)});
+    known = latest_.end() - 1;
+  }
+  if (with_derivatives) return known->values;
+  return {known->values.value, Eigen::MatrixXd(known->values.value.size(), 0)};
 }
 
 Minimum Problem::solve(const Dataset& data, const Eigen::VectorXd& start_scaled, double factor,
                        const SolverLimits& limits) const {
-  SkyResiduals function(*this, data, factor);
+  Evaluations evaluations(*this, data);
+  return solve(evaluations, start_scaled, factor, limits);
+}
+
+Minimum Problem::solve(Evaluations& evaluations, const Eigen::VectorXd& start_scaled, double factor,
+                       const SolverLimits& limits) const {
+  SkyResiduals function(*this, evaluations, factor);
   if (unknowns.empty()) {
     const Residuals as_is = function.evaluate(start_scaled, false);
     return {start_scaled, 0.5 * as_is.value.squaredNorm(), 0, 1, 0, true, "NOTHING IS FREE"};
   }
-  return minimise(least_squares(*this, data, &function), start_scaled, limits);
+  return minimise(least_squares(*this, evaluations.data(), &function), start_scaled, limits);
 }
 
 std::vector<double> Problem::loss_weights(const Eigen::VectorXd& residual) const {

@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "model/numerics/angles.h"
+#include "model/numerics/batch.h"
 
 namespace skyfit::fit {
 namespace {
 
 constexpr double kPointingStep = 0.25 * kRadiansPerDegree;
 
-// Views that see one atmosphere and are measured at the same wavelengths.
+// Views that see one atmosphere and are measured at the same wavelengths, or at few.
 struct Group {
   int scan = 0;  // the first of them
   std::vector<int> views;
@@ -74,6 +75,17 @@ std::map<Sun, std::set<int>> channels_of_suns(const Dataset& data) {
   return channels;
 }
 
+// A photometer measures each wavelength under a sun of its own. As many wavelengths as the model
+// reference solves at once are cheaper asked for under all suns together than each by itself.
+void join_few(const Dataset& data, std::map<Sun, std::set<int>>& channels) {
+  std::set<int> all;
+  for (const auto& [sun, of_sun] : channels) all.insert(of_sun.begin(), of_sun.end());
+  std::size_t nodes = 0;
+  for (const int channel : all) nodes += data.channels[static_cast<std::size_t>(channel)].node.size();
+  if (nodes > batch::kBatchWidth) return;
+  for (auto& [sun, of_sun] : channels) of_sun = all;
+}
+
 void add_nodes(const Dataset& data, const std::set<int>& channels, Group& group) {
   group.index_of_node.assign(data.nodes.size(), -1);
   for (const int channel : channels) {
@@ -88,7 +100,8 @@ void add_nodes(const Dataset& data, const std::set<int>& channels, Group& group)
 
 // Views without a sample are in none, nor are those of irradiances.
 std::vector<Group> groups_of(const Dataset& data, const SkyState& state) {
-  const std::map<Sun, std::set<int>> channels = channels_of_suns(data);
+  std::map<Sun, std::set<int>> channels = channels_of_suns(data);
+  join_few(data, channels);
   std::map<std::pair<int, std::set<int>>, Group> groups;
   for (std::size_t r = 0; r < data.samples.size(); ++r) {
     if (data.samples[r].irradiance) continue;

@@ -96,7 +96,7 @@ TEST_F(CacheTest, NoPlaceForItIsToldWithTheStatisticsAlone) {
 TEST_F(CacheTest, TheDoctorSaysWhereItIs) {
   const Outcome outcome = run({"doctor"}, here_);
   EXPECT_THAT(outcome.out,
-              HasSubstr("ok      cache of frames: " + (caches_.path() / "skyfit").string() +
+              HasSubstr("ok      cache of frames and particles: " + (caches_.path() / "skyfit").string() +
                         ", 0 entries, 0.0 MB of at most 2000 MB\n"));
 }
 
