@@ -53,10 +53,10 @@ std::string cache_line() {
   if (const auto trouble = cache.trouble())
     return fmt::format("none    cache of frames and particles: {}\n", printable(*trouble));
   const ContentCache::Usage usage = cache.usage();
-  return fmt::format("ok      cache of frames and particles: {}, {} entries, {:.1f} MB of at most {:.0f} MB\n",
-                     printable(directory->string()), usage.entries,
-                     static_cast<double>(usage.bytes) / kMegabyte,
-                     static_cast<double>(cache.limit_bytes()) / kMegabyte);
+  return fmt::format(
+      "ok      cache of frames and particles: {}, {} entries, {:.1f} MB of at most {:.0f} MB\n",
+      printable(directory->string()), usage.entries, static_cast<double>(usage.bytes) / kMegabyte,
+      static_cast<double>(cache.limit_bytes()) / kMegabyte);
 }
 
 void run_doctor() {

@@ -46,9 +46,9 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   if (arguments.reference.empty() && arguments.irradiance.empty())
     throw CLI::RequiredError("--reference or --irradiance");
   if (arguments.reference == kAllStandardSkies && !arguments.irradiance.empty())
-    throw UsageError("--irradiance", arguments.irradiance,
-                     fmt::format("expected one sky beside it, not --reference {}",
-                                 kAllStandardSkies));
+    throw UsageError(
+        "--irradiance", arguments.irradiance,
+        fmt::format("expected one sky beside it, not --reference {}", kAllStandardSkies));
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
   require_netcdf(arguments.netcdf);
@@ -127,7 +127,8 @@ void add_fit_command(CLI::App& app) {
       "depth and, of two kinds or more, its single scattering albedo free. Columns q_over_i and\n"
       "u_over_i, or dolp, of a CSV of samples are fitted beside them, linear and without a scale;\n"
       "irradiances beside a sky logarithmically, without a scale and with their own noise. They\n"
-      "belong to the scan of the same minute, or without a time to the scan whose sun is theirs to\n"
+      "belong to the scan of the same minute, or without a time to the scan whose sun is theirs "
+      "to\n"
       "1 deg; those of other times are further scans of the same atmosphere.\n"
       "\n" +
       standard_sky_list() + "\n" + parameter_list() +

@@ -42,8 +42,8 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
   return files;
 }
 
-// Directions of a sky are where the instrument truly points; a sample outside the model's spectra, or of a
-// scan without a scale, is left out.
+// Directions of a sky are where the instrument truly points; a sample outside the model's spectra,
+// or of a scan without a scale, is left out.
 std::vector<plot::Sample> samples_of(const fit::Result& result) {
   std::vector<plot::Sample> samples;
   for (std::size_t i = 0; i < result.reference.samples.size(); ++i) {
@@ -53,9 +53,9 @@ std::vector<plot::Sample> samples_of(const fit::Result& result) {
         result.scans, s.scan, [](const fit::ScanOutcome& outcome) { return outcome.info.number; });
     const SkyPoint stated = fit::sky_point(s);
     const SkyPoint point =
-        s.irradiance ? stated
-                     : fit::pointed(stated, scan->info.sun_azimuth + s.sun_azimuth_since,
-                                    scan->instrument);
+        s.irradiance
+            ? stated
+            : fit::pointed(stated, scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
     const bool fitted = std::isfinite(result.sigma[i]);
     samples.push_back(
         {static_cast<int>(scan - result.scans.begin()) + 1, whole_degrees(s.sun_zenith),

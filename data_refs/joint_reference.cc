@@ -103,8 +103,7 @@ Reference joined(Reference sky, const Reference& irradiances, bool own_scans) {
                                             quantity_name(sky.quantity)));
   if (!is_irradiance(irradiances.quantity))
     throw std::invalid_argument(fmt::format("{}: {}: expected irradiances beside a sky",
-                                            irradiances.name,
-                                            quantity_name(irradiances.quantity)));
+                                            irradiances.name, quantity_name(irradiances.quantity)));
   const std::vector<Moment> scans = moments_of(sky), moments = moments_of(irradiances);
   sky.irradiance_quantity = irradiances.quantity;
   sky.scans.resize(scans.size());

@@ -225,8 +225,8 @@ class Fit {
                           0,
                           0};
       const int scan = static_cast<int>(s);
-      outcome.directions = static_cast<int>(
-          std::ranges::count(sky.lines_of_sight, scan, &LineOfSight::scan));
+      outcome.directions =
+          static_cast<int>(std::ranges::count(sky.lines_of_sight, scan, &LineOfSight::scan));
       outcome.samples =
           static_cast<int>(std::ranges::count_if(sky.samples, [&](const Sample& sample) {
             return !sample.polarisation && sky.scan_of(sample) == scan;
@@ -299,8 +299,7 @@ class Fit {
     const auto of_sky = static_cast<Eigen::Index>(sky.samples.size());
     Eigen::MatrixXd spread = jacobian;  // irradiances beside the sky vary by themselves, as stated
     spread.topRows(of_sky) = variance * times_correlation(sky, noise_, jacobian.topRows(of_sky));
-    return with_correlated_residuals(independent, variables, scaled,
-                                     jacobian.transpose() * spread);
+    return with_correlated_residuals(independent, variables, scaled, jacobian.transpose() * spread);
   }
 
   void describe_uncertainty(const Problem& problem, const SampleValues& values,

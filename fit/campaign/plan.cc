@@ -263,9 +263,8 @@ CampaignPlan load_plan(const fs::path& file) {
   const PresetDocument document = file.extension() == ".toml" ? toml_document(text, file.string())
                                                               : PresetDocument(text, file.string());
   const PresetReader plan = document.root();
-  plan.expect_only(
-      {"skyfit_campaign", "inputs", "kind", "irradiances", "group", "options", "tasks_per_file",
-       "note"});
+  plan.expect_only({"skyfit_campaign", "inputs", "kind", "irradiances", "group", "options",
+                    "tasks_per_file", "note"});
   if (plan.number("skyfit_campaign") != kPlanVersion)
     plan.fail_value("skyfit_campaign", fmt::format("{}", kPlanVersion));
   CampaignPlan result;

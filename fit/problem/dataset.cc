@@ -28,8 +28,7 @@ bool is_used(const refs::Sample& sample, const SpectralData& spectra, const Sele
   if (selection.with_weightless)
     return sample.wavelength_nm == 0 || has_spectra_at(spectra, sample.wavelength_nm);
   if (sample.weight == 0) return false;
-  return sample.irradiance ||
-         refs::scattering_angle(sample) >= selection.exclude_sun - kRounding;
+  return sample.irradiance || refs::scattering_angle(sample) >= selection.exclude_sun - kRounding;
 }
 
 void check(const refs::Reference& reference, std::size_t index, const Selection& selection) {
@@ -164,7 +163,8 @@ class Channels {
     if (quantity != refs::Quantity::kIrradiance) {
       if (luminance_) return;
       luminance_ = next;
-      const LuminanceRule rule = coarse ? coarse_luminance_rule(spectra_) : luminance_rule(spectra_);
+      const LuminanceRule rule =
+          coarse ? coarse_luminance_rule(spectra_) : luminance_rule(spectra_);
       data_.channels.push_back(appended_channel(data_, rule.nodes, rule.weight));
       return;
     }
@@ -219,9 +219,9 @@ void add_direction(Dataset& data, const refs::Sample& sample, bool is_new) {
   data.views.push_back({scan, point, info->sun_azimuth + sample.sun_azimuth_since});
 }
 
-// Irradiances beside a sky last, sorted by line of sight, wavelength and sun. Lines of sight of luminances stay in the order of
-// the samples; those of spectra, whose wavelengths may come one after the other, are sorted as
-// well.
+// Irradiances beside a sky last, sorted by line of sight, wavelength and sun. Lines of sight of
+// luminances stay in the order of the samples; those of spectra, whose wavelengths may come one
+// after the other, are sorted as well.
 std::vector<std::size_t> in_order(const refs::Reference& reference,
                                   std::vector<std::size_t> samples) {
   const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
@@ -231,8 +231,8 @@ std::vector<std::size_t> in_order(const refs::Reference& reference,
   std::ranges::stable_sort(samples, {}, [&](std::size_t i) {
     const refs::Sample& s = reference.samples[i];
     const refs::DirectionFromSun direction = refs::direction_from_sun(s);
-    return std::tuple(refs::is_beside_sky(reference, s), s.scan, spectral ? 0 : first.at(direction), direction, s.wavelength_nm,
-                      s.sun_zenith);
+    return std::tuple(refs::is_beside_sky(reference, s), s.scan, spectral ? 0 : first.at(direction),
+                      direction, s.wavelength_nm, s.sun_zenith);
   });
   return samples;
 }

@@ -67,8 +67,8 @@ struct Sample {
 
 struct Dataset {
   std::vector<WavelengthNode> nodes;
-  std::vector<Channel> channels;            // ascending wavelength; then of irradiances
-  std::vector<ScanInfo> scans;              // all of the reference, also those without a sample
+  std::vector<Channel> channels;  // ascending wavelength; then of irradiances
+  std::vector<ScanInfo> scans;    // all of the reference, also those without a sample
   // By scan; those of irradiances beside a sky come after all others, as do views and samples.
   std::vector<LineOfSight> lines_of_sight;
   std::vector<View> views;      // those of a line of sight follow each other

@@ -146,10 +146,10 @@ Whitened whiten(const Dataset& data, const Likelihood& likelihood, const SampleV
     white.jacobian_per_unit(indices, Eigen::all) = of.jacobian_per_unit;
   };
   take(others, of_radiances);
-  take(irradiances,
-       whiten_radiances(only_samples(data, irradiances), {Link::kLog, Scale::kFixed, {}},
-                        {values.value(irradiances), values.derivative(irradiances, Eigen::all)},
-                        1));
+  take(
+      irradiances,
+      whiten_radiances(only_samples(data, irradiances), {Link::kLog, Scale::kFixed, {}},
+                       {values.value(irradiances), values.derivative(irradiances, Eigen::all)}, 1));
   for (const int i : readings) {
     const Sample& reading = data.samples[static_cast<std::size_t>(i)];
     const double sigma = factor * reading.sigma;

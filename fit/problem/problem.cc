@@ -267,8 +267,8 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
   const Atmosphere<double> base =
       with_fixed_values(evaluate_only ? given : with_lobes(given, options.lobes), options);
   const Pointing pointing = pointing_of(options, reference);
-  const bool several_wavelengths =
-      only_sky(problem.fitted).channels.size() > 1 && reference.quantity == refs::Quantity::kSpectralRadiance;
+  const bool several_wavelengths = only_sky(problem.fitted).channels.size() > 1 &&
+                                   reference.quantity == refs::Quantity::kSpectralRadiance;
   const FitOptions with_defaults =
       with_default_parameters(with_free_of_irradiances(options, reference, model, base), model,
                               several_wavelengths, pointing != Pointing::kStated, base);

@@ -81,7 +81,8 @@ void join_few(const Dataset& data, std::map<Sun, std::set<int>>& channels) {
   std::set<int> all;
   for (const auto& [sun, of_sun] : channels) all.insert(of_sun.begin(), of_sun.end());
   std::size_t nodes = 0;
-  for (const int channel : all) nodes += data.channels[static_cast<std::size_t>(channel)].node.size();
+  for (const int channel : all)
+    nodes += data.channels[static_cast<std::size_t>(channel)].node.size();
   if (nodes > batch::kBatchWidth) return;
   for (auto& [sun, of_sun] : channels) of_sun = all;
 }
@@ -219,9 +220,9 @@ class Evaluation {
     const Channel& channel = data_.channels[static_cast<std::size_t>(sample.channel)];
     const int scan = data_.scan_of(sample);
     // The scale of a sky is not that of what stands beside it.
-    const double factor =
-        sample.beside_sky ? data_.scans[static_cast<std::size_t>(scan)].inverse_distance2
-                          : factor_of(scan);
+    const double factor = sample.beside_sky
+                              ? data_.scans[static_cast<std::size_t>(scan)].inverse_distance2
+                              : factor_of(scan);
     for (std::size_t k = 0; k < channel.node.size(); ++k) {
       const double weight = factor * channel.weight[k];
       const int node = group.index_of_node[static_cast<std::size_t>(channel.node[k])];

@@ -86,9 +86,9 @@ void read_irradiances(const PresetReader& record, Result& result) {
     const std::string_view name = kIrradianceNames[static_cast<std::size_t>(kind)];
     if (!kinds.has(name)) continue;
     const PresetReader row = kinds.object(name);
-    result.irradiances.push_back(
-        {static_cast<Irradiance>(kind), count_from(row, "samples"), row.number("rms_percent_start"),
-         row.number("rms_percent"), row.number("mean_bias_percent"), row.number("sigma_percent")});
+    result.irradiances.push_back({static_cast<Irradiance>(kind), count_from(row, "samples"),
+                                  row.number("rms_percent_start"), row.number("rms_percent"),
+                                  row.number("mean_bias_percent"), row.number("sigma_percent")});
   }
 }
 

@@ -153,8 +153,8 @@ void add_errors(xml_node body, const Result& result) {
     row(scan_name(result, s), result.scans[s].errors);
   add(body, "p", errors_meaning(result), "small");
   if (!result.irradiances.empty()) {
-    xml_node beside = add_table(body, {irradiances_title(result), "samples", "start", "fitted",
-                                       "mean bias", "one sigma"});
+    xml_node beside = add_table(
+        body, {irradiances_title(result), "samples", "start", "fitted", "mean bias", "one sigma"});
     for (const IrradianceErrors& e : result.irradiances) {
       add_row(beside, {std::string(kIrradianceNames[e.what]), std::to_string(e.samples),
                        number_text(e.start_rms, 4), number_text(e.rms, 4),

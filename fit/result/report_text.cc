@@ -290,10 +290,10 @@ std::string brief_report(const Result& result) {
 
 std::string full_report(const Result& result, const Checks& checks) {
   return header(result) + reference_remarks(result) + errors_text(result) +
-         polarisation_text(result) + irradiances_text(result) + rms_text(result) + scales_text(result) +
-         unknowns_text(result) + pulled_text(pulled_priors(result)) + downweighted_text(result) +
-         correlation_text(result) + findings_text(result) + starts_text(result) +
-         profiles_text(checks.profiles) +
+         polarisation_text(result) + irradiances_text(result) + rms_text(result) +
+         scales_text(result) + unknowns_text(result) + pulled_text(pulled_priors(result)) +
+         downweighted_text(result) + correlation_text(result) + findings_text(result) +
+         starts_text(result) + profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
          hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }

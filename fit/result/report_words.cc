@@ -62,10 +62,9 @@ std::string samples_text(const Result& result) {
   if (refs::is_irradiance(result.reference.quantity))
     return fmt::format("{} under {} sun{}", result.samples, result.scans.size(),
                        result.scans.size() == 1 ? "" : "s");
-  std::string text =
-      fmt::format("{} in {} directions of {} scans, {:.4g} deg around the sun left out",
-                  result.samples, result.directions, scans_of_sky(result),
-                  result.exclude_sun * kDegreesPerRadian);
+  std::string text = fmt::format(
+      "{} in {} directions of {} scans, {:.4g} deg around the sun left out", result.samples,
+      result.directions, scans_of_sky(result), result.exclude_sun * kDegreesPerRadian);
   int beside = 0;
   for (const IrradianceErrors& errors : result.irradiances) beside += errors.samples;
   if (beside > 0) {

@@ -81,8 +81,7 @@ Dataset resampled(const Dataset& data, std::mt19937_64& generator) {
   std::fill_n(drawn.begin(), directions, 0);
   for (std::size_t first = 0; first < directions;) {
     std::size_t last = first;
-    while (last < directions &&
-           data.lines_of_sight[last].scan == data.lines_of_sight[first].scan)
+    while (last < directions && data.lines_of_sight[last].scan == data.lines_of_sight[first].scan)
       ++last;
     std::uniform_int_distribution<std::size_t> any(first, last - 1);
     for (std::size_t k = first; k < last; ++k) ++drawn[any(generator)];

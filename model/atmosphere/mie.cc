@@ -167,8 +167,7 @@ MieCoefficients mie_coefficients(double x, Complex index, bool by_index) {
         index.real(), index.imag()));
   }
   const int terms = terms_of(x);
-  const Complex z = index * x, inverse_index = ratio_of(1, index),
-                inverse_z2 = ratio_of(1, z * z);
+  const Complex z = index * x, inverse_index = ratio_of(1, index), inverse_z2 = ratio_of(1, z * z);
   const std::vector<Complex> d = logarithmic_derivatives(z, terms);
   const std::vector<double> psi = riccati_bessel(x, terms), eta = riccati_neumann(x, terms);
   MieCoefficients c;

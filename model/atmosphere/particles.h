@@ -87,7 +87,7 @@ class ParticleTables {
 };
 
 // Where the optics of modes are kept from one process to the next; null, as at first: nowhere. For
-// atmospheres that stay as they are: a fit of radii would leave there what is never asked for again.
+// atmospheres that stay as they are: a fit of radii would leave what is never asked for again.
 void keep_particles_in(std::shared_ptr<ContentCache> cache);
 
 // The distribution is cut off here, four widths above its median: 1e-5 of the extinction of large

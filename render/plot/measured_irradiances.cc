@@ -25,7 +25,8 @@ std::string words_of(std::string_view name) {
 std::vector<std::string_view> kinds_of(const MeasuredOutcome& outcome) {
   std::vector<std::string_view> kinds;
   for (const std::string_view name : kIrradianceNames) {
-    if (std::ranges::count(outcome.irradiances, name, &Sample::irradiance) > 0) kinds.push_back(name);
+    if (std::ranges::count(outcome.irradiances, name, &Sample::irradiance) > 0)
+      kinds.push_back(name);
   }
   return kinds;
 }

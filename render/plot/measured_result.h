@@ -25,7 +25,7 @@ struct MeasuredUnknown {
 
 struct MeasuredOutcome {
   std::string title;
-  bool spectral = true;  // else cd/m^2
+  bool spectral = true;             // else cd/m^2
   std::vector<Sample> samples;      // that have a direction
   std::vector<Sample> irradiances;  // the others
   std::string irradiance_unit;      // of these

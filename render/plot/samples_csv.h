@@ -3,9 +3,9 @@
 // Header, exactly:
 // scan,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,wavelength_nm,reference,sigma,model,residual,weight,
 // followed by start_model where the start values are known, and by irradiance (kIrradianceNames of
-// model/irradiance.h, empty of other samples) where there are irradiances. Numbers are the shortest that read back
-// to the same double; residual is ln(model / reference), nan where one is not positive, and is not
-// read back.
+// model/irradiance.h, empty of other samples) where there are irradiances. Numbers are the shortest
+// that read back to the same double; residual is ln(model / reference), nan where one is not
+// positive, and is not read back.
 #pragma once
 
 #include <cmath>

@@ -93,9 +93,15 @@ TEST_F(CacheTest, ASkyOfParticlesIsTheSameWithAndWithoutIt) {
       "phase": {"type": "size-distribution", "median_radius_um": 0.15, "width": 0.45,
                 "material": "sulphate"}}]})");
   const auto sky = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {
-        "sky", "--preset", (folder_ / "particles.json").string(), "--sun-zenith-deg", "40",
-        "--view-zenith-deg", "0:60:30", "--wavelength-nm", "440,550"};
+    std::vector<std::string> arguments = {"sky",
+                                          "--preset",
+                                          (folder_ / "particles.json").string(),
+                                          "--sun-zenith-deg",
+                                          "40",
+                                          "--view-zenith-deg",
+                                          "0:60:30",
+                                          "--wavelength-nm",
+                                          "440,550"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run(arguments, here_);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -120,9 +126,9 @@ TEST_F(CacheTest, NoPlaceForItIsToldWithTheStatisticsAlone) {
 
 TEST_F(CacheTest, TheDoctorSaysWhereItIs) {
   const Outcome outcome = run({"doctor"}, here_);
-  EXPECT_THAT(outcome.out,
-              HasSubstr("ok      cache of frames and particles: " + (caches_.path() / "skyfit").string() +
-                        ", 0 entries, 0.0 MB of at most 2000 MB\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("ok      cache of frames and particles: " +
+                                     (caches_.path() / "skyfit").string() +
+                                     ", 0 entries, 0.0 MB of at most 2000 MB\n"));
 }
 
 }  // namespace

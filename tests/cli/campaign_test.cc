@@ -79,7 +79,8 @@ TEST_F(CampaignTest, FitsIrradiancesBesideSkies) {
     write("both.json", text.replace(text.find("IT"), 2, table));
     return run({"campaign", in("both.json"), "--out", in("both")});
   };
-  EXPECT_THAT(with("/sun.csv").err, HasSubstr("both.json:2: irradiances: /sun.csv: expected a file"));
+  EXPECT_THAT(with("/sun.csv").err,
+              HasSubstr("both.json:2: irradiances: /sun.csv: expected a file"));
   EXPECT_THAT(with("moon.csv").err, HasSubstr("both.json:2: irradiances: "));
   const Outcome done = with("sun.csv");
   EXPECT_EQ(done.status, 0) << done.err;

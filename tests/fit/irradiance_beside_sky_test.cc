@@ -84,8 +84,7 @@ Eigen::MatrixXd information(const refs::Reference& reference) {
   FitOptions wanted = options();
   if (refs::is_irradiance(reference.quantity)) wanted.noise.reset();
   const Problem problem = make_problem(reference, spectra(), ToySky(), wanted);
-  const SampleValues values =
-      sky_values(ToySky(), problem.fitted, problem.start, problem.unknowns);
+  const SampleValues values = sky_values(ToySky(), problem.fitted, problem.start, problem.unknowns);
   const Eigen::MatrixXd jacobian =
       whiten(problem.fitted, problem.likelihood, values, 1).jacobian_per_unit;
   return jacobian.transpose() * jacobian;
@@ -206,11 +205,11 @@ TEST(IrradianceBesideSky, HoldOutsAndBootstrapLeaveTheIrradiances) {
 }
 
 TEST(IrradianceBesideSky, ReportsRecordsAndTablesHoldBoth) {
-  const Result result = fit_atmosphere(
-      refs::with_irradiances(
-          made_by(sky(refs::Quantity::kLuminance), true_atmosphere(1), 5, kNoise),
-          made_by(irradiances(), true_atmosphere(1), 6, kIrradianceNoise)),
-      spectra(), ToySky(), options());
+  const Result result =
+      fit_atmosphere(refs::with_irradiances(
+                         made_by(sky(refs::Quantity::kLuminance), true_atmosphere(1), 5, kNoise),
+                         made_by(irradiances(), true_atmosphere(1), 6, kIrradianceNoise)),
+                     spectra(), ToySky(), options());
   EXPECT_THAT(full_report(result, {}), HasSubstr("with 9 illuminances, log residuals"));
   EXPECT_THAT(full_report(result, {}), HasSubstr("Illuminances beside the sky, percent"));
   const Result read = result_of(result.preset, "preset");
@@ -222,7 +221,8 @@ TEST(IrradianceBesideSky, ReportsRecordsAndTablesHoldBoth) {
   using Dimension = std::pair<std::string, std::size_t>;
   EXPECT_THAT(std::vector<Dimension>({{"sample", 4 * 33}, {"irradiance_sample", 9}}),
               IsSubsetOf(file.dimensions));
-  const auto variable = std::ranges::find(file.variables, "irradiance_model", &NetcdfVariable::name);
+  const auto variable =
+      std::ranges::find(file.variables, "irradiance_model", &NetcdfVariable::name);
   ASSERT_NE(variable, file.variables.end());
   EXPECT_EQ(variable->units, "lx");
   EXPECT_EQ(std::get<std::vector<double>>(variable->values).size(), 9u);
