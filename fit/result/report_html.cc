@@ -79,11 +79,11 @@ void add_summary(xml_node body, const Result& result) {
   item("Started from", result.start_name);
   item("Likelihood", likelihood_text(result));
   item("Samples", samples_text(result));
-  item("Solver",
-       fmt::format("{} after {} iterations of all {} starts; {} model solutions, {} with "
-                   "derivatives; {:.3g} s",
-                   result.termination, result.iterations, result.starts.size(),
-                   result.model_evaluations, result.derivative_evaluations, result.wall_seconds));
+  item("Solver", fmt::format("{} after {} iterations of all {} starts; {} model solutions, {} with "
+                             "derivatives; {:.3g} s",
+                             result.termination, result.iterations, result.starts.size(),
+                             result.model_evaluations + result.derivative_evaluations,
+                             result.derivative_evaluations, result.wall_seconds));
   for (const std::string& note : result.reference.notes) item("Note", note);
   for (const auto& [reason, count] : result.samples_left_out)
     item("Left out", fmt::format("{} samples: {}", count, reason));

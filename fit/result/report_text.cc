@@ -36,7 +36,7 @@ std::string header(const Result& result) {
       result.preset.name, result.reference.description, result.model_name,
       transfer_name(result.transfer), result.version, result.start_name, likelihood_text(result),
       samples_text(result), result.termination, result.iterations, result.starts.size(),
-      result.model_evaluations, result.derivative_evaluations);
+      result.model_evaluations + result.derivative_evaluations, result.derivative_evaluations);
 }
 
 // What is known of the reference, and its samples without weight by reason.
