@@ -117,6 +117,10 @@ bool has_absolute_values(const fit::Result& result) {
   return result.reference.quantity != refs::Quantity::kRelativeLuminance;
 }
 
+bool has_measured_figures(const fit::Result& result) {
+  return has_absolute_values(result) || result.reference.irradiance_quantity;
+}
+
 void write_fit(const std::filesystem::path& directory, const FinishedFit& finished,
                const SkyModel& model, Figures& figures) {
   const fit::Result& result = finished.result;
@@ -128,7 +132,7 @@ void write_fit(const std::filesystem::path& directory, const FinishedFit& finish
   const std::vector<plot::Sample> directions = plot::directions_only(samples);
   if (shows_comparison(result, directions))
     draw_comparison(directory, {directory.string(), result.preset, directions}, model, figures);
-  if (has_absolute_values(result) || result.reference.irradiance_quantity)
+  if (has_measured_figures(result))
     draw_measured(directory, measured_outcome(result, samples), figures);
 }
 
@@ -195,7 +199,7 @@ std::vector<fit::ReportFigure> report_figures(const std::filesystem::path& direc
     add("Reference, fit and start in the sun's vertical plane, and maps of the residual over the "
         "sky");
   }
-  if (!has_absolute_values(result) && !result.reference.irradiance_quantity) return figures;
+  if (!has_measured_figures(result)) return figures;
   const plot::MeasuredOutcome measured = read_measured_outcome(directory);
   for (const plot::MeasuredFigure& figure : plot::measured_figures()) {
     if (!figure.can_draw(measured)) continue;

@@ -31,6 +31,8 @@ FinishedFit read_fit(const std::filesystem::path& directory);
 
 // Whether the figures of measured skies show it: everything but a relative luminance.
 bool has_absolute_values(const fit::Result& result);
+// Whether some of them do: also of irradiances beside a relative luminance.
+bool has_measured_figures(const fit::Result& result);
 
 // What those figures show, with the samples of a directory that was read: of a relative luminance
 // nothing but the irradiances beside it.
