@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The model `tables`, which evaluates the renderer's tables: near to truth, and near to the
 // reference model wherever one looks from.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -152,13 +151,6 @@ TEST(HeightAxis, HasTexelsAtTheEndsOfALayerAndIsItsOwnInverse) {
     EXPECT_NEAR(axis.unit(axis.height(i / 1000.0, kTop), kTop), i / 1000.0, kRoundTrip);
   std::erase_if(a.constituents, [](const auto& c) { return c.name == "cloud"; });
   EXPECT_EQ(HeightAxis(shells_of(a, Keep::kWhatMatters), 32), HeightAxis());
-}
-
-// A cloud that rises takes the texels with it.
-TEST(HeightAxis, LiesBetweenTwo) {
-  const HeightAxis a({0, 0.2, 0.3, 1}), b({0, 0.4, 0.7, 1});
-  EXPECT_THAT(interpolated(a, b, 0.5).nodes(),
-              testing::ElementsAre(0, testing::DoubleEq(0.3), testing::DoubleEq(0.5), 1));
 }
 
 TEST(TableModel, IrradianceTableFollowsTheReference) {
