@@ -106,7 +106,8 @@ bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   return !is_closed_form(tables.sky_rays.mapping) &&
          tables.sky_rays.mapping != SkyRayMapping::kONeil &&
          options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
-         options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
+         options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness &&
+         !has_dense_layers(shells_of(tables.atmosphere, Keep::kWhatMatters));
 }
 
 bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
