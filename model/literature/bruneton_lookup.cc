@@ -42,10 +42,10 @@ typename BrunetonTables<N>::InScatter BrunetonTables<N>::in_scatter_by_radii(dou
   const float bottom = km(geometry_.bottom()), top = bottom + km(geometry_.thickness()),
               r = bottom + km(height), cosine = static_cast<float>(mu);
   const bool ground = shared.bruneton_meets_ground(r, cosine, bottom);
-  Between at_mu = between(
-      double{ground ? shared.bruneton_ground_unit_by_radius(r, cosine, bottom)
-                    : shared.bruneton_sky_unit_by_radius(r, cosine, bottom, top)},
-      Sizes::mu / 2);
+  Between at_mu =
+      between(double{ground ? shared.bruneton_ground_unit_by_radius(r, cosine, bottom)
+                            : shared.bruneton_sky_unit_by_radius(r, cosine, bottom, top)},
+              Sizes::mu / 2);
   if (!ground) at_mu.low += Sizes::mu / 2;
   return in_scatter_at(between(double{shared.bruneton_unit_from_radius(r, bottom, top)}, Sizes::r),
                        at_mu, mu_s, nu);
@@ -90,8 +90,8 @@ RayLight<N> BrunetonTables<N>::light(const View& view) const {
   if (choices_.in_scatter == BrunetonInScatter::kExact) {
     light = scattered(view);
   } else if (ray.length > 0) {
-    light = with_phases(view,
-                        in_scatter_by_radii(ray.entry_height, ray.entry_mu, view.mu_s, view.nu));
+    light =
+        with_phases(view, in_scatter_by_radii(ray.entry_height, ray.entry_mu, view.mu_s, view.nu));
   }
   if (ray.hits_ground) {
     light.ground = ground_light(
@@ -107,8 +107,8 @@ template <int N>
 RayLight<N> BrunetonTables<N>::scattered(const View& view) const {
   const ViewRay& ray = view.ray;
   if (ray.length <= 0) return {};
-  return with_phases(view, in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, view.nu,
-                                      ray.hits_ground));
+  return with_phases(
+      view, in_scatter(ray.entry_height, ray.entry_mu, view.mu_s, view.nu, ray.hits_ground));
 }
 
 template <int N>
@@ -138,8 +138,8 @@ SkyRayTexels BrunetonTables<N>::sky_rays() const {
 
 template <int N>
 std::size_t BrunetonTables<N>::bytes() const {
-  return optical_depth_.bytes() + half_transmittance_.bytes() + irradiance_.bytes() + rayleigh_like_.bytes() +
-         single_mie_.bytes();
+  return optical_depth_.bytes() + half_transmittance_.bytes() + irradiance_.bytes() +
+         rayleigh_like_.bytes() + single_mie_.bytes();
 }
 
 template class BrunetonTables<0>;
