@@ -11,7 +11,6 @@
 #include "model/literature/evaluate.h"
 #include "model/literature/grid.h"
 #include "model/literature/table_rays.h"
-#include "model/tables/sky_rays.h"
 
 namespace skyfit::literature {
 
