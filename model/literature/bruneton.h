@@ -10,11 +10,12 @@
 // floats; ":half-inscatter", in-scatter in half floats, looked up by radii in single precision,
 // which finds the ground, or not, by itself, and before surfaces the difference of two such
 // look-ups; ":mie-from-rayleigh", single Mie scattering by the proportion rule. What the choices
-// leave as it is: tables are made in full precision and rounded when they are finished; the light
-// on the ground and before clouds knows the last choice alone; in frames the table of
-// transmittances has the renderer's sizes and mapping (model/tables/tables.h), and the sun's light
-// is read from it too, as by him. The proportion is formed texel by texel at 680 nm, where his
-// shader forms it after the look-up; his wavelengths are not stated.
+// leave as it is: tables are made in full precision and rounded when they are finished. In frames
+// the sky's light on the ground and the light before clouds are read at exact coordinates, paths
+// are not taken from a volume (render/shaders/aerial_volume.glsl), and the table of transmittances,
+// from which the sun's light is read too, as by him, has the renderer's sizes and mapping
+// (model/tables/tables.h). The proportion is formed texel by texel at 680 nm, where his shader
+// forms it after the look-up; his wavelengths are not stated.
 // Five orders of scattering (his four are single scattering and three iterations) and of reflection
 // by a Lambertian ground; ozone as in Bruneton 2017.
 // Deviations: quadrature (table_rays.h); azimuths of incoming light by sixteen cosines, 16 x 32
