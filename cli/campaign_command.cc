@@ -14,6 +14,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "data_refs/irradiance.h"
+#include "data_refs/joint_reference.h"
 #include "data_refs/measured_formats.h"
 #include "data_refs/spectra.h"
 #include "fit/campaign/run.h"
@@ -68,14 +69,27 @@ class HowToFit {
     }
   }
 
+  // The table beside the skies, which is read once.
+  void read_irradiances(const fit::CampaignPlan& plan) {
+    if (plan.irradiances.empty()) return;
+    try {
+      irradiances_ = refs::irradiance_table(plan.folder / plan.irradiances, import_);
+    } catch (const std::exception& error) {
+      throw std::invalid_argument(
+          fmt::format("{}: irradiances: {}", plan.irradiances_place, error.what()));
+    }
+  }
+
   refs::Reference read(const fs::path& file) const {
     return kind_ == fit::InputKind::kIrradiances ? refs::irradiance_table(file, import_)
                                                  : refs::load_measured_sky(file, import_);
   }
   fit::Outcome fit(const fit::Task& task) const {
-    const FitRequest request = fit_request(
-        arguments_, fit::task_reference(task, [this](const fs::path& file) { return read(file); }),
-        app_);
+    refs::Reference reference =
+        fit::task_reference(task, [this](const fs::path& file) { return read(file); });
+    if (irradiances_)
+      reference = refs::with_irradiances_of_scans(std::move(reference), *irradiances_);
+    const FitRequest request = fit_request(arguments_, std::move(reference), app_);
     return fit::outcome_of(task, finished_fit(request, *request.model).result);
   }
 
@@ -103,6 +117,7 @@ class HowToFit {
   CLI::App app_;
   FitArguments arguments_;
   refs::ImportOptions import_;
+  std::optional<refs::Reference> irradiances_;
 };
 
 fit::Shard parse_shard(const std::string& text) {
@@ -176,7 +191,7 @@ void leave_summary(const CampaignArguments& arguments, const fit::CampaignRun& r
 void run(const CampaignArguments& arguments) {
   const fit::CampaignPlan plan = fit::load_plan(arguments.plan);
   const fit::Shard shard = parse_shard(arguments.shard);
-  const HowToFit how(plan);
+  HowToFit how(plan);
   const MadeDirectories made(arguments.out);
   require_writable_file(fs::path(arguments.out) / kCsv);
   if (arguments.slurm > 0) {
@@ -187,6 +202,7 @@ void run(const CampaignArguments& arguments) {
   }
   const std::vector<fit::Task> tasks = fit::tasks_of(
       plan, named_files(), [&](const fs::path& file) { return how.read(file); }, arguments.threads);
+  how.read_irradiances(plan);
   const fit::CampaignRun campaign{plan, tasks, arguments.out};
   if (!arguments.merge) {
     Progress progress("fitting");
@@ -234,7 +250,9 @@ void add_campaign_command(CLI::App& app) {
       "   \"options\": {\"lobes\": 1, \"fix\": [\"ground.albedo=0.2\"]}}\n"
       "Groups: file (the default), scan, day, site. Options are those of skyfit fit. With\n"
       "\"kind\": \"irradiances\" the inputs are tables of irradiances, as of skyfit fit\n"
-      "--irradiance, of which every line is a scan.\n"
+      "--irradiance, of which every line is a scan. \"irradiances\" names such a table beside "
+      "skies,\n"
+      "of which the lines of the minute of a scan are fitted with it.\n"
       "\n"
       "Leaves campaign.nc (NetCDF), campaign.csv, campaign.txt and, where times are known,\n"
       "campaign.svg and campaign.png. A task that cannot be fitted is recorded with its reason\n"

@@ -46,17 +46,17 @@ std::string renderer_of(GraphicsDevice device) {
 // Where the cache is and how large; that there is none is no fault.
 std::string cache_line() {
   const auto directory = user_cache_directory();
-  if (!directory) return fmt::format("none    cache of frames: {}\n", kNoCachePlace);
+  if (!directory) return fmt::format("none    cache of frames and particles: {}\n", kNoCachePlace);
   constexpr double kMegabyte = 1e6;
   ContentCache cache(*directory);
   cache.find(CacheKey("doctor"), [](std::size_t, std::uint64_t) { return std::span<std::byte>(); });
   if (const auto trouble = cache.trouble())
-    return fmt::format("none    cache of frames: {}\n", printable(*trouble));
+    return fmt::format("none    cache of frames and particles: {}\n", printable(*trouble));
   const ContentCache::Usage usage = cache.usage();
-  return fmt::format("ok      cache of frames: {}, {} entries, {:.1f} MB of at most {:.0f} MB\n",
-                     printable(directory->string()), usage.entries,
-                     static_cast<double>(usage.bytes) / kMegabyte,
-                     static_cast<double>(cache.limit_bytes()) / kMegabyte);
+  return fmt::format(
+      "ok      cache of frames and particles: {}, {} entries, {:.1f} MB of at most {:.0f} MB\n",
+      printable(directory->string()), usage.entries, static_cast<double>(usage.bytes) / kMegabyte,
+      static_cast<double>(cache.limit_bytes()) / kMegabyte);
 }
 
 void run_doctor() {

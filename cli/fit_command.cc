@@ -32,16 +32,23 @@ FinishedFit fit_with_progress(FitRequest& request) {
 }
 
 refs::Reference reference_of(const FitArguments& arguments, const CLI::App& command) {
-  if (arguments.irradiance.empty()) {
-    return load_references(arguments.reference, arguments.sun_zenith, arguments.sampling,
-                           arguments.import, command);
+  if (arguments.reference.empty()) {
+    return load_irradiances(arguments.irradiance, arguments.sun_zenith, arguments.import, command);
   }
-  return load_irradiances(arguments.irradiance, arguments.sun_zenith, arguments.import, command);
+  refs::Reference sky = load_references(arguments.reference, arguments.sun_zenith,
+                                        arguments.sampling, arguments.import, command);
+  if (arguments.irradiance.empty()) return sky;
+  return load_with_irradiances(std::move(sky), arguments.irradiance, arguments.sun_zenith,
+                               arguments.import, command);
 }
 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
   if (arguments.reference.empty() && arguments.irradiance.empty())
     throw CLI::RequiredError("--reference or --irradiance");
+  if (arguments.reference == kAllStandardSkies && !arguments.irradiance.empty())
+    throw UsageError(
+        "--irradiance", arguments.irradiance,
+        fmt::format("expected one sky beside it, not --reference {}", kAllStandardSkies));
   if (arguments.reference == kAllStandardSkies) return run_standard_skies(arguments, command);
   const WholeDirectory out(arguments.out, fit_files(), arguments.force);
   require_netcdf(arguments.netcdf);
@@ -86,21 +93,20 @@ std::string parameter_list() {
 void add_fit_command(CLI::App& app) {
   const auto options = std::make_shared<FitArguments>();
   CLI::App* const command = app.add_subcommand("fit", "Fits an atmosphere to a reference.");
-  CLI::Option* const reference =
-      command
-          ->add_option(
-              "--reference", options->reference,
-              "Shipped reference (skyfit references) or measured skies, fitted jointly; cie:all\n"
-              "fits each of the standard skies and leaves one table and one figure of all")
-          ->type_name("NAME|FILE,FILE");
+  command
+      ->add_option(
+          "--reference", options->reference,
+          "Shipped reference (skyfit references) or measured skies, fitted jointly; cie:all\n"
+          "fits each of the standard skies and leaves one table and one figure of all")
+      ->type_name("NAME|FILE,FILE");
   command
       ->add_option(
           "--irradiance", options->irradiance,
-          "Irradiances in the place of a sky: direct_normal, direct_horizontal,\n"
-          "diffuse_horizontal, global_horizontal in lx, or in W/m2 of all wavelengths with\n"
-          "precipitable_water=NUMBERmm; a CSV of them; or FILE@TIME of a weather file")
-      ->type_name("NAME=VALUE[:SIGMA]UNIT,..|FILE.csv|FILE@TIME")
-      ->excludes(reference);
+          "Irradiances in the place of a sky, or beside --reference: direct_normal,\n"
+          "direct_horizontal, diffuse_horizontal, global_horizontal in lx, or in W/m2 of all\n"
+          "wavelengths with precipitable_water=NUMBERmm; a CSV of them; or FILE@TIME of a\n"
+          "weather file")
+      ->type_name("NAME=VALUE[:SIGMA]UNIT,..|FILE.csv|FILE@TIME");
   add_fit_options(*command, *options);
   add_result_options(*command, options->out, options->force, options->json, "report.json");
   add_netcdf_option(*command, options->netcdf, "Write samples, scans, unknowns and covariance");
@@ -119,13 +125,18 @@ void add_fit_command(CLI::App& app) {
       "spectral radiance with --link linear --scale fixed --pointing azimuth, irradiances with\n"
       "--link log --scale fixed and a known noise of 5 % or as stated, only the aerosol's optical\n"
       "depth and, of two kinds or more, its single scattering albedo free. Columns q_over_i and\n"
-      "u_over_i, or dolp, of a CSV of samples are fitted beside them, linear and without a scale.\n"
+      "u_over_i, or dolp, of a CSV of samples are fitted beside them, linear and without a scale;\n"
+      "irradiances beside a sky logarithmically, without a scale and with their own noise. They\n"
+      "belong to the scan of the same minute, or without a time to the scan whose sun is theirs "
+      "to\n"
+      "1 deg; those of other times are further scans of the same atmosphere.\n"
       "\n" +
       standard_sky_list() + "\n" + parameter_list() +
       "\nExamples:\n"
       "  skyfit fit --reference cie:12 --out fitted\n"
       "  skyfit fit --reference cie:all --out skies\n"
       "  skyfit fit --irradiance direct=96000lx,diffuse=13500lx --sun-zenith-deg 32 --out fitted\n"
+      "  skyfit fit --reference scan.csv --irradiance direct=83000lx,diffuse=14000lx --out fitted\n"
       "  skyfit fit --reference sky.csv --lobes 1 --fix ground.albedo=0.2 --out fitted\n"
       "  skyfit fit --reference 0930.csv,1030.csv --exclude-sample 0 --per-scan mie.scattering "
       "--out day");

@@ -42,8 +42,8 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
   return files;
 }
 
-// Directions are where the instrument truly points; a sample outside the model's spectra, or of a
-// scan without a scale, is left out.
+// Directions of a sky are where the instrument truly points; a sample outside the model's spectra,
+// or of a scan without a scale, is left out.
 std::vector<plot::Sample> samples_of(const fit::Result& result) {
   std::vector<plot::Sample> samples;
   for (std::size_t i = 0; i < result.reference.samples.size(); ++i) {
@@ -51,8 +51,11 @@ std::vector<plot::Sample> samples_of(const fit::Result& result) {
     if (!std::isfinite(result.model[i])) continue;
     const auto scan = std::ranges::find(
         result.scans, s.scan, [](const fit::ScanOutcome& outcome) { return outcome.info.number; });
-    const SkyPoint point = fit::pointed(
-        fit::sky_point(s), scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
+    const SkyPoint stated = fit::sky_point(s);
+    const SkyPoint point =
+        s.irradiance
+            ? stated
+            : fit::pointed(stated, scan->info.sun_azimuth + s.sun_azimuth_since, scan->instrument);
     const bool fitted = std::isfinite(result.sigma[i]);
     samples.push_back(
         {static_cast<int>(scan - result.scans.begin()) + 1, whole_degrees(s.sun_zenith),
@@ -114,6 +117,10 @@ bool has_absolute_values(const fit::Result& result) {
   return result.reference.quantity != refs::Quantity::kRelativeLuminance;
 }
 
+bool has_measured_figures(const fit::Result& result) {
+  return has_absolute_values(result) || result.reference.irradiance_quantity;
+}
+
 void write_fit(const std::filesystem::path& directory, const FinishedFit& finished,
                const SkyModel& model, Figures& figures) {
   const fit::Result& result = finished.result;
@@ -122,9 +129,10 @@ void write_fit(const std::filesystem::path& directory, const FinishedFit& finish
   write_file(directory / kReportTextFile, fit::full_report(result, finished.checks));
   const std::vector<plot::Sample> samples = samples_of(result);
   write_file(directory / kSamplesFile, plot::samples_to_csv(samples));
-  if (shows_comparison(result, samples))
-    draw_comparison(directory, {directory.string(), result.preset, samples}, model, figures);
-  if (has_absolute_values(result))
+  const std::vector<plot::Sample> directions = plot::directions_only(samples);
+  if (shows_comparison(result, directions))
+    draw_comparison(directory, {directory.string(), result.preset, directions}, model, figures);
+  if (has_measured_figures(result))
     draw_measured(directory, measured_outcome(result, samples), figures);
 }
 
@@ -135,14 +143,16 @@ FinishedFit read_fit(const std::filesystem::path& directory) {
 }
 
 plot::MeasuredOutcome measured_outcome(const fit::Result& result,
-                                       std::vector<plot::Sample> samples) {
+                                       const std::vector<plot::Sample>& samples) {
   plot::MeasuredOutcome outcome;
   outcome.title = result.reference.name;
   outcome.spectral = result.reference.quantity == refs::Quantity::kSpectralRadiance;
-  if (refs::is_irradiance(result.reference.quantity))
-    outcome.irradiance_unit =
-        result.reference.quantity == refs::Quantity::kIlluminance ? "lx" : "W m⁻²";
-  outcome.samples = std::move(samples);
+  const refs::Quantity of_irradiances =
+      result.reference.irradiance_quantity.value_or(result.reference.quantity);
+  if (refs::is_irradiance(of_irradiances))
+    outcome.irradiance_unit = of_irradiances == refs::Quantity::kIlluminance ? "lx" : "W m⁻²";
+  if (has_absolute_values(result)) outcome.samples = plot::directions_only(samples);
+  outcome.irradiances = plot::irradiances_only(samples);
   for (const fit::ScanOutcome& scan : result.scans) {
     outcome.scans.push_back(
         {scan.info.name, scan.info.time_utc, scan.errors.luminance, scan.errors.spectral});
@@ -161,8 +171,9 @@ plot::MeasuredOutcome measured_outcome(const fit::Result& result,
 plot::MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory) {
   const fit::Result result = read_fit(directory).result;
   const std::filesystem::path file = directory / kSamplesFile;
-  plot::MeasuredOutcome outcome = measured_outcome(result, plot::read_samples_csv(file));
-  for (const plot::Sample& sample : outcome.samples) {
+  const std::vector<plot::Sample> samples = plot::read_samples_csv(file);
+  plot::MeasuredOutcome outcome = measured_outcome(result, samples);
+  for (const plot::Sample& sample : samples) {
     if (static_cast<std::size_t>(sample.scan) <= outcome.scans.size()) continue;
     throw std::invalid_argument(fmt::format("{}: scan = {}: expected one of the {} scans of {}",
                                             file.string(), sample.scan, outcome.scans.size(),
@@ -188,7 +199,7 @@ std::vector<fit::ReportFigure> report_figures(const std::filesystem::path& direc
     add("Reference, fit and start in the sun's vertical plane, and maps of the residual over the "
         "sky");
   }
-  if (!has_absolute_values(result)) return figures;
+  if (!has_measured_figures(result)) return figures;
   const plot::MeasuredOutcome measured = read_measured_outcome(directory);
   for (const plot::MeasuredFigure& figure : plot::measured_figures()) {
     if (!figure.can_draw(measured)) continue;

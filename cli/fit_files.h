@@ -31,10 +31,13 @@ FinishedFit read_fit(const std::filesystem::path& directory);
 
 // Whether the figures of measured skies show it: everything but a relative luminance.
 bool has_absolute_values(const fit::Result& result);
+// Whether some of them do: also of irradiances beside a relative luminance.
+bool has_measured_figures(const fit::Result& result);
 
-// What those figures show, with the samples of a directory that was read.
+// What those figures show, with the samples of a directory that was read: of a relative luminance
+// nothing but the irradiances beside it.
 plot::MeasuredOutcome measured_outcome(const fit::Result& result,
-                                       std::vector<plot::Sample> samples);
+                                       const std::vector<plot::Sample>& samples);
 plot::MeasuredOutcome read_measured_outcome(const std::filesystem::path& directory);
 
 // The figures of a directory that was read, drawn anew: of a stranger's only numbers are taken.

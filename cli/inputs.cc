@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
@@ -18,6 +19,8 @@
 #include "data_refs/radiance_sky.h"
 #include "data_refs/table_csv.h"
 #include "fit/exchange/programs.h"
+#include "model/atmosphere/particles.h"
+#include "model/base/content_cache.h"
 #include "model/registry.h"
 #include "model/solver/reference_model.h"
 
@@ -120,6 +123,9 @@ void warn_of_unused_options(const CLI::App& command, const std::string& referenc
       warn(fmt::format("{} is not used: {} has its own sun", option->get_name(), reference));
       continue;
     }
+    const CLI::Option* const irradiances = command.get_option_no_throw("--irradiance");
+    if (option->check_lname("sun-zenith-deg") && irradiances != nullptr && irradiances->count() > 0)
+      continue;  // their sun
     if (!(is_import && !is_measured) && !(is_sampling && !is_analytic)) continue;
     warn(fmt::format("{} is not used: {} {}", option->get_name(), reference,
                      is_import ? "is no measured sky" : "has its own directions"));
@@ -223,20 +229,44 @@ refs::Reference load_references(const std::string& names, const std::string& sun
   return joint;
 }
 
+namespace {
+
+std::optional<double> sun_of_irradiances(const std::string& sun_zenith, const CLI::App& command) {
+  if (command.count("--sun-zenith-deg") == 0) return {};
+  const std::vector<double> suns = parse_sun_zeniths(sun_zenith);
+  if (suns.size() != 1)
+    throw UsageError("--sun-zenith-deg", sun_zenith, "expected one sun of --irradiance");
+  return suns.front();
+}
+
+// Where the samples of a sky are all of one scan, the sun of its first.
+std::optional<double> only_sun(const refs::Reference& sky) {
+  if (sky.samples.empty()) return {};
+  const refs::Sample& first = sky.samples.front();
+  const bool is_one = std::ranges::all_of(
+      sky.samples, [&](const refs::Sample& sample) { return sample.scan == first.scan; });
+  return is_one ? std::optional(first.sun_zenith) : std::nullopt;
+}
+
+}  // namespace
+
 refs::Reference load_irradiances(const std::string& text, const std::string& sun_zenith,
                                  const ImportArguments& import, const CLI::App& command) {
-  std::optional<double> sun;
-  if (command.count("--sun-zenith-deg") > 0) {
-    const std::vector<double> suns = parse_sun_zeniths(sun_zenith);
-    if (suns.size() != 1)
-      throw UsageError("--sun-zenith-deg", sun_zenith, "expected one sun of --irradiance");
-    sun = suns.front();
-  }
+  const std::optional<double> sun = sun_of_irradiances(sun_zenith, command);
   for (const char* unused : {"--sampling", "--exclude-sun-deg", "--exclude-sample"}) {
     if (command.get_option_no_throw(unused) != nullptr && command.count(unused) > 0)
       warn(fmt::format("{} is not used: irradiances have no directions", unused));
   }
   return refs::irradiance_reference(text, sun, parse_import_options(import));
+}
+
+refs::Reference load_with_irradiances(refs::Reference sky, const std::string& text,
+                                      const std::string& sun_zenith, const ImportArguments& import,
+                                      const CLI::App& command) {
+  std::optional<double> sun = sun_of_irradiances(sun_zenith, command);
+  if (!sun) sun = only_sun(sky);
+  return refs::with_irradiances(
+      std::move(sky), refs::irradiance_reference(text, sun, parse_import_options(import)));
 }
 
 bool is_shipped_reference(const std::string& name) {
@@ -273,6 +303,18 @@ void add_scalar_option(CLI::App& command, bool& scalar) {
                    "Leave the polarisation of light out of the models reference and tables:\n"
                    "a quarter of the time less, and radiances off by up to 13 % in the blue,\n"
                    "4 % in the green (docs/accuracy.md)");
+}
+
+void add_particle_cache_option(CLI::App& command) {
+  const auto no_cache = std::make_shared<bool>(false);
+  command.add_flag("--no-cache", *no_cache,
+                   "Compute the scattering of spheres (size-distribution) anew instead of reading\n"
+                   "or keeping it in $XDG_CACHE_HOME/skyfit or ~/.cache/skyfit");
+  command.parse_complete_callback([no_cache] {
+    const auto directory = user_cache_directory();
+    keep_particles_in(*no_cache || !directory ? nullptr
+                                              : std::make_shared<ContentCache>(*directory));
+  });
 }
 
 CLI::Option* add_refraction_option(CLI::App& command, bool& refraction) {

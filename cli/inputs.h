@@ -83,6 +83,16 @@ refs::Reference load_references(const std::string& names, const std::string& sun
 refs::Reference load_irradiances(const std::string& text, const std::string& sun_zenith,
                                  const ImportArguments& import, const CLI::App& command);
 
+// --no-cache; without it particles are kept in the user's cache (model/atmosphere/particles.h), if
+// there is a place for one. Of commands that show an atmosphere as it stands.
+void add_particle_cache_option(CLI::App& command);
+
+// The sky with irradiances beside it (data_refs/joint_reference.h), whose sun, where it is not
+// given, is that of the sky's one scan.
+refs::Reference load_with_irradiances(refs::Reference sky, const std::string& text,
+                                      const std::string& sun_zenith, const ImportArguments& import,
+                                      const CLI::App& command);
+
 // Analytic: read where the user says.
 bool is_shipped_reference(const std::string& name);
 

@@ -109,8 +109,9 @@ void run_plot(const PlotOptions& options) {
   if (!options.sun_zenith.empty())
     throw UsageError("--sun-zenith-deg", options.sun_zenith, "expected with --figure polarisation");
   const bool comparison = options.figure == kComparison;
-  const auto absolute = std::ranges::count_if(options.directories, [](const std::string& d) {
-    return has_absolute_values(read_fit(d).result);
+  const auto absolute = std::ranges::count_if(options.directories, [&](const std::string& d) {
+    const fit::Result result = read_fit(d).result;
+    return options.figure.empty() ? has_absolute_values(result) : has_measured_figures(result);
   });
   if (!comparison && absolute == static_cast<std::ptrdiff_t>(options.directories.size()))
     return draw_measured(options, sheet, files);

@@ -25,7 +25,7 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
       report_(std::move(report)),
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
                             request.light.transfer)),
-      keeps_tables_(request.cache && timeline.size() == 1),
+      stays_(timeline.size() == 1),
       timeline_(request.update_frames > 0
                     ? std::optional<Timeline>()
                     : std::optional<Timeline>(
@@ -44,14 +44,15 @@ Atmosphere<double> RenderSession::drawn_atmosphere(const Preset& preset) const {
 AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
   const auto atmosphere = drawn_atmosphere(preset);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
-  const TableSizes& sizes = request_.table_sizes;
+  TableSizes sizes = request_.table_sizes;
+  if (!stays_) sizes.follow_layers = 0;  // tables are interpolated, and layers may move
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
   const auto compute = [&] {
     if (request_.light.orders > 0)
       return compute_tables(atmosphere, color, sizes, request_.threads, progress, request_.light);
     return compute_tables_of(*model_, atmosphere, color, sizes, request_.threads, progress);
   };
-  if (!keeps_tables_) return compute();
+  if (!request_.cache || !stays_) return compute();  // not the many of one that changes
   return cached_tables(*request_.cache, {request_.model, request_.light, atmosphere, color, sizes},
                        compute);
 }
@@ -124,7 +125,8 @@ Frame RenderSession::draw_updated(const Shot& shot, double time_s,
         steps_, request_.sequence.frames_per_second,
         color_rule(refs::spectral_data_of(first.atmosphere)),
         [this](const Preset& preset) { return drawn_atmosphere(preset); },
-        BodareUpdateOptions{.slices = request_.update_frames}, TableSizes{}, request_.threads);
+        BodareUpdateOptions{.slices = request_.update_frames}, TableSizes{.follow_layers = 0},
+        request_.threads);
     time_.done("first tables");
   }
   const auto frame = static_cast<int>(std::lround(time_s * request_.sequence.frames_per_second));

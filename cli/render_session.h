@@ -44,7 +44,7 @@ class RenderSession {
   TimeAccount& time_;
   Report report_;
   std::unique_ptr<SkyModel> model_;
-  bool keeps_tables_;                    // in the cache: not the many of an atmosphere that changes
+  bool stays_;                           // the atmosphere, from frame to frame
   std::optional<Timeline> timeline_;     // or, with --update-frames,
   std::optional<TableUpdates> updates_;  // made for the first frame
   std::vector<TimelineStep> steps_;      // of the updates

@@ -283,6 +283,7 @@ void add_sky_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand(
       "sky", "Evaluates a preset and prints CSV: luminance, colour, radiance or irradiance.");
   add_sky_options(*command, *options);
+  add_particle_cache_option(*command);
   command->callback([options] { of_preset(options->preset, [&] { run_sky(*options); }); });
 }
 

@@ -145,6 +145,7 @@ void add_sky_map_command(CLI::App& app) {
   const auto arguments = std::make_shared<SkyMapArguments>();
   CLI::App& command = *app.add_subcommand(
       "sky-map", "Writes the light of all directions as one picture, for other renderers.");
+  add_particle_cache_option(command);
   const auto option = [&](const char* name, std::string& value, const char* meaning,
                           const char* type) {
     return command.add_option(name, value, meaning)->type_name(type)->capture_default_str();

@@ -12,4 +12,16 @@ namespace skyfit::refs {
 // std::invalid_argument with one line when the quantities differ or there is none.
 Reference joint_reference(const std::vector<Reference>& references);
 
+// The samples of a sky and irradiances (irradiance.h) as one reference, which keeps the name of the
+// sky. Irradiances of the same minute as a scan belong to it; those without a time to the scan
+// whose sun is nearest, within 1 deg; others are scans of their own. Throws std::invalid_argument
+// with one line where suns of the same time are more than 1 deg apart, where irradiances of one sun
+// without a time stand beside scans of other suns, and where `irradiances` are a sky or `sky` is
+// none.
+Reference with_irradiances(Reference sky, const Reference& irradiances);
+
+// The same with the irradiances that belong to a scan of the sky alone. Throws also where there is
+// none.
+Reference with_irradiances_of_scans(Reference sky, const Reference& irradiances);
+
 }  // namespace skyfit::refs

@@ -14,13 +14,22 @@ std::map<std::string, int> samples_left_out(const Reference& reference) {
   return counts;
 }
 
+bool is_beside_sky(const Reference& reference, const Sample& sample) {
+  return sample.irradiance.has_value() && !is_irradiance(reference.quantity);
+}
+
+Quantity quantity_of(const Reference& reference, const Sample& sample) {
+  return is_beside_sky(reference, sample) ? reference.irradiance_quantity.value()
+                                          : reference.quantity;
+}
+
 bool gives_luminance(const Reference& reference) {
   constexpr double kFirst_nm = 450, kLast_nm = 660, kWidestStep_nm = 41;
   if (is_irradiance(reference.quantity)) return false;
   if (reference.quantity != Quantity::kSpectralRadiance) return true;
   std::set<double> wavelengths;
   for (const Sample& s : reference.samples) {
-    if (s.weight > 0) wavelengths.insert(s.wavelength_nm);
+    if (s.weight > 0 && !s.irradiance) wavelengths.insert(s.wavelength_nm);
   }
   double covered = kFirst_nm - kWidestStep_nm;
   for (const double wavelength : wavelengths) {

@@ -79,7 +79,14 @@ struct Reference {
   // What the values were computed with: a model is compared under the same. Nature's is the vector.
   Transfer transfer = Transfer::kVector;
   std::vector<std::string> notes;  // what the reader of a measured sky concluded or left out
+  // Of the samples with an Irradiance that stand beside those of a sky (joint_reference.h).
+  std::optional<Quantity> irradiance_quantity = {};
 };
+
+// Whether it is an irradiance among the samples of a sky.
+bool is_beside_sky(const Reference& reference, const Sample& sample);
+
+Quantity quantity_of(const Reference& reference, const Sample& sample);
 
 // Whether the values are luminances, or radiances of so many wavelengths that these sum up to
 // luminances of the same sky: from 450 to 660 nm no step is longer than 41 nm.

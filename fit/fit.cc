@@ -58,10 +58,12 @@ class Fit {
     result_.reference.notes.insert(result_.reference.notes.end(), as_stated.assumptions.begin(),
                                    as_stated.assumptions.end());
     const Problem problem = make_problem(result_.reference, spectra_, model_, as_pointed(options_));
-    const Eigen::VectorXd scaled = refine(problem, found);
+    Evaluations evaluations(problem, problem.fitted);
+    const Eigen::VectorXd scaled = refine(problem, evaluations, found);
     describe_problem(problem);
     describe_values(problem, scaled);
-    describe_uncertainty(problem, scaled);
+    describe_uncertainty(problem, evaluations.at(scaled, true), scaled);
+    count_work(evaluations);
     result_.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result_.preset = fitted_preset(result_);
@@ -74,10 +76,9 @@ class Fit {
     if (options_.progress) options_.progress(fraction, status);
   }
 
-  void count_work(const Minimum& minimum) {
-    result_.iterations += minimum.iterations;
-    result_.model_evaluations += minimum.evaluations;
-    result_.derivative_evaluations += minimum.derivative_evaluations;
+  void count_work(const Evaluations& evaluations) {
+    result_.model_evaluations += evaluations.values_computed();
+    result_.derivative_evaluations += evaluations.derivatives_computed();
   }
 
   // The best start after a search with few wavelengths.
@@ -96,7 +97,9 @@ class Fit {
         });
     for (std::size_t s = 0; s < searched.minima.size(); ++s) {
       const Minimum& minimum = searched.minima[s];
-      count_work(minimum);
+      result_.iterations += minimum.iterations;
+      result_.model_evaluations += minimum.evaluations;
+      result_.derivative_evaluations += minimum.derivative_evaluations;
       result_.starts.push_back(
           {problem.starts[s].name, minimum.cost, minimum.iterations, s == searched.best});
     }
@@ -108,6 +111,7 @@ class Fit {
     constexpr double kRounding = 1e-9;  // radians: a sample on the rim of the cone stays in
     refs::Reference result = reference_;
     for (refs::Sample& sample : result.samples) {
+      if (sample.irradiance) continue;
       const auto scan = static_cast<std::size_t>(
           std::ranges::find(problem.all.scans, sample.scan, &ScanInfo::number) -
           problem.all.scans.begin());
@@ -126,47 +130,52 @@ class Fit {
     return result;
   }
 
-  Noise noise_at(const Problem& problem, const Dataset& data, const Eigen::VectorXd& scaled) {
-    ++result_.model_evaluations;
-    return estimate_noise(data, problem.likelihood, problem.residuals(data, scaled, 1),
+  // The derivatives are asked for next.
+  Noise noise_at(const Problem& problem, Evaluations& at, const Eigen::VectorXd& scaled) {
+    const Whitened white = whiten(at.data(), problem.likelihood, at.at(scaled, true), 1);
+    return estimate_noise(at.data(), problem.likelihood, white.residual,
                           static_cast<int>(problem.unknowns.size()) + problem.profiled_scales());
   }
 
-  Eigen::VectorXd refine(const Problem& problem, Eigen::VectorXd scaled) {
+  // `all`: evaluations of all that is fitted.
+  Eigen::VectorXd refine(const Problem& problem, Evaluations& all, Eigen::VectorXd scaled) {
     constexpr double kFactorAgrees = 0.05;  // relative change that is not worth a refit
-    const auto solve = [&](const Dataset& data, double factor) {
-      const Minimum minimum = problem.solve(data, problem.with_ordered_lobes(scaled), factor,
+    const auto solve = [&](Evaluations& at, double factor) {
+      const Minimum minimum = problem.solve(at, problem.with_ordered_lobes(scaled), factor,
                                             {options_.max_iterations, schedule_.tolerance});
-      count_work(minimum);
+      result_.iterations += minimum.iterations;
       scaled = minimum.scaled;
       result_.converged = minimum.converged;
       result_.termination = minimum.termination;
     };
-    noise_.effective_samples = static_cast<double>(problem.fitted.samples.size());
+    noise_.effective_samples = static_cast<double>(only_sky(problem.fitted).samples.size());
     if (problem.likelihood.noise_is_known) {
       report(0.6, "refining the best start");
-      solve(problem.fitted, 1);
+      solve(all, 1);
       return problem.with_ordered_lobes(scaled);
     }
-    const Dataset& rounds_data = schedule_.rounds_with_all ? problem.fitted : problem.coarse;
+    Evaluations few(problem, problem.coarse);
+    const bool few_are_all = problem.coarse.nodes.size() == problem.fitted.nodes.size();
+    Evaluations& of_rounds = schedule_.rounds_with_all || few_are_all ? all : few;
     double factor = 1;
     bool agrees = false;
     for (int round = 0; round < schedule_.noise_rounds; ++round) {
       report(0.6 + 0.05 * round, "refining the best start");
-      noise_ = noise_at(problem, rounds_data, scaled);
+      noise_ = noise_at(problem, of_rounds, scaled);
       const double before = std::exchange(
           factor, round < schedule_.independent_rounds ? noise_.independent_factor : noise_.factor);
       agrees =
           round > schedule_.independent_rounds && std::abs(factor / before - 1) < kFactorAgrees;
       if (agrees) break;
-      solve(rounds_data, factor);
+      solve(of_rounds, factor);
     }
+    count_work(few);
     if (!schedule_.rounds_with_all) {
       report(0.85, "refining with all wavelengths");
-      noise_ = noise_at(problem, problem.fitted, scaled);
-      solve(problem.fitted, noise_.factor);
+      noise_ = noise_at(problem, all, scaled);
+      solve(all, noise_.factor);
     } else if (!agrees) {
-      noise_ = noise_at(problem, problem.fitted, scaled);
+      noise_ = noise_at(problem, all, scaled);
     }
     return problem.with_ordered_lobes(scaled);
   }
@@ -179,12 +188,13 @@ class Fit {
     result_.start_name = options_.start ? options_.start->name : "defaults";
     result_.version = SKYFIT_VERSION;
     result_.samples_left_out = refs::samples_left_out(result_.reference);
-    result_.samples = static_cast<int>(radiances(problem.fitted).size());
-    result_.directions = static_cast<int>(problem.fitted.lines_of_sight.size());
+    const Dataset sky = only_sky(problem.fitted);
+    result_.samples = static_cast<int>(radiances(sky).size());
+    result_.directions = static_cast<int>(sky.lines_of_sight.size());
     result_.sigma_factor = noise_.factor;
     result_.effective_samples = noise_.effective_samples;
     double squares = 0;
-    for (const Sample& sample : problem.fitted.samples) {
+    for (const Sample& sample : sky.samples) {
       if (!sample.polarisation) squares += std::pow(sample.sigma / sample.value, 2);
     }
     result_.sigma_percent = 100 * noise_.factor * std::sqrt(squares / result_.samples);
@@ -201,10 +211,12 @@ class Fit {
     result_.start_errors = errors_of(counted, result_.start_model, spectra_);
     result_.errors = errors_of(counted, result_.model, spectra_);
     describe_polarisation(problem, start, fitted);
+    describe_irradiances(problem);
     result_.start_rms = rms_summary(reference_, result_.start_model, options_.exclude_sun);
     result_.rms = rms_summary(reference_, result_.model, options_.exclude_sun);
-    for (std::size_t s = 0; s < problem.fitted.scans.size(); ++s) {
-      const ScanInfo& info = problem.fitted.scans[s];
+    const Dataset sky = only_sky(problem.fitted);
+    for (std::size_t s = 0; s < sky.scans.size(); ++s) {
+      const ScanInfo& info = sky.scans[s];
       ScanOutcome outcome{info,
                           fitted.atmosphere[s],
                           fitted.instrument[s],
@@ -213,11 +225,11 @@ class Fit {
                           0,
                           0};
       const int scan = static_cast<int>(s);
-      outcome.directions = static_cast<int>(
-          std::ranges::count(problem.fitted.lines_of_sight, scan, &LineOfSight::scan));
+      outcome.directions =
+          static_cast<int>(std::ranges::count(sky.lines_of_sight, scan, &LineOfSight::scan));
       outcome.samples =
-          static_cast<int>(std::ranges::count_if(problem.fitted.samples, [&](const Sample& sample) {
-            return !sample.polarisation && problem.fitted.scan_of(sample) == scan;
+          static_cast<int>(std::ranges::count_if(sky.samples, [&](const Sample& sample) {
+            return !sample.polarisation && sky.scan_of(sample) == scan;
           }));
       result_.scans.push_back(outcome);
     }
@@ -250,6 +262,30 @@ class Fit {
     }
   }
 
+  // What the irradiances beside the sky are off, by their kind.
+  void describe_irradiances(const Problem& problem) {
+    const std::vector<int> beside = irradiances_beside_sky(problem.fitted);
+    for (int kind = 0; kind < kIrradianceCount; ++kind) {
+      IrradianceErrors errors{static_cast<Irradiance>(kind)};
+      for (const int i : beside) {
+        const Sample& sample = problem.fitted.samples[static_cast<std::size_t>(i)];
+        if (sample.irradiance != errors.what) continue;
+        const double at_start = result_.start_model[sample.index] / sample.value - 1,
+                     at_end = result_.model[sample.index] / sample.value - 1;
+        ++errors.samples;
+        errors.start_rms += at_start * at_start;
+        errors.rms += at_end * at_end;
+        errors.mean_bias += 100 * at_end;
+        errors.sigma += std::pow(sample.sigma / sample.value, 2);
+      }
+      if (errors.samples == 0) continue;
+      errors.mean_bias /= errors.samples;
+      for (double* const sum : {&errors.start_rms, &errors.rms, &errors.sigma})
+        *sum = 100 * std::sqrt(*sum / errors.samples);
+      result_.irradiances.push_back(errors);
+    }
+  }
+
   // The fit weighs with sigma * factor; under the linear link the residuals vary as the noise says.
   Uncertainty uncertainty_at(const Problem& problem, const Eigen::VectorXd& scaled,
                              const Whitened& white) const {
@@ -259,30 +295,35 @@ class Fit {
     const bool correlated = noise_.length != 0 || noise_.wavelength_correlation != 0;
     if (problem.likelihood.link == Link::kLog || !correlated) return independent;
     const double variance = std::pow(noise_.independent_factor / noise_.factor, 2);
-    return with_correlated_residuals(
-        independent, variables, scaled,
-        variance * jacobian.transpose() * times_correlation(problem.fitted, noise_, jacobian));
+    const Dataset sky = only_sky(problem.fitted);
+    const auto of_sky = static_cast<Eigen::Index>(sky.samples.size());
+    Eigen::MatrixXd spread = jacobian;  // irradiances beside the sky vary by themselves, as stated
+    spread.topRows(of_sky) = variance * times_correlation(sky, noise_, jacobian.topRows(of_sky));
+    return with_correlated_residuals(independent, variables, scaled, jacobian.transpose() * spread);
   }
 
-  void describe_uncertainty(const Problem& problem, const Eigen::VectorXd& scaled) {
+  void describe_uncertainty(const Problem& problem, const SampleValues& values,
+                            const Eigen::VectorXd& scaled) {
     const SkyState fitted = problem.state(scaled);
-    const SampleValues values =
-        sky_values(*problem.model, problem.fitted, fitted, problem.unknowns);
-    ++(problem.unknowns.empty() ? result_.model_evaluations : result_.derivative_evaluations);
     const Whitened white = whiten(problem.fitted, problem.likelihood, values, noise_.factor);
     const Uncertainty uncertain = uncertainty_at(problem, scaled, white);
     describe_unknowns(problem, fitted, uncertain);
     const double freedom = static_cast<double>(problem.fitted.samples.size()) -
                            static_cast<double>(problem.unknowns.size()) - problem.profiled_scales();
-    result_.chi_square_per_dof =
-        freedom > 0 ? white.residual.squaredNorm() * std::pow(noise_.factor, 2) / freedom : kNan;
+    Eigen::VectorXd assumed = white.residual;  // in the sigmas that were stated or assumed
+    for (std::size_t i = 0; i < problem.fitted.samples.size(); ++i) {
+      if (!problem.fitted.samples[i].beside_sky)
+        assumed(static_cast<Eigen::Index>(i)) *= noise_.factor;
+    }
+    result_.chi_square_per_dof = freedom > 0 ? assumed.squaredNorm() / freedom : kNan;
     const std::vector<double> weights = problem.loss_weights(white.residual);
     result_.loss_weight.assign(result_.model.size(), kNan);
     result_.sigma.assign(result_.model.size(), kNan);
     for (const Sample& sample : problem.fitted.samples) {
       if (sample.polarisation) continue;
       result_.loss_weight[sample.index] = weights[static_cast<std::size_t>(sample.line_of_sight)];
-      result_.sigma[sample.index] = sample.sigma * noise_.independent_factor;
+      result_.sigma[sample.index] =
+          sample.sigma * (sample.beside_sky ? 1 : noise_.independent_factor);
     }
     result_.downweighted = static_cast<int>(
         std::ranges::count_if(result_.loss_weight, [](double w) { return w < 0.5; }));

@@ -58,6 +58,35 @@ refs::Reference read_irradiances(const std::string& text, const Options& options
   return cli::load_irradiances(text, arguments.sun_zenith, arguments.import, command);
 }
 
+// Options of read() and the text of irradiances, in "irradiance".
+struct IrradianceOptions : ReadingOptions {
+  std::string irradiance;
+
+  explicit IrradianceOptions(CLI::App& command) : ReadingOptions(command) {
+    command.add_option("--irradiance", irradiance);
+  }
+};
+
+refs::Reference with_irradiances(const refs::Reference& sky, const Options& options) {
+  CLI::App command;
+  const IrradianceOptions arguments(command);
+  parse(command, "fit", options);
+  return cli::load_with_irradiances(sky, arguments.irradiance, arguments.sun_zenith,
+                                    arguments.import, command);
+}
+
+refs::Reference read_with_irradiances(const std::string& names, const Options& options) {
+  CLI::App command;
+  const IrradianceOptions arguments(command);
+  parse(command, "fit", options);
+  return interruptible([&](const std::atomic<bool>&) {
+    return cli::load_with_irradiances(
+        cli::load_references(names, arguments.sun_zenith, arguments.sampling, arguments.import,
+                             command),
+        arguments.irradiance, arguments.sun_zenith, arguments.import, command);
+  });
+}
+
 // Arrays of one element a sample; sigma is NaN where none is stated.
 refs::Reference reference_of(const std::string& name, const std::string& quantity,
                              const Input<double>& sun_zenith_deg,
@@ -114,10 +143,10 @@ py::dict arrays_of(const refs::Reference& reference) {
       [](const Sample& s) { return s.sigma.value_or(std::numeric_limits<double>::quiet_NaN()); });
   add("weight", [](const Sample& s) { return s.weight; });
   add("scan", [](const Sample& s) { return s.scan; });
-  if (refs::is_irradiance(reference.quantity)) {
+  if (refs::is_irradiance(reference.quantity) || reference.irradiance_quantity) {
     py::list names;
     for (const Sample& sample : reference.samples)
-      names.append(std::string(kIrradianceNames[sample.irradiance.value()]));
+      names.append(sample.irradiance ? std::string(kIrradianceNames[*sample.irradiance]) : "");
     arrays["irradiance"] = py::module_::import("numpy").attr("array")(names);
   }
   return arrays;
@@ -135,6 +164,8 @@ void bind_reference(py::module_& module) {
       "Names of the standard skies, which read(name) gives.");
   module.def("read", &read);
   module.def("read_irradiances", &read_irradiances);
+  module.def("with_irradiances", &with_irradiances);
+  module.def("read_with_irradiances", &read_with_irradiances);
   module.def("reading_options", &reading_options);
   module.def("reference_of", &reference_of);
   py::class_<refs::Reference>(module, "Reference", "A reference sky: samples of it, in scans.")

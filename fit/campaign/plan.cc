@@ -153,6 +153,10 @@ std::string key_of(const CampaignPlan& plan, const Task& task, NamedFiles named)
   ContentHash hash;
   hash.add(kVersion);
   if (plan.kind == InputKind::kIrradiances) hash.add("irradiances\n");
+  if (!plan.irradiances.empty()) {
+    hash.add("beside\n");
+    hash.add_file(plan.folder / plan.irradiances);
+  }
   for (const std::string& option : plan.options) {
     hash.add(option + "\n");
     if (fs::is_regular_file(option)) hash.add_file(option);  // a preset, say
@@ -259,8 +263,8 @@ CampaignPlan load_plan(const fs::path& file) {
   const PresetDocument document = file.extension() == ".toml" ? toml_document(text, file.string())
                                                               : PresetDocument(text, file.string());
   const PresetReader plan = document.root();
-  plan.expect_only(
-      {"skyfit_campaign", "inputs", "kind", "group", "options", "tasks_per_file", "note"});
+  plan.expect_only({"skyfit_campaign", "inputs", "kind", "irradiances", "group", "options",
+                    "tasks_per_file", "note"});
   if (plan.number("skyfit_campaign") != kPlanVersion)
     plan.fail_value("skyfit_campaign", fmt::format("{}", kPlanVersion));
   CampaignPlan result;
@@ -270,6 +274,13 @@ CampaignPlan load_plan(const fs::path& file) {
   if (plan.has("group")) result.group = named(plan, "group", kGroupings);
   if (plan.has("kind")) result.kind = named(plan, "kind", kInputKinds);
   result.inputs_place = document.place("inputs");
+  if (plan.has("irradiances")) {
+    result.irradiances = plan.text("irradiances");
+    result.irradiances_place = document.place("irradiances");
+    if (result.irradiances.empty()) plan.fail_value("irradiances", "a table of irradiances");
+    if (result.kind == InputKind::kIrradiances)
+      plan.fail_value("irradiances", "none beside inputs of the kind irradiances");
+  }
   result.option_places[""] = document.place("options");
   if (plan.has("options")) {
     const PresetReader options = plan.object("options");
@@ -284,6 +295,10 @@ CampaignPlan load_plan(const fs::path& file) {
 
 std::vector<Task> tasks_of(const CampaignPlan& plan, NamedFiles named, const ReadSky& read,
                            int threads) {
+  if (!plan.irradiances.empty() && !named_file(plan.folder, plan.irradiances, named))
+    throw std::invalid_argument(fmt::format("{}: irradiances: {}: expected {}",
+                                            plan.irradiances_place, printable(plan.irradiances),
+                                            kNamedFile));
   std::set<std::string> all;
   for (const std::string& input : plan.inputs) {
     for (std::string& name : matches(plan, input, named)) all.insert(std::move(name));

@@ -31,8 +31,10 @@ struct CampaignPlan {
   std::vector<std::string> inputs;  // files and folders, or patterns with * ? [], in that folder
   InputKind kind = InputKind::kSkies;
   Grouping group = Grouping::kFile;
-  std::string inputs_place;                          // "plan.json:2", for messages
-  std::vector<std::string> options;                  // arguments of skyfit fit
+  std::string inputs_place;          // "plan.json:2", for messages
+  std::string irradiances;           // a table beside the skies, in that folder; empty: none
+  std::string irradiances_place;     // as inputs_place
+  std::vector<std::string> options;  // arguments of skyfit fit
   std::map<std::string, std::string> option_places;  // by name, and of all by ""
 
   // Where the option stands that a message about the options names first.

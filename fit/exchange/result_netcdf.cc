@@ -37,37 +37,95 @@ auto column(const Rows& rows, const Value& value) {
   return result;
 }
 
+// Adds variables of one dimension.
+auto variables_of(NetcdfFile& file, std::string dimension) {
+  return [&file, dimension = std::move(dimension)](const std::string& name, auto values,
+                                                   const char* meaning, std::string unit) {
+    file.variables.push_back({name, {dimension}, std::move(values), meaning, std::move(unit)});
+  };
+}
+
+using Samples = std::vector<refs::Sample>;
+
+auto angles_of(const Samples& samples, double refs::Sample::*of) {
+  return column(samples, [of](const refs::Sample& s) { return s.*of / kRadiansPerDegree; });
+}
+
+template <class Add>
+void add_irradiance_names(const Samples& samples, const std::string& name, const Add& add) {
+  add(name,
+      column(samples,
+             [](const refs::Sample& s) {
+               return std::string(kIrradianceNames[s.irradiance.value()]);
+             }),
+      "which irradiance the sample is", "");
+}
+
+// Irradiances beside a sky have a dimension of their own.
 void add_samples(const refs::Reference& reference, NetcdfFile& file) {
-  const auto& samples = reference.samples;
+  Samples samples;
+  for (const refs::Sample& sample : reference.samples)
+    if (!refs::is_beside_sky(reference, sample)) samples.push_back(sample);
   file.dimensions.emplace_back("sample", samples.size());
-  const auto add = [&](const char* name, auto values, const char* meaning, std::string unit) {
-    file.variables.push_back({name, {"sample"}, std::move(values), meaning, std::move(unit)});
-  };
-  const auto angle = [](double refs::Sample::*of) {
-    return [of](const refs::Sample& s) { return s.*of / kRadiansPerDegree; };
-  };
+  const auto add = variables_of(file, "sample");
   add("sample_scan", column(samples, [](const refs::Sample& s) { return s.scan; }),
       "scan of the sample, from 0", "1");
-  add("sun_zenith", column(samples, angle(&refs::Sample::sun_zenith)), "zenith angle of the sun",
+  add("sun_zenith", angles_of(samples, &refs::Sample::sun_zenith), "zenith angle of the sun",
       "degree");
-  add("view_zenith", column(samples, angle(&refs::Sample::view_zenith)),
+  add("view_zenith", angles_of(samples, &refs::Sample::view_zenith),
       "zenith angle of the line of sight as stated", "degree");
-  add("relative_azimuth", column(samples, angle(&refs::Sample::relative_azimuth)),
+  add("relative_azimuth", angles_of(samples, &refs::Sample::relative_azimuth),
       "azimuth of the line of sight from the sun's, as stated", "degree");
   if (reference.quantity == refs::Quantity::kSpectralRadiance)
     add("wavelength", column(samples, [](const refs::Sample& s) { return s.wavelength_nm; }),
         "wavelength in air", "nm");
-  if (refs::is_irradiance(reference.quantity))
-    add("irradiance",
-        column(samples,
-               [](const refs::Sample& s) {
-                 return std::string(kIrradianceNames[s.irradiance.value()]);
-               }),
-        "which irradiance the sample is", "");
+  if (refs::is_irradiance(reference.quantity)) add_irradiance_names(samples, "irradiance", add);
   add("reference_value", column(samples, [](const refs::Sample& s) { return s.value; }),
       "value of the reference", unit_of(reference.quantity));
   add("weight", column(samples, [](const refs::Sample& s) { return s.weight; }),
       "weight; 0: not used", "1");
+}
+
+// The values of the samples of a sky, or of those beside it.
+std::vector<double> chosen(const refs::Reference& reference, const std::vector<double>& values,
+                           bool beside_sky) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (refs::is_beside_sky(reference, reference.samples[i]) == beside_sky)
+      result.push_back(values[i]);
+  }
+  return result;
+}
+
+template <class Add>
+void add_fitted_values(const Result& result, bool beside_sky, const std::string& prefix,
+                       const std::string& unit, const Add& add) {
+  const auto of = [&](const std::vector<double>& values) {
+    return chosen(result.reference, values, beside_sky);
+  };
+  add(prefix + "model", of(result.model), "value of the fitted atmosphere", unit);
+  add(prefix + "start_model", of(result.start_model), "value before the fit", unit);
+  add(prefix + "sigma", of(result.sigma),
+      "one standard deviation of a sample; missing where it was not fitted", unit);
+}
+
+void add_irradiances_beside_sky(const Result& result, NetcdfFile& file) {
+  const refs::Reference& reference = result.reference;
+  if (!reference.irradiance_quantity) return;
+  Samples samples;
+  for (const refs::Sample& sample : reference.samples)
+    if (refs::is_beside_sky(reference, sample)) samples.push_back(sample);
+  const std::string unit = unit_of(*reference.irradiance_quantity);
+  file.dimensions.emplace_back("irradiance_sample", samples.size());
+  const auto add = variables_of(file, "irradiance_sample");
+  add_irradiance_names(samples, "irradiance", add);
+  add("irradiance_scan", column(samples, [](const refs::Sample& s) { return s.scan; }),
+      "scan of the irradiance, from 0", "1");
+  add("irradiance_sun_zenith", angles_of(samples, &refs::Sample::sun_zenith),
+      "zenith angle of the sun", "degree");
+  add("irradiance_value", column(samples, [](const refs::Sample& s) { return s.value; }),
+      "value of the reference", unit);
+  add_fitted_values(result, true, "irradiance_", unit, add);
 }
 
 void add_unknowns(const Result& result, NetcdfFile& file) {
@@ -167,15 +225,8 @@ NetcdfFile netcdf_of(const Result& result) {
        {"preset", preset_to_json(result.preset)}});
   add_samples(result.reference, file);
   const std::string unit = unit_of(result.reference.quantity);
-  file.variables.push_back(
-      {"model", {"sample"}, result.model, "value of the fitted atmosphere", unit});
-  file.variables.push_back(
-      {"start_model", {"sample"}, result.start_model, "value before the fit", unit});
-  file.variables.push_back({"sigma",
-                            {"sample"},
-                            result.sigma,
-                            "one standard deviation of a sample; missing where it was not fitted",
-                            unit});
+  add_fitted_values(result, false, "", unit, variables_of(file, "sample"));
+  add_irradiances_beside_sky(result, file);
   add_scans(result, file);
   add_unknowns(result, file);
   return file;

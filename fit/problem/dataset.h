@@ -8,7 +8,7 @@
 //
 // An irradiance is the same of the model's irradiances (SkyModel::irradiance): an illuminance by
 // the nodes of a luminance rule, one of all wavelengths by those of a broadband rule, whose weights
-// depend on the sun and the water vapour of the scan.
+// depend on its sun and the water vapour of the scan. It may stand beside the samples of a sky.
 //
 // A reading of polarisation is a sample of its own in the channel of its radiance: Q / I, U / I or
 // sqrt(Q^2 + U^2) / I of the sums of that weight. Neither the sun's distance nor a scale matters to
@@ -25,7 +25,8 @@
 
 namespace skyfit::fit {
 
-// What samples share a wavelength (0: luminance; irradiances of all wavelengths share a sun).
+// What samples share: a wavelength, or 0 of luminances and of irradiances (those of all wavelengths
+// share a sun).
 struct Channel {
   double wavelength_nm = 0;
   std::vector<int> node;
@@ -61,14 +62,16 @@ struct Sample {
   double value, sigma;  // in the reference's unit; sigma includes the sample's weight
   std::optional<refs::Polarisation> polarisation = {};  // what is read; nothing: the radiance
   std::optional<Irradiance> irradiance = {};            // which, where the quantity is one
+  bool beside_sky = false;                              // an irradiance among samples of a sky
 };
 
 struct Dataset {
   std::vector<WavelengthNode> nodes;
-  std::vector<Channel> channels;            // ascending wavelength
-  std::vector<ScanInfo> scans;              // all of the reference, also those without a sample
-  std::vector<LineOfSight> lines_of_sight;  // by scan
-  std::vector<View> views;                  // those of a line of sight follow each other
+  std::vector<Channel> channels;  // ascending wavelength; then of irradiances
+  std::vector<ScanInfo> scans;    // all of the reference, also those without a sample
+  // By scan; those of irradiances beside a sky come after all others, as do views and samples.
+  std::vector<LineOfSight> lines_of_sight;
+  std::vector<View> views;      // those of a line of sight follow each other
   std::vector<Sample> samples;  // by line of sight, channel, and polarisation after radiance
   int scan_of(const Sample& sample) const {
     return lines_of_sight[static_cast<std::size_t>(sample.line_of_sight)].scan;
@@ -100,10 +103,13 @@ SkyPoint sky_point(const refs::Sample& sample);
 // out.
 Dataset dataset(const refs::Reference& reference, const SpectralData& spectra,
                 const Selection& selection);
-// Indices of the samples that are radiances or luminances, and those that are readings of
-// polarisation.
-std::vector<int> radiances(const Dataset& data);
+// Indices of the samples that are readings of polarisation, those that are irradiances beside a
+// sky, and all others.
 std::vector<int> polarisations(const Dataset& data);
+std::vector<int> irradiances_beside_sky(const Dataset& data);
+std::vector<int> radiances(const Dataset& data);
+// Without the irradiances beside a sky.
+Dataset only_sky(Dataset data);
 // The samples of these indices, which ascend.
 Dataset only_samples(const Dataset& data, const std::vector<int>& indices);
 // The samples of one scan.

@@ -82,10 +82,21 @@ std::set<Quantity> told_by_irradiances(const refs::Reference& reference) {
   return told;
 }
 
-// Of the site, when every scan states the same.
+// Of the site, when every scan states the same, but for those of irradiances beside a sky alone.
 std::optional<double> common_elevation(const refs::Reference& reference) {
+  std::set<std::size_t> of_irradiances;
+  for (const refs::Sample& sample : reference.samples) {
+    if (refs::is_beside_sky(reference, sample))
+      of_irradiances.insert(static_cast<std::size_t>(sample.scan));
+  }
+  for (const refs::Sample& sample : reference.samples) {
+    if (!refs::is_beside_sky(reference, sample))
+      of_irradiances.erase(static_cast<std::size_t>(sample.scan));
+  }
   std::optional<double> elevation;
-  for (const refs::Scan& scan : reference.scans) {
+  for (std::size_t s = 0; s < reference.scans.size(); ++s) {
+    if (of_irradiances.contains(s)) continue;
+    const refs::Scan& scan = reference.scans[s];
     if (!scan.elevation_m || (elevation && *elevation != *scan.elevation_m)) return {};
     elevation = scan.elevation_m;
   }

@@ -133,14 +133,23 @@ Scale default_scale(refs::Quantity quantity) {
 Whitened whiten(const Dataset& data, const Likelihood& likelihood, const SampleValues& values,
                 double factor) {
   const std::vector<int> readings = polarisations(data);
-  if (readings.empty()) return whiten_radiances(data, likelihood, values, factor);
+  const std::vector<int> irradiances = irradiances_beside_sky(data);
+  if (readings.empty() && irradiances.empty())
+    return whiten_radiances(data, likelihood, values, factor);
   const std::vector<int> others = radiances(data);
   const Whitened of_radiances =
       whiten_radiances(only_samples(data, others), likelihood,
                        {values.value(others), values.derivative(others, Eigen::all)}, factor);
   Whitened white{values.value, values.derivative, of_radiances.scale};
-  white.residual(others) = of_radiances.residual;
-  white.jacobian_per_unit(others, Eigen::all) = of_radiances.jacobian_per_unit;
+  const auto take = [&](const std::vector<int>& indices, const Whitened& of) {
+    white.residual(indices) = of.residual;
+    white.jacobian_per_unit(indices, Eigen::all) = of.jacobian_per_unit;
+  };
+  take(others, of_radiances);
+  take(
+      irradiances,
+      whiten_radiances(only_samples(data, irradiances), {Link::kLog, Scale::kFixed, {}},
+                       {values.value(irradiances), values.derivative(irradiances, Eigen::all)}, 1));
   for (const int i : readings) {
     const Sample& reading = data.samples[static_cast<std::size_t>(i)];
     const double sigma = factor * reading.sigma;

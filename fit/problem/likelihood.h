@@ -15,7 +15,8 @@
 //            is that of the profiled residuals (variable projection, Golub & Pereyra 1973).
 //
 // A reading of polarisation has the linear link without a scale, whatever the others have, and its
-// own sigma.
+// own sigma. An irradiance beside a sky has the logarithmic link without a scale and a known noise:
+// its stated sigma, or 5 %, without the factor.
 //
 // sigma^2 = floor^2 + (relative value)^2 where the reference states none, over the square root of
 // the sample's weight. A loss acts on the mean square of a line of sight's residuals; the profiled

@@ -42,11 +42,11 @@ void require_noise(const NoiseModel& noise) {
           "> 0 where the floor is 0");
 }
 
-// Whether the samples with weight state their sigma.
+// Whether the samples with weight state their sigma, but for irradiances beside a sky.
 bool states_sigma(const refs::Reference& reference) {
   int samples = 0, with_sigma = 0;
   for (const refs::Sample& sample : reference.samples) {
-    if (sample.weight == 0) continue;
+    if (sample.weight == 0 || refs::is_beside_sky(reference, sample)) continue;
     ++samples;
     with_sigma += sample.sigma.has_value();
   }

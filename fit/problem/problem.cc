@@ -32,16 +32,13 @@ void require_possible(const SkyState& state) {
 
 class SkyResiduals : public ResidualFunction {
  public:
-  SkyResiduals(const Problem& problem, const Dataset& data, double factor)
-      : problem_(problem), data_(data), factor_(factor) {}
+  SkyResiduals(const Problem& problem, Evaluations& evaluations, double factor)
+      : problem_(problem), evaluations_(evaluations), factor_(factor) {}
 
   Residuals evaluate(const Eigen::VectorXd& scaled, bool with_jacobian) override {
     const std::vector<Unknown>& unknowns = problem_.unknowns;
-    const SkyState state = problem_.state(scaled);
-    require_possible(state);
-    const SampleValues values = sky_values(*problem_.model, data_, state,
-                                           with_jacobian ? unknowns : std::vector<Unknown>{});
-    Whitened white = whiten(data_, problem_.likelihood, values, factor_);
+    Whitened white = whiten(evaluations_.data(), problem_.likelihood,
+                            evaluations_.at(scaled, with_jacobian), factor_);
     for (Eigen::Index u = 0; u < white.jacobian_per_unit.cols(); ++u) {
       white.jacobian_per_unit.col(u) *=
           unknowns[static_cast<std::size_t>(u)].value_per_scaled(scaled(u));
@@ -51,7 +48,7 @@ class SkyResiduals : public ResidualFunction {
 
  private:
   const Problem& problem_;
-  const Dataset& data_;
+  Evaluations& evaluations_;
   double factor_;
 };
 
@@ -71,6 +68,19 @@ std::vector<int> scans_of(bool per_scan, int scans) {
   return result;
 }
 
+// Those that an instrument has pointed or scaled: not those of irradiances beside a sky alone.
+std::vector<int> scans_of_sky(const refs::Reference& reference, const Dataset& data) {
+  std::vector<int> result;
+  for (int scan = 0; scan < std::ssize(data.scans); ++scan) {
+    const int number = data.scans[static_cast<std::size_t>(scan)].number;
+    if (std::ranges::any_of(reference.samples, [&](const refs::Sample& sample) {
+          return sample.scan == number && !refs::is_beside_sky(reference, sample);
+        }))
+      result.push_back(scan);
+  }
+  return result;
+}
+
 void add_atmosphere(const FitOptions& options, const std::vector<FreeParameter>& parameters,
                     int scans, std::vector<Unknown>& unknowns) {
   for (const Parameter id : options.per_scan) {
@@ -84,7 +94,7 @@ void add_atmosphere(const FitOptions& options, const std::vector<FreeParameter>&
   }
 }
 
-void add_instrument(const FitOptions& options, Instrument id, bool per_scan, int scans,
+void add_instrument(const FitOptions& options, Instrument id, const std::vector<int>& scans,
                     std::vector<Unknown>& unknowns) {
   const InstrumentInfo& info = instrument_info(id);
   std::optional<Prior> prior = options.use_priors ? info.prior : std::nullopt;
@@ -92,21 +102,22 @@ void add_instrument(const FitOptions& options, Instrument id, bool per_scan, int
       given != options.instrument_priors.end()) {
     prior = Prior{given->second.mean * info.unit_value, given->second.sigma * info.unit_value};
   }
-  for (const int scan : scans_of(per_scan, scans)) {
+  for (const int scan : scans) {
     unknowns.push_back({{info.lower, info.upper, id == Instrument::kScale, prior}, id, scan});
   }
 }
 
-void add_instruments(const FitOptions& options, Pointing pointing, Scale scale, int scans,
-                     std::vector<Unknown>& unknowns) {
+// `scans`: those of the sky.
+void add_instruments(const FitOptions& options, Pointing pointing, Scale scale,
+                     const std::vector<int>& scans, std::vector<Unknown>& unknowns) {
   if (pointing != Pointing::kStated)
-    add_instrument(options, Instrument::kAzimuthOffset, true, scans, unknowns);
+    add_instrument(options, Instrument::kAzimuthOffset, scans, unknowns);
   if (pointing == Pointing::kAzimuthAndTilt) {
-    add_instrument(options, Instrument::kTiltNorth, true, scans, unknowns);
-    add_instrument(options, Instrument::kTiltEast, true, scans, unknowns);
+    add_instrument(options, Instrument::kTiltNorth, scans, unknowns);
+    add_instrument(options, Instrument::kTiltEast, scans, unknowns);
   }
-  if (scale == Scale::kShared || scale == Scale::kPerScan)
-    add_instrument(options, Instrument::kScale, scale == Scale::kPerScan, scans, unknowns);
+  if (scale == Scale::kPerScan) add_instrument(options, Instrument::kScale, scans, unknowns);
+  if (scale == Scale::kShared) add_instrument(options, Instrument::kScale, {kAllScans}, unknowns);
   for (const auto& [id, prior] : options.instrument_priors) {
     const bool varied = std::ranges::any_of(unknowns, [&](const Unknown& unknown) {
       const Instrument* instrument = std::get_if<Instrument>(&unknown.what);
@@ -178,7 +189,7 @@ SkyState Problem::state(const Eigen::VectorXd& scaled) const {
 int Problem::profiled_scales() const {
   if (likelihood.scale != Scale::kProfiled) return 0;
   std::set<int> with_samples;
-  for (const LineOfSight& line : fitted.lines_of_sight) with_samples.insert(line.scan);
+  for (const LineOfSight& line : only_sky(fitted).lines_of_sight) with_samples.insert(line.scan);
   return static_cast<int>(with_samples.size());
 }
 
@@ -202,19 +213,39 @@ SkyState Problem::with_profiled_scales(SkyState at, const Dataset& data) const {
   return at;
 }
 
-Eigen::VectorXd Problem::residuals(const Dataset& data, const Eigen::VectorXd& scaled,
-                                   double factor) const {
-  return whiten(data, likelihood, sky_values(*model, data, state(scaled), {}), factor).residual;
+SampleValues Evaluations::at(const Eigen::VectorXd& scaled, bool with_derivatives) {
+  constexpr std::size_t kKept = 3;
+  auto known = std::ranges::find_if(latest_, [&](const Point& point) {
+    return point.with_derivatives >= with_derivatives && point.scaled == scaled;
+  });
+  if (known == latest_.end()) {
+    const SkyState state = problem_.state(scaled);
+    require_possible(state);
+    ++(with_derivatives ? derivatives_computed_ : values_computed_);
+    SampleValues values = sky_values(*problem_.model, data_, state,
+                                     with_derivatives ? problem_.unknowns : std::vector<Unknown>{});
+    if (latest_.size() == kKept) latest_.erase(latest_.begin());
+    latest_.push_back({scaled, with_derivatives, std::move(values)});
+    known = latest_.end() - 1;
+  }
+  if (with_derivatives) return known->values;
+  return {known->values.value, Eigen::MatrixXd(known->values.value.size(), 0)};
 }
 
 Minimum Problem::solve(const Dataset& data, const Eigen::VectorXd& start_scaled, double factor,
                        const SolverLimits& limits) const {
-  SkyResiduals function(*this, data, factor);
+  Evaluations evaluations(*this, data);
+  return solve(evaluations, start_scaled, factor, limits);
+}
+
+Minimum Problem::solve(Evaluations& evaluations, const Eigen::VectorXd& start_scaled, double factor,
+                       const SolverLimits& limits) const {
+  SkyResiduals function(*this, evaluations, factor);
   if (unknowns.empty()) {
     const Residuals as_is = function.evaluate(start_scaled, false);
     return {start_scaled, 0.5 * as_is.value.squaredNorm(), 0, 1, 0, true, "NOTHING IS FREE"};
   }
-  return minimise(least_squares(*this, data, &function), start_scaled, limits);
+  return minimise(least_squares(*this, evaluations.data(), &function), start_scaled, limits);
 }
 
 std::vector<double> Problem::loss_weights(const Eigen::VectorXd& residual) const {
@@ -236,8 +267,8 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
   const Atmosphere<double> base =
       with_fixed_values(evaluate_only ? given : with_lobes(given, options.lobes), options);
   const Pointing pointing = pointing_of(options, reference);
-  const bool several_wavelengths =
-      problem.fitted.channels.size() > 1 && reference.quantity == refs::Quantity::kSpectralRadiance;
+  const bool several_wavelengths = only_sky(problem.fitted).channels.size() > 1 &&
+                                   reference.quantity == refs::Quantity::kSpectralRadiance;
   const FitOptions with_defaults =
       with_default_parameters(with_free_of_irradiances(options, reference, model, base), model,
                               several_wavelengths, pointing != Pointing::kStated, base);
@@ -248,7 +279,8 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
       options.start ? start_state(as_given(given, options), problem.scans()) : problem.start;
   problem.lobes_may_swap = may_swap_lobes(options, parameters);
   add_atmosphere(options, parameters, problem.scans(), problem.unknowns);
-  add_instruments(options, pointing, problem.likelihood.scale, problem.scans(), problem.unknowns);
+  add_instruments(options, pointing, problem.likelihood.scale,
+                  scans_of_sky(reference, problem.fitted), problem.unknowns);
   check_counts(reference, problem, options);
   return problem;
 }

@@ -14,6 +14,8 @@ namespace skyfit::fit {
 
 inline constexpr int kMediumChannels = 12;  // wavelengths of what is repeated
 
+class Evaluations;
+
 struct Problem {
   const SkyModel* model;
   Likelihood likelihood;
@@ -35,12 +37,36 @@ struct Problem {
   Eigen::VectorXd with_ordered_lobes(const Eigen::VectorXd& scaled) const;
   // Where the scale is profiled, the state with that of each scan in `data`; NaN without a sample.
   SkyState with_profiled_scales(SkyState state, const Dataset& data) const;
-  Eigen::VectorXd residuals(const Dataset& data, const Eigen::VectorXd& scaled,
-                            double factor) const;
   Minimum solve(const Dataset& data, const Eigen::VectorXd& start_scaled, double factor,
+                const SolverLimits& limits) const;
+  // The same where others ask for the same points: `evaluations` are of this problem.
+  Minimum solve(Evaluations& evaluations, const Eigen::VectorXd& start_scaled, double factor,
                 const SolverLimits& limits) const;
   // What the loss leaves of the weight of each line of sight of `fitted`.
   std::vector<double> loss_weights(const Eigen::VectorXd& residual) const;
+};
+
+// The model's values of a dataset at the latest points, for the next solution begins where the last
+// one ended. Both outlive it.
+class Evaluations {
+ public:
+  Evaluations(const Problem& problem, const Dataset& data) : problem_(problem), data_(data) {}
+  // Throws std::domain_error where the point is no possible sky.
+  SampleValues at(const Eigen::VectorXd& scaled, bool with_derivatives);
+  const Dataset& data() const { return data_; }
+  int values_computed() const { return values_computed_; }  // without derivatives
+  int derivatives_computed() const { return derivatives_computed_; }
+
+ private:
+  struct Point {
+    Eigen::VectorXd scaled;
+    bool with_derivatives;
+    SampleValues values;
+  };
+  const Problem& problem_;
+  const Dataset& data_;
+  std::vector<Point> latest_;  // at most kKept, the last one last
+  int values_computed_ = 0, derivatives_computed_ = 0;
 };
 
 // Throws std::invalid_argument as fit_atmosphere() does.

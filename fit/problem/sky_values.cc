@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "model/numerics/angles.h"
+#include "model/numerics/batch.h"
 
 namespace skyfit::fit {
 namespace {
 
 constexpr double kPointingStep = 0.25 * kRadiansPerDegree;
 
-// Views that see one atmosphere and are measured at the same wavelengths.
+// Views that see one atmosphere and are measured at the same wavelengths, or at few.
 struct Group {
   int scan = 0;  // the first of them
   std::vector<int> views;
@@ -67,26 +68,44 @@ Sun sun_of(const View& view) { return {view.scan, view.stated.sun_zenith}; }
 
 std::map<Sun, std::set<int>> channels_of_suns(const Dataset& data) {
   std::map<Sun, std::set<int>> channels;
-  for (const Sample& sample : data.samples)
-    channels[sun_of(data.views[static_cast<std::size_t>(sample.view)])].insert(sample.channel);
+  for (const Sample& sample : data.samples) {
+    if (!sample.irradiance)
+      channels[sun_of(data.views[static_cast<std::size_t>(sample.view)])].insert(sample.channel);
+  }
   return channels;
+}
+
+// A photometer measures each wavelength under a sun of its own. As many wavelengths as the model
+// reference solves at once are cheaper asked for under all suns together than each by itself.
+void join_few(const Dataset& data, std::map<Sun, std::set<int>>& channels) {
+  std::set<int> all;
+  for (const auto& [sun, of_sun] : channels) all.insert(of_sun.begin(), of_sun.end());
+  std::size_t nodes = 0;
+  for (const int channel : all)
+    nodes += data.channels[static_cast<std::size_t>(channel)].node.size();
+  if (nodes > batch::kBatchWidth) return;
+  for (auto& [sun, of_sun] : channels) of_sun = all;
 }
 
 void add_nodes(const Dataset& data, const std::set<int>& channels, Group& group) {
   group.index_of_node.assign(data.nodes.size(), -1);
   for (const int channel : channels) {
     for (const int node : data.channels[static_cast<std::size_t>(channel)].node) {
-      group.index_of_node[static_cast<std::size_t>(node)] = static_cast<int>(group.nodes.size());
+      int& index = group.index_of_node[static_cast<std::size_t>(node)];
+      if (index >= 0) continue;
+      index = static_cast<int>(group.nodes.size());
       group.nodes.push_back(data.nodes[static_cast<std::size_t>(node)]);
     }
   }
 }
 
-// Views without a sample are in none.
+// Views without a sample are in none, nor are those of irradiances.
 std::vector<Group> groups_of(const Dataset& data, const SkyState& state) {
-  const std::map<Sun, std::set<int>> channels = channels_of_suns(data);
+  std::map<Sun, std::set<int>> channels = channels_of_suns(data);
+  join_few(data, channels);
   std::map<std::pair<int, std::set<int>>, Group> groups;
   for (std::size_t r = 0; r < data.samples.size(); ++r) {
+    if (data.samples[r].irradiance) continue;
     const int index = data.samples[r].view;
     const View& view = data.views[static_cast<std::size_t>(index)];
     const std::set<int>& measured = channels.at(sun_of(view));
@@ -116,15 +135,11 @@ class Evaluation {
   }
 
   SampleValues run() {
-    const bool irradiances = !data_.samples.empty() && data_.samples.front().irradiance;
-    if (irradiances) {
-      add_irradiances();
-    } else {
-      for (const Group& group : groups_of(data_, state_)) {
-        add_atmosphere(group);
-        add_pointing(group);
-      }
+    for (const Group& group : groups_of(data_, state_)) {
+      add_atmosphere(group);
+      add_pointing(group);
     }
+    add_irradiances();
     add_scale();
     return std::move(result_);
   }
@@ -179,33 +194,43 @@ class Evaluation {
 
   // Those under one sun come from one hemisphere.
   void add_irradiances() {
-    std::map<Sun, std::vector<Eigen::Index>> suns;
+    std::map<Sun, Group> suns;
+    std::map<Sun, std::set<int>> channels;
     for (std::size_t r = 0; r < data_.samples.size(); ++r) {
       const Sample& sample = data_.samples[r];
-      suns[sun_of(data_.views[static_cast<std::size_t>(sample.view)])].push_back(
-          static_cast<Eigen::Index>(r));
+      if (!sample.irradiance) continue;
+      const Sun sun = sun_of(data_.views[static_cast<std::size_t>(sample.view)]);
+      suns[sun].samples.push_back(static_cast<Eigen::Index>(r));
+      channels[sun].insert(sample.channel);
     }
-    for (const auto& [sun, samples] : suns) {
+    for (auto& [sun, group] : suns) {
       const auto [scan, sun_zenith] = sun;
+      group.scan = scan;
+      add_nodes(data_, channels.at(sun), group);
       const auto [wanted, slice] = differentiated(scan);
-      const SkyValues light = model_.irradiance(state_.atmosphere[static_cast<std::size_t>(scan)],
-                                                data_.nodes, 0, sun_zenith, wanted);
-      for (const Eigen::Index r : samples) add_irradiance(r, light, slice);
+      const SkyValues light =
+          model_.irradiance(atmosphere(group), group.nodes, 0, sun_zenith, wanted);
+      for (const Eigen::Index r : group.samples) add_irradiance(r, group, light, slice);
     }
   }
 
-  void add_irradiance(Eigen::Index r, const SkyValues& light, const std::vector<int>& slice) {
+  void add_irradiance(Eigen::Index r, const Group& group, const SkyValues& light,
+                      const std::vector<int>& slice) {
     const Sample& sample = data_.samples[static_cast<std::size_t>(r)];
     const Channel& channel = data_.channels[static_cast<std::size_t>(sample.channel)];
     const int scan = data_.scan_of(sample);
-    const double factor = factor_of(scan);
+    // The scale of a sky is not that of what stands beside it.
+    const double factor = sample.beside_sky
+                              ? data_.scans[static_cast<std::size_t>(scan)].inverse_distance2
+                              : factor_of(scan);
     for (std::size_t k = 0; k < channel.node.size(); ++k) {
       const double weight = factor * channel.weight[k];
-      result_.value(r) += weight * light.at(*sample.irradiance, channel.node[k]);
+      const int node = group.index_of_node[static_cast<std::size_t>(channel.node[k])];
+      result_.value(r) += weight * light.at(*sample.irradiance, node);
       for (std::size_t u = 0; u < unknowns_.size(); ++u) {
         if (slice[u] < 0 || !unknowns_[u].applies_to(scan)) continue;
         result_.derivative(r, static_cast<Eigen::Index>(u)) +=
-            weight * light.derivative_at(slice[u], *sample.irradiance, channel.node[k]);
+            weight * light.derivative_at(slice[u], *sample.irradiance, node);
       }
     }
   }
@@ -301,7 +326,9 @@ class Evaluation {
       if (id == nullptr || *id != Instrument::kScale) continue;
       for (std::size_t r = 0; r < data_.samples.size(); ++r) {
         const int scan = data_.scan_of(data_.samples[r]);
-        if (!unknowns_[u].applies_to(scan) || data_.samples[r].polarisation) continue;
+        if (!unknowns_[u].applies_to(scan) || data_.samples[r].polarisation ||
+            data_.samples[r].beside_sky)
+          continue;
         const auto sample = static_cast<Eigen::Index>(r);
         result_.derivative(sample, static_cast<Eigen::Index>(u)) =
             result_.value(sample) / state_.instrument[static_cast<std::size_t>(scan)]

@@ -20,8 +20,10 @@ double percent_of_norm(double difference2, double value2) {
   return value2 > 0 ? 100 * std::sqrt(difference2 / value2) : kNan;
 }
 
-bool counts(const refs::Sample& sample, double model, int scan) {
-  return sample.weight > 0 && !std::isnan(model) && (scan == -1 || sample.scan == scan);
+bool counts(const refs::Reference& reference, std::size_t index, double model, int scan) {
+  const refs::Sample& sample = reference.samples[index];
+  return !refs::is_beside_sky(reference, sample) && sample.weight > 0 && !std::isnan(model) &&
+         (scan == -1 || sample.scan == scan);
 }
 
 // Weighted sums of one scan's logarithms.
@@ -37,7 +39,8 @@ double rms_log_percent(const refs::Reference& reference, const std::vector<doubl
   for (const bool second : {false, true}) {
     for (std::size_t i = 0; i < reference.samples.size(); ++i) {
       const refs::Sample& s = reference.samples[i];
-      if (!counts(s, model[i], scan) || s.sun_zenith > largest_sun_zenith + kRounding) continue;
+      if (!counts(reference, i, model[i], scan) || s.sun_zenith > largest_sun_zenith + kRounding)
+        continue;
       if (refs::scattering_angle(s) < exclude_sun - kRounding) continue;
       const double log_ratio = std::log(model[i] / s.value);
       LogSums& sums = scans[s.scan];
@@ -67,7 +70,7 @@ Errors errors_of(const refs::Reference& reference, const std::vector<double>& mo
   double difference2 = 0, value2 = 0;
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {
     const refs::Sample& s = reference.samples[i];
-    if (!counts(s, model[i], scan)) continue;
+    if (!counts(reference, i, model[i], scan)) continue;
     const double weight = spectral ? spectra.y_bar.at_or_zero(s.wavelength_nm) : 1;
     Pair& luminance = luminances[refs::direction_from_sun(s)];
     luminance.model += weight * model[i];

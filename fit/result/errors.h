@@ -30,8 +30,16 @@ struct PolarisationErrors {
   double start_rms = 0, rms = 0, sigma = 0;
 };
 
-// `model`: one value per sample of the reference; samples without one (NaN) do not count. Of one
-// scan (the reference's number) or of all (-1).
+// Of the fitted irradiances of one kind beside a sky, percent: root mean squares of
+// model / value - 1, and of sigma over the value.
+struct IrradianceErrors {
+  Irradiance what;
+  int samples = 0;
+  double start_rms = 0, rms = 0, mean_bias = 0, sigma = 0;
+};
+
+// `model`: one value per sample of the reference; samples without one (NaN) and irradiances beside
+// a sky do not count. Of one scan (the reference's number) or of all (-1).
 Errors errors_of(const refs::Reference& reference, const std::vector<double>& model,
                  const SpectralData& spectra, int scan = -1);
 

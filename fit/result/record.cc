@@ -42,16 +42,33 @@ json polarisation_json(const Result& result) {
   return kinds;
 }
 
+json irradiances_json(const Result& result) {
+  json kinds = json::object();
+  for (const IrradianceErrors& errors : result.irradiances) {
+    kinds[std::string(kIrradianceNames[errors.what])] = {{"samples", errors.samples},
+                                                         {"rms_percent_start", errors.start_rms},
+                                                         {"rms_percent", errors.rms},
+                                                         {"mean_bias_percent", errors.mean_bias},
+                                                         {"sigma_percent", errors.sigma}};
+  }
+  return kinds;
+}
+
 json reference_json(const Result& result) {
   json suns = json::array();
   for (const ScanOutcome& scan : result.scans)
     suns.push_back(scan.info.sun_zenith * kDegreesPerRadian);
-  return {{"name", result.reference.name},
-          {"description", result.reference.description},
-          {"quantity", refs::sample_csv::value_column(result.reference.quantity)},
-          {"samples", result.samples},
-          {"sun_zenith_deg", suns},
-          {"exclude_sun_deg", result.exclude_sun * kDegreesPerRadian}};
+  json reference = {{"name", result.reference.name},
+                    {"description", result.reference.description},
+                    {"quantity", refs::sample_csv::value_column(result.reference.quantity)},
+                    {"samples", result.samples},
+                    {"sun_zenith_deg", suns},
+                    {"exclude_sun_deg", result.exclude_sun * kDegreesPerRadian}};
+  if (result.reference.irradiance_quantity) {
+    reference["irradiance_quantity"] =
+        refs::sample_csv::value_column(*result.reference.irradiance_quantity);
+  }
+  return reference;
 }
 
 json likelihood_json(const Result& result) {
@@ -201,6 +218,7 @@ json record_of(const Result& result) {
                  {"wall_seconds", result.wall_seconds}};
   record.update(errors_json(result.errors));
   if (!result.polarisation.empty()) record["polarisation"] = polarisation_json(result);
+  if (!result.irradiances.empty()) record["irradiances"] = irradiances_json(result);
   return record;
 }
 

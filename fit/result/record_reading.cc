@@ -79,6 +79,19 @@ void read_polarisation(const PresetReader& record, Result& result) {
   }
 }
 
+void read_irradiances(const PresetReader& record, Result& result) {
+  if (!record.has("irradiances")) return;
+  const PresetReader kinds = record.object("irradiances");
+  for (int kind = 0; kind < kIrradianceCount; ++kind) {
+    const std::string_view name = kIrradianceNames[static_cast<std::size_t>(kind)];
+    if (!kinds.has(name)) continue;
+    const PresetReader row = kinds.object(name);
+    result.irradiances.push_back({static_cast<Irradiance>(kind), count_from(row, "samples"),
+                                  row.number("rms_percent_start"), row.number("rms_percent"),
+                                  row.number("mean_bias_percent"), row.number("sigma_percent")});
+  }
+}
+
 void read_likelihood(const PresetReader& record, Result& result) {
   Likelihood& likelihood = result.likelihood;
   likelihood.link = named(record, "link", {Link::kLog, Link::kLinear}, link_name);
@@ -261,6 +274,12 @@ void read_record(const PresetReader& record, Result& result) {
                                      refs::Quantity::kRelativeLuminance,
                                      refs::Quantity::kIlluminance, refs::Quantity::kIrradiance},
                                     refs::sample_csv::value_column);
+  if (reference.has("irradiance_quantity")) {
+    result.reference.irradiance_quantity =
+        named(reference, "irradiance_quantity",
+              {refs::Quantity::kIlluminance, refs::Quantity::kIrradiance},
+              refs::sample_csv::value_column);
+  }
   result.exclude_sun = reference.number("exclude_sun_deg") / kDegreesPerRadian;
   result.reference.notes = record.texts("notes");
   result.samples_left_out = samples_left_out_from(record);
@@ -270,6 +289,7 @@ void read_record(const PresetReader& record, Result& result) {
   result.start_rms = rms_from(record.object("rms_log_percent_start"));
   result.rms = rms_from(record.object("rms_log_percent_fitted"));
   read_polarisation(record, result);
+  read_irradiances(record, result);
   read_unknowns(record, result);
   read_numbers(record, result);
   int scan = 0;

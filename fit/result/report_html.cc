@@ -79,11 +79,11 @@ void add_summary(xml_node body, const Result& result) {
   item("Started from", result.start_name);
   item("Likelihood", likelihood_text(result));
   item("Samples", samples_text(result));
-  item("Solver",
-       fmt::format("{} after {} iterations of all {} starts; {} model solutions, {} with "
-                   "derivatives; {:.3g} s",
-                   result.termination, result.iterations, result.starts.size(),
-                   result.model_evaluations, result.derivative_evaluations, result.wall_seconds));
+  item("Solver", fmt::format("{} after {} iterations of all {} starts; {} model solutions, {} with "
+                             "derivatives; {:.3g} s",
+                             result.termination, result.iterations, result.starts.size(),
+                             result.model_evaluations + result.derivative_evaluations,
+                             result.derivative_evaluations, result.wall_seconds));
   for (const std::string& note : result.reference.notes) item("Note", note);
   for (const auto& [reason, count] : result.samples_left_out)
     item("Left out", fmt::format("{} samples: {}", count, reason));
@@ -152,6 +152,15 @@ void add_errors(xml_node body, const Result& result) {
   for (std::size_t s = 0; s < result.scans.size(); ++s)
     row(scan_name(result, s), result.scans[s].errors);
   add(body, "p", errors_meaning(result), "small");
+  if (!result.irradiances.empty()) {
+    xml_node beside = add_table(
+        body, {irradiances_title(result), "samples", "start", "fitted", "mean bias", "one sigma"});
+    for (const IrradianceErrors& e : result.irradiances) {
+      add_row(beside, {std::string(kIrradianceNames[e.what]), std::to_string(e.samples),
+                       number_text(e.start_rms, 4), number_text(e.rms, 4),
+                       number_text(e.mean_bias, 3), number_text(e.sigma, 3)});
+    }
+  }
   if (result.polarisation.empty()) return;
   xml_node readings = add_table(
       body, {"Polarisation, RMS in percentage points", "readings", "start", "fitted", "one sigma"});

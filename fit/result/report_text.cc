@@ -36,7 +36,7 @@ std::string header(const Result& result) {
       result.preset.name, result.reference.description, result.model_name,
       transfer_name(result.transfer), result.version, result.start_name, likelihood_text(result),
       samples_text(result), result.termination, result.iterations, result.starts.size(),
-      result.model_evaluations, result.derivative_evaluations);
+      result.model_evaluations + result.derivative_evaluations, result.derivative_evaluations);
 }
 
 // What is known of the reference, and its samples without weight by reason.
@@ -74,6 +74,19 @@ std::string polarisation_text(const Result& result) {
     text += fmt::format(kRow, polarisation_name(errors.what), errors.readings,
                         number_text(errors.start_rms, 4), number_text(errors.rms, 4),
                         number_text(errors.sigma, 3));
+  }
+  return text + "\n";
+}
+
+std::string irradiances_text(const Result& result) {
+  if (result.irradiances.empty()) return "";
+  constexpr std::string_view kRow = "{:<44}{:>10}{:>12}{:>12}{:>12}{:>12}\n";
+  std::string text = fmt::format(kRow, irradiances_title(result), "samples", "start", "fitted",
+                                 "mean bias", "one sigma");
+  for (const IrradianceErrors& errors : result.irradiances) {
+    text += fmt::format(kRow, kIrradianceNames[errors.what], errors.samples,
+                        number_text(errors.start_rms, 4), number_text(errors.rms, 4),
+                        number_text(errors.mean_bias, 3), number_text(errors.sigma, 3));
   }
   return text + "\n";
 }
@@ -277,10 +290,10 @@ std::string brief_report(const Result& result) {
 
 std::string full_report(const Result& result, const Checks& checks) {
   return header(result) + reference_remarks(result) + errors_text(result) +
-         polarisation_text(result) + rms_text(result) + scales_text(result) +
-         unknowns_text(result) + pulled_text(pulled_priors(result)) + downweighted_text(result) +
-         correlation_text(result) + findings_text(result) + starts_text(result) +
-         profiles_text(checks.profiles) +
+         polarisation_text(result) + irradiances_text(result) + rms_text(result) +
+         scales_text(result) + unknowns_text(result) + pulled_text(pulled_priors(result)) +
+         downweighted_text(result) + correlation_text(result) + findings_text(result) +
+         starts_text(result) + profiles_text(checks.profiles) +
          (checks.bootstrap ? bootstrap_text(result, *checks.bootstrap) : "") +
          hold_out_text(checks.hold_outs) + fmt::format("Time: {:.3g} s.\n", result.wall_seconds);
 }

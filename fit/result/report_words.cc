@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "data_refs/units.h"
@@ -11,6 +12,13 @@
 
 namespace skyfit::fit {
 namespace {
+
+// All but those of irradiances alone, beside a sky.
+std::ptrdiff_t scans_of_sky(const Result& result) {
+  if (!result.reference.irradiance_quantity) return std::ssize(result.scans);
+  return std::ranges::count_if(result.scans,
+                               [](const ScanOutcome& scan) { return scan.directions > 0; });
+}
 
 // What a pull may stand for.
 std::string pull_reason(const Unknown& unknown) {
@@ -54,9 +62,22 @@ std::string samples_text(const Result& result) {
   if (refs::is_irradiance(result.reference.quantity))
     return fmt::format("{} under {} sun{}", result.samples, result.scans.size(),
                        result.scans.size() == 1 ? "" : "s");
-  return fmt::format("{} in {} directions of {} scans, {:.4g} deg around the sun left out",
-                     result.samples, result.directions, result.scans.size(),
-                     result.exclude_sun * kDegreesPerRadian);
+  std::string text = fmt::format(
+      "{} in {} directions of {} scans, {:.4g} deg around the sun left out", result.samples,
+      result.directions, scans_of_sky(result), result.exclude_sun * kDegreesPerRadian);
+  int beside = 0;
+  for (const IrradianceErrors& errors : result.irradiances) beside += errors.samples;
+  if (beside > 0) {
+    text += fmt::format("; with {} {}{}, log residuals, scale fixed, noise known", beside,
+                        refs::quantity_name(result.reference.irradiance_quantity.value()),
+                        beside == 1 ? "" : "s");
+  }
+  return text;
+}
+
+std::string irradiances_title(const Result& result) {
+  const bool lux = result.reference.irradiance_quantity == refs::Quantity::kIlluminance;
+  return fmt::format("{} beside the sky, percent", lux ? "Illuminances" : "Irradiances");
 }
 
 std::string value_name(const Result& result) {

@@ -16,7 +16,8 @@ std::string number_text(double value, int digits = 5);
 std::string likelihood_text(const Result& result);
 // "[2] 1030.csv, sun 45.1 deg"; `scan` from 0.
 std::string scan_name(const Result& result, std::size_t scan);
-// "145 in 145 directions of 1 scans, 3 deg around the sun left out", or "2 under 1 sun".
+// "145 in 145 directions of 1 scans, 3 deg around the sun left out", or "2 under 1 sun"; and how
+// many irradiances beside the sky, and how they are weighed.
 std::string samples_text(const Result& result);
 // Of the errors of directions: "luminance", or what irradiances are.
 std::string value_name(const Result& result);
@@ -25,6 +26,8 @@ std::string remark_text(const UnknownRow& row);
 std::string prior_text(const UnknownRow& row);
 // "Q / I", "U / I" or "degree of linear polarisation".
 std::string_view polarisation_name(refs::Polarisation what);
+// The head of the errors of irradiances beside a sky.
+std::string irradiances_title(const Result& result);
 // What one sigma is made of; lines of at most 100 columns.
 std::string sigma_text(const Result& result);
 // What "RMS of log", "luminance", "spectral" and "own" errors are.

@@ -45,7 +45,8 @@ struct ScanOutcome {
   // sample.
   InstrumentState instrument;
   Errors start_errors, errors;
-  int samples = 0, directions = 0;  // that were fitted; without readings of polarisation
+  // That were fitted; without readings of polarisation and irradiances beside a sky.
+  int samples = 0, directions = 0;
 };
 
 struct Result {
@@ -74,6 +75,7 @@ struct Result {
   Errors start_errors, errors;
   RmsSummary start_rms, rms;
   std::vector<PolarisationErrors> polarisation;  // of each kind that was fitted
+  std::vector<IrradianceErrors> irradiances;     // the same, of those beside a sky
   std::vector<ScanOutcome> scans;
   // Per sample of the reference, with the instrument; NaN outside the model's spectra and in a scan
   // without scale.
@@ -85,7 +87,7 @@ struct Result {
   std::vector<StartSummary> starts;
   bool converged = false;
   std::string termination;  // Ceres' word for it
-  // Without the readings of polarisation.
+  // Without readings of polarisation and irradiances beside a sky.
   int samples = 0, directions = 0, iterations = 0, model_evaluations = 0,
       derivative_evaluations = 0;  // of all starts
   double wall_seconds = 0;

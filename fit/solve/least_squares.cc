@@ -22,15 +22,19 @@ class Prepared : public ceres::EvaluationCallback {
 
   Eigen::VectorXd& scaled() { return scaled_; }
 
+  // Ceres asks for the value at a trial point and, where it takes the step, for the Jacobian there,
+  // which costs less together. It takes most steps; after one that it did not, it asks first.
   void PrepareForEvaluation(bool evaluate_jacobians, bool) override {
     const bool same_point = prepared_at_.size() > 0 && prepared_at_ == scaled_;
+    const bool last_step_taken = jacobian_was_wanted_;
+    jacobian_was_wanted_ = evaluate_jacobians || (same_point && jacobian_was_wanted_);
     if (same_point && (has_jacobian_ || !evaluate_jacobians || failed_)) return;
     prepared_at_ = scaled_;
-    has_jacobian_ = evaluate_jacobians;
+    has_jacobian_ = evaluate_jacobians || last_step_taken;
     failed_ = false;
     try {
-      ++(evaluate_jacobians ? derivative_evaluations_ : evaluations_);
-      residuals_ = problem_.function->evaluate(scaled_, evaluate_jacobians);
+      ++(has_jacobian_ ? derivative_evaluations_ : evaluations_);
+      residuals_ = problem_.function->evaluate(scaled_, has_jacobian_);
     } catch (const std::domain_error&) {  // a dark sky: Ceres takes a shorter step
       fail();
     } catch (...) {
@@ -57,7 +61,7 @@ class Prepared : public ceres::EvaluationCallback {
   const LeastSquares& problem_;
   Eigen::VectorXd scaled_, prepared_at_;
   Residuals residuals_;
-  bool has_jacobian_ = false, failed_ = false;
+  bool has_jacobian_ = false, jacobian_was_wanted_ = false, failed_ = false;
   std::exception_ptr failure_, fatal_;
   int evaluations_ = 0, derivative_evaluations_ = 0;
 };

@@ -74,13 +74,14 @@ std::vector<double> scaled_grid(const UnknownRow& row, double scaled) {
 }
 
 // The directions of every scan, drawn with replacement: rows of directions drawn w times weigh so,
-// those of the others are left out.
+// those of the others are left out. Irradiances beside the sky stay.
 Dataset resampled(const Dataset& data, std::mt19937_64& generator) {
-  std::vector<int> drawn(data.lines_of_sight.size(), 0);
-  for (std::size_t first = 0; first < data.lines_of_sight.size();) {
+  const std::size_t directions = only_sky(data).lines_of_sight.size();
+  std::vector<int> drawn(data.lines_of_sight.size(), 1);
+  std::fill_n(drawn.begin(), directions, 0);
+  for (std::size_t first = 0; first < directions;) {
     std::size_t last = first;
-    while (last < data.lines_of_sight.size() &&
-           data.lines_of_sight[last].scan == data.lines_of_sight[first].scan)
+    while (last < directions && data.lines_of_sight[last].scan == data.lines_of_sight[first].scan)
       ++last;
     std::uniform_int_distribution<std::size_t> any(first, last - 1);
     for (std::size_t k = first; k < last; ++k) ++drawn[any(generator)];
@@ -110,12 +111,14 @@ refs::Reference without(const refs::Reference& reference, const Marks& marked, b
   return result;
 }
 
-// Gives a scan that was left out the mean instrument of the others.
-void share_instrument(SkyState& state, const std::vector<bool>& scan_left_out) {
+// Gives a scan that was left out the mean instrument of the others that have one.
+void share_instrument(SkyState& state, const Dataset& fitted,
+                      const std::vector<bool>& scan_left_out) {
+  const std::vector<LineOfSight> of_sky = only_sky(fitted).lines_of_sight;
   InstrumentState mean{};
   double count = 0;
   for (std::size_t s = 0; s < state.instrument.size(); ++s) {
-    if (scan_left_out[s]) continue;
+    if (std::ranges::count(of_sky, static_cast<int>(s), &LineOfSight::scan) == 0) continue;
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += state.instrument[s][k];
     ++count;
   }
@@ -180,7 +183,7 @@ HoldOut held_out(const SpectralData& spectra, const SkyModel& model, const FitOp
   std::vector<bool> left_out(state.instrument.size(), true);
   for (const LineOfSight& line : problem.fitted.lines_of_sight)
     left_out[static_cast<std::size_t>(line.scan)] = false;
-  share_instrument(state, left_out);
+  share_instrument(state, problem.fitted, left_out);
   const auto errors = [&](const SkyState& at) {
     return errors_at(problem, held, spectra, with_scales(problem, held, spectra, at, left_out));
   };
@@ -262,6 +265,7 @@ std::vector<HoldOut> leave_one_scan_out(const SpectralData& spectra, const SkyMo
   }
   std::vector<HoldOut> outcomes;
   for (const ScanOutcome& scan : result.scans) {
+    if (scan.directions == 0 && result.reference.irradiance_quantity) continue;
     Marks marked;
     for (const refs::Sample& sample : result.reference.samples)
       marked.push_back(sample.scan == scan.info.number);
@@ -275,7 +279,9 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
                                          const FitOptions& options, const Result& result, int parts,
                                          std::uint64_t seed) {
   std::map<refs::DirectionFromSun, int> part_of;
-  for (const refs::Sample& s : result.reference.samples) part_of[refs::direction_from_sun(s)] = 0;
+  for (const refs::Sample& s : result.reference.samples) {
+    if (!refs::is_beside_sky(result.reference, s)) part_of[refs::direction_from_sun(s)] = 0;
+  }
   std::vector<int> dealt;
   for (std::size_t k = 0; k < part_of.size(); ++k) dealt.push_back(static_cast<int>(k) % parts);
   std::ranges::shuffle(dealt, std::mt19937_64(seed));
@@ -284,8 +290,10 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
   std::vector<HoldOut> outcomes;
   for (int part = 0; part < parts; ++part) {
     Marks marked;
-    for (const refs::Sample& s : result.reference.samples)
-      marked.push_back(part_of[refs::direction_from_sun(s)] == part);
+    for (const refs::Sample& s : result.reference.samples) {
+      const auto of = part_of.find(refs::direction_from_sun(s));
+      marked.push_back(of != part_of.end() && of->second == part);
+    }
     outcomes.push_back(held_out(spectra, model, as_pointed(options), result, marked,
                                 fmt::format("directions, part {} of {}", part + 1, parts)));
   }

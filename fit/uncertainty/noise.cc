@@ -165,8 +165,11 @@ Eigen::MatrixXd times_correlation_of_kind(const Dataset& data, const Noise& nois
 }  // namespace
 
 // docs/theory (12.1) and (12.4).
-Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
-                     const Eigen::VectorXd& residual, int unknowns) {
+Noise estimate_noise(const Dataset& all, const Likelihood& likelihood,
+                     const Eigen::VectorXd& residual_of_all, int unknowns) {
+  const Dataset data = only_sky(all);
+  const Eigen::VectorXd residual =
+      residual_of_all.head(static_cast<Eigen::Index>(data.samples.size()));
   const auto count = static_cast<double>(data.samples.size());
   const std::vector<int> indices = radiances(data);
   const Dataset others = only_samples(data, indices);

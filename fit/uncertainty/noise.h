@@ -7,7 +7,8 @@
 // line of sight.
 //
 // Readings of polarisation count among the samples but not in length and r; between them and
-// radiances the correlation is taken as 0, among those of one kind as among radiances.
+// radiances the correlation is taken as 0, among those of one kind as among radiances. Irradiances
+// beside a sky say nothing of its noise and do not count.
 //
 // N_eff = N * (share of independent lines of sight) * (share of independent wavelengths): of n, n^2
 // over the sum of the correlations of all pairs. White noise gives N.
@@ -43,7 +44,7 @@ struct Noise {
 Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
                      const Eigen::VectorXd& residual, int unknowns);
 
-// The correlation matrix of the samples times `columns`, [sample][.].
+// The correlation matrix of the samples, which are those of a sky, times `columns`, [sample][.].
 Eigen::MatrixXd times_correlation(const Dataset& data, const Noise& noise,
                                   const Eigen::MatrixXd& columns);
 

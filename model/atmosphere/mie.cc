@@ -17,6 +17,14 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// Without the care for infinities of the operator /, which costs as much as the rest: of numbers
+// whose squares neither overflow nor vanish, as here down to kSmallestSizeParameter.
+Complex ratio_of(Complex above, Complex below) {
+  const double norm = below.real() * below.real() + below.imag() * below.imag();
+  return {(above.real() * below.real() + above.imag() * below.imag()) / norm,
+          (above.imag() * below.real() - above.real() * below.imag()) / norm};
+}
+
 // The order from which a recurrence of the argument z starts downward: what it starts with is
 // forgotten from order |z| on, over a transition that is as wide as the cube root of |z|.
 int first_order(double argument, int terms) {
@@ -27,9 +35,10 @@ int first_order(double argument, int terms) {
 std::vector<Complex> logarithmic_derivatives(Complex z, int terms) {
   std::vector<Complex> d(static_cast<std::size_t>(terms) + 1);
   Complex above = 0;
+  const Complex inverse = ratio_of(1, z);
   for (int n = first_order(std::abs(z), terms); n > 0; --n) {
-    const Complex ratio = static_cast<double>(n) / z;
-    above = ratio - 1.0 / (above + ratio);
+    const Complex ratio = static_cast<double>(n) * inverse;
+    above = ratio - ratio_of(1, above + ratio);
     if (n <= terms + 1) d[static_cast<std::size_t>(n) - 1] = above;
   }
   return d;
@@ -148,9 +157,9 @@ Amplitudes amplitudes(const std::vector<Complex>& a, const std::vector<Complex>&
 }  // namespace
 
 MieCoefficients mie_coefficients(double x, Complex index, bool by_index) {
-  if (!(x > 0 && x <= kLargestSizeParameter)) {
-    throw std::invalid_argument(fmt::format(
-        "size parameter = {:.6g}: expected more than 0 and at most {}", x, kLargestSizeParameter));
+  if (!(x >= kSmallestSizeParameter && x <= kLargestSizeParameter)) {
+    throw std::invalid_argument(fmt::format("size parameter = {:.6g}: expected {} to {}", x,
+                                            kSmallestSizeParameter, kLargestSizeParameter));
   }
   if (!(index.real() > 0 && index.imag() >= 0)) {
     throw std::invalid_argument(fmt::format(
@@ -158,25 +167,25 @@ MieCoefficients mie_coefficients(double x, Complex index, bool by_index) {
         index.real(), index.imag()));
   }
   const int terms = terms_of(x);
-  const Complex z = index * x;
+  const Complex z = index * x, inverse_index = ratio_of(1, index), inverse_z2 = ratio_of(1, z * z);
   const std::vector<Complex> d = logarithmic_derivatives(z, terms);
   const std::vector<double> psi = riccati_bessel(x, terms), eta = riccati_neumann(x, terms);
   MieCoefficients c;
   for (int k = 1; k <= terms; ++k) {
     const auto n = static_cast<std::size_t>(k);
     const Complex xi(psi[n], eta[n]), xi_before(psi[n - 1], eta[n - 1]);
-    const Complex electric = d[n] / index + k / x, magnetic = index * d[n] + k / x;
+    const Complex electric = d[n] * inverse_index + k / x, magnetic = index * d[n] + k / x;
     const Complex a_below = electric * xi - xi_before, b_below = magnetic * xi - xi_before;
-    c.a.push_back((electric * psi[n] - psi[n - 1]) / a_below);
-    c.b.push_back((magnetic * psi[n] - psi[n - 1]) / b_below);
+    c.a.push_back(ratio_of(electric * psi[n] - psi[n - 1], a_below));
+    c.b.push_back(ratio_of(magnetic * psi[n] - psi[n - 1], b_below));
     if (!by_index) continue;
     // D' = n (n + 1) / z^2 - 1 - D^2; psi_n eta_{n-1} - psi_{n-1} eta_n = 1.
-    const Complex slope = k * (k + 1.0) / (z * z) - 1.0 - d[n] * d[n];
-    const Complex electric_slope = slope * x / index - d[n] / (index * index);
+    const Complex slope = k * (k + 1.0) * inverse_z2 - 1.0 - d[n] * d[n];
+    const Complex electric_slope = (slope * x - d[n] * inverse_index) * inverse_index;
     const Complex magnetic_slope = d[n] + slope * z;
     constexpr Complex kI(0, 1);
-    c.a_by_index.push_back(-kI * electric_slope / (a_below * a_below));
-    c.b_by_index.push_back(-kI * magnetic_slope / (b_below * b_below));
+    c.a_by_index.push_back(ratio_of(-kI * electric_slope, a_below * a_below));
+    c.b_by_index.push_back(ratio_of(-kI * magnetic_slope, b_below * b_below));
   }
   return c;
 }

@@ -13,14 +13,14 @@
 
 namespace skyfit {
 
-inline constexpr double kLargestSizeParameter = 1e4;
+inline constexpr double kSmallestSizeParameter = 1e-12, kLargestSizeParameter = 1e4;
 
 // a[i] and b[i] belong to n = i + 1; by_index are their derivatives by m, analytic functions of it.
 struct MieCoefficients {
   std::vector<std::complex<double>> a, b, a_by_index, b_by_index;
 };
 // Without the derivatives unless they are wanted. Throws std::invalid_argument unless
-// 0 < x <= 10 000, n > 0 and k >= 0.
+// 1e-12 <= x <= 10 000, n > 0 and k >= 0.
 MieCoefficients mie_coefficients(double x, std::complex<double> index, bool by_index);
 
 // Of both and of their derivatives by n and k (0 unless the coefficients have them).

@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "model/atmosphere/mie.h"
+#include "model/base/content_cache.h"
 #include "model/numerics/clones.h"
 
 namespace skyfit {
@@ -174,6 +177,71 @@ class ParticleSums {
   std::shared_ptr<ParticleOptics> optics_;
 };
 
+// What follows from a mode, in a cache. Slopes by the index are there where they were wanted.
+class KeptOptics {
+ public:
+  KeptOptics(ContentCache& cache, const ParticleMode& mode, bool by_index)
+      : cache_(cache), key_("particles"), slopes_(by_index ? kParticleSlopes : kByReal) {
+    key_.value(mode.wavelength_nm).value(mode.radius_um).value(mode.width);
+    key_.value(mode.index.real()).value(mode.index.imag()).value(by_index);
+  }
+
+  std::shared_ptr<const ParticleOptics> find(std::shared_ptr<const AnglePanels> panels) const {
+    const auto optics = std::make_shared<ParticleOptics>();
+    const auto expected = parts(*optics, panels->size());
+    const auto room = [&](std::size_t part, std::uint64_t bytes) -> std::span<std::byte> {
+      if (part >= expected.size() || bytes != expected[part].size()) return {};
+      return expected[part];
+    };
+    if (!cache_.find(key_, room)) return nullptr;
+    optics->panels_ = std::move(panels);
+    return optics;
+  }
+
+  void keep(const ParticleOptics& optics) const {
+    ParticleOptics copy = optics;
+    std::vector<std::span<const std::byte>> kept;
+    for (const auto part : parts(copy, copy.panels_->size())) kept.push_back(part);
+    cache_.keep(key_, kept);
+  }
+
+ private:
+  std::vector<std::span<std::byte>> parts(ParticleOptics& optics, std::size_t angles) const {
+    std::vector<std::span<std::byte>> all;
+    for (ParticleValue* value : {&optics.extinction, &optics.scattering})
+      all.push_back(std::as_writable_bytes(std::span(*value)));
+    for (auto* element : {&optics.phase_, &optics.polarising_, &optics.turning_}) {
+      for (std::size_t slope = 0; slope < kParticleSlopes; ++slope) {
+        std::vector<double>& values = (*element)[slope];
+        values.resize(angles);
+        if (slope < slopes_) all.push_back(std::as_writable_bytes(std::span(values)));
+      }
+    }
+    return all;
+  }
+
+  ContentCache& cache_;
+  CacheKey key_;
+  std::size_t slopes_;
+};
+
+namespace {
+
+std::shared_ptr<ContentCache>& particle_cache() {
+  static std::shared_ptr<ContentCache> cache;
+  return cache;
+}
+
+// The same for all.
+std::shared_ptr<const AnglePanels> shared_panels() {
+  static const auto panels = std::make_shared<const AnglePanels>();
+  return panels;
+}
+
+}  // namespace
+
+void keep_particles_in(std::shared_ptr<ContentCache> cache) { particle_cache() = std::move(cache); }
+
 // Those of one index by their place on the grid of ln x, as far as they were wanted.
 struct ParticleTables::Spheres {
   std::complex<double> index;
@@ -263,7 +331,7 @@ ParticleOptics::MatrixMoments ParticleOptics::matrix_moments(int l) const {
   return m;
 }
 
-ParticleTables::ParticleTables() : panels_(std::make_shared<const AnglePanels>()) {}
+ParticleTables::ParticleTables() : panels_(shared_panels()) {}
 ParticleTables::~ParticleTables() = default;
 
 ParticleTables::Spheres& ParticleTables::spheres_of(std::complex<double> index) const {
@@ -297,16 +365,26 @@ std::shared_ptr<const ParticleOptics> ParticleTables::optics(const ParticleMode&
   }
   const int first = static_cast<int>(place_of(low / um_per_x)),
             last = static_cast<int>(place_of(largest));
-  Spheres& spheres = spheres_of(mode.index);
-  spheres.fill(first, last, by_index, *panels_);
-  ParticleSums sums(panels_);
-  for (int i = first; i <= last; ++i) {
-    const double x = size_parameter_at(i);
-    sums.add(weight_of(mode, um_per_x * x, x), spheres.at(i));
+  std::shared_ptr<const ParticleOptics> optics;
+  std::optional<KeptOptics> kept;
+  if (particle_cache()) {
+    kept.emplace(*particle_cache(), mode, by_index);
+    optics = kept->find(panels_);
+  }
+  if (optics == nullptr) {
+    Spheres& spheres = spheres_of(mode.index);
+    spheres.fill(first, last, by_index, *panels_);
+    ParticleSums sums(panels_);
+    for (int i = first; i <= last; ++i) {
+      const double x = size_parameter_at(i);
+      sums.add(weight_of(mode, um_per_x * x, x), spheres.at(i));
+    }
+    optics = sums.optics();
+    if (kept) kept->keep(*optics);
   }
   constexpr std::size_t kMostKept = 256;
   if (made_.size() == kMostKept) made_.erase(made_.begin());
-  made_.push_back({mode, by_index, sums.optics()});
+  made_.push_back({mode, by_index, optics});
   return made_.back().optics;
 }
 

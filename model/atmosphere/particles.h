@@ -17,6 +17,8 @@
 
 namespace skyfit {
 
+class ContentCache;
+
 struct ParticleMode {
   double wavelength_nm, radius_um, width;
   std::complex<double> index;
@@ -47,6 +49,7 @@ class ParticleOptics {
 
  private:
   friend class ParticleSums;
+  friend class KeptOptics;
   using OfAngles = std::array<std::vector<double>, kParticleSlopes>;
 
   ParticleValue at(const OfAngles& values, double angle) const;
@@ -82,6 +85,10 @@ class ParticleTables {
   mutable std::vector<std::unique_ptr<Spheres>> spheres_;  // the latest ones last
   mutable std::vector<Made> made_;                         // the latest ones last
 };
+
+// Where the optics of modes are kept from one process to the next; null, as at first: nowhere. For
+// atmospheres that stay as they are: a fit of radii would leave what is never asked for again.
+void keep_particles_in(std::shared_ptr<ContentCache> cache);
 
 // The distribution is cut off here, four widths above its median: 1e-5 of the extinction of large
 // spheres and 2e-4 of what they scatter straight ahead lie beyond.

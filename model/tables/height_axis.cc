@@ -86,11 +86,4 @@ int HeightAxis::texels(int heights) const {
   return steps * ((heights - 2) / steps + 1) + 1;
 }
 
-HeightAxis interpolated(const HeightAxis& a, const HeightAxis& b, double share) {
-  std::vector<double> nodes = a.nodes();
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    nodes[i] = std::lerp(nodes[i], b.nodes()[i], share);
-  return HeightAxis(std::move(nodes));
-}
-
 }  // namespace skyfit

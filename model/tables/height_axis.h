@@ -37,7 +37,4 @@ class HeightAxis {
   std::vector<double> nodes_;
 };
 
-// Between two axes of as many nodes, linear in `share`.
-HeightAxis interpolated(const HeightAxis& a, const HeightAxis& b, double share);
-
 }  // namespace skyfit

@@ -16,7 +16,7 @@ Atmosphere<double> interpolated_atmosphere(const Atmosphere<double>& a, const At
 
 // The values of the tables, linear in `share`: of the scattering tables that is the logarithm of
 // the light, which goes with the linear optical depth. Throws as interpolated_atmosphere(), and
-// when sizes or wavelengths differ.
+// when sizes, heights or wavelengths differ.
 AtmosphereTables interpolated_tables(const AtmosphereTables& a, const AtmosphereTables& b,
                                      double share);
 

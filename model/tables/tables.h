@@ -31,7 +31,8 @@ struct TableSizes {
   int scattering_r = 32, scattering_ground = 22, scattering_sky = 70;  // rays to ground and to sky
   int scattering_mu_s = 64, scattering_azimuth = 24;
   int outside_sky = 100, outside_mu_s = 128, outside_azimuth = 48;  // SkyRayMapping::kFromOutside
-  // 1: beside layers there are as many heights as HeightAxis asks for; 0: as many as stated.
+  // 1: beside layers there are as many heights as HeightAxis asks for; 0: as many as stated, as
+  // tables that are interpolated between atmospheres need them.
   int follow_layers = 1;
 
   RayTexels scattering() const {

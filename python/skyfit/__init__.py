@@ -284,9 +284,13 @@ def read(name_or_files, **options):
     The options are those of `skyfit fit` for references: `sampling` and `sun_zenith_deg` of
     standard skies, and what a measured file leaves open (docs/measured-skies.md).
     """
+    return _skyfit.read(_names(name_or_files), _options(options))
+
+
+def _names(name_or_files):
     if isinstance(name_or_files, (list, tuple)):
-        name_or_files = ",".join(map(_os.fspath, name_or_files))
-    return _skyfit.read(_os.fspath(name_or_files), _options(options))
+        return ",".join(map(_os.fspath, name_or_files))
+    return _os.fspath(name_or_files)
 
 
 def read_irradiances(text_or_file, **options):
@@ -346,21 +350,29 @@ def fit(reference=None, *, irradiance=None, **options):
     """Fits an atmosphere to a reference, as `skyfit fit`; the same options, the same numbers.
 
     `reference` is what read() takes or gives, or what read_irradiances() gives; `irradiance`, in
-    its place, is what that takes. Lists are lists, ``free=["mie.scattering"]``;
+    its place or beside it, is what that takes. Lists are lists, ``free=["mie.scattering"]``;
     assignments are dicts, ``fix={"ground.albedo": 0.2}``, ``prior={"ozone.column": (300, 20)}``,
     ``bounds={"mie.phase.g1": (0.5, 0.9)}``; flags are ``True``. Ctrl-C ends the fit at the next
     evaluation of the model.
     """
     options = dict(options)
     preset = _given_preset(options)
-    if (reference is None) == (irradiance is None):
-        raise ValueError("fit: expected either a reference or irradiance")
-    if not isinstance(reference, Reference):
+    if reference is None and irradiance is None:
+        raise ValueError("fit: expected a reference, irradiance or both")
+    is_read = isinstance(reference, Reference)
+    if irradiance is not None or not is_read:
         known = {name: options.pop(name) for name in _READING if name in options}
         if irradiance is None:
             reference = read(reference, **known)
-        else:
+        elif reference is None:
             reference = read_irradiances(irradiance, **known)
+        else:
+            known = _options({**known, "irradiance": _os.fspath(irradiance)})
+            reference = (
+                _skyfit.with_irradiances(reference, known)
+                if is_read
+                else _skyfit.read_with_irradiances(_names(reference), known)
+            )
     return _skyfit.fit(reference, preset, _options(options))
 
 

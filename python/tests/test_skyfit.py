@@ -214,8 +214,8 @@ def test_a_refused_value_leaves_the_preset_as_it_was():
         (lambda: skyfit.fit("cie:12", no_priors=3), "no_priors: expected True or False"),
         (lambda: skyfit.fit(skyfit.read("cie:12"), sampling="tregenza"), "option of read"),
         (lambda: skyfit.fit("cie:99"), "cie:99"),
-        (lambda: skyfit.fit(), "either a reference or irradiance"),
-        (lambda: skyfit.fit("cie:12", irradiance="direct=1lx"), "either a reference or irradiance"),
+        (lambda: skyfit.fit(), "a reference, irradiance or both"),
+        (lambda: skyfit.fit("cie:12", irradiance="direct=1lx"), "the sun is not known"),
         (lambda: skyfit.read_irradiances("direct=800"), "no unit"),
         (lambda: skyfit.render("earth-clear", out="frame.png"), "save"),
         (lambda: skyfit.render("earth-clear", size=(0, 10)), "0x10"),
@@ -300,6 +300,25 @@ def test_a_fit_of_irradiances_is_that_of_the_program(tmp_path):
     names = list(read.samples.coords["irradiance"][1])
     assert names == ["direct_normal", "diffuse_horizontal"]
     assert list(read.samples["value"]) == [96000, 13500]
+
+
+def test_a_fit_of_a_sky_and_irradiances_is_that_of_the_program(tmp_path):
+    sky, text = EXAMPLES / "clear_sky_two_suns.csv", "direct=83000lx,diffuse=14000:500lx"
+    options = ["--lobes", 1, "--free", "mie.scattering,ground.albedo", "--starts", 1]
+    run(
+        "fit", "--reference", sky, "--irradiance", text, "--sun-zenith-deg", 30, *options,
+        "--out", tmp_path / "fit",
+    )  # fmt: skip
+    theirs = json.loads((tmp_path / "fit" / "preset.json").read_text())
+    how = {"lobes": 1, "free": ["mie.scattering", "ground.albedo"], "starts": 1}
+    ours = skyfit.fit(sky, irradiance=text, sun_zenith_deg=30, **how)
+    assert without_time(json.loads(ours.preset.to_json())) == without_time(theirs)
+    assert ours.report_dict["irradiances"]["diffuse_horizontal"]["samples"] == 1
+    read = skyfit.fit(skyfit.read(sky), irradiance=text, sun_zenith_deg=30, **how)
+    assert read.parameters == ours.parameters
+    which = list(ours.samples.coords["irradiance"][1])
+    assert which[-2:] == ["direct_normal", "diffuse_horizontal"]
+    assert set(which[:-2]) == {""}
 
 
 def test_a_measured_sky_is_read():

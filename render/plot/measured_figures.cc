@@ -11,8 +11,8 @@
 namespace skyfit::plot {
 namespace {
 
-bool has_irradiances(const MeasuredOutcome& outcome) { return !outcome.irradiance_unit.empty(); }
-bool has_directions(const MeasuredOutcome& outcome) { return !has_irradiances(outcome); }
+bool has_irradiances(const MeasuredOutcome& outcome) { return !outcome.irradiances.empty(); }
+bool has_directions(const MeasuredOutcome& outcome) { return !outcome.samples.empty(); }
 
 bool has_series(const MeasuredOutcome& outcome) {
   return outcome.scans.size() >= 2 &&
@@ -36,7 +36,7 @@ constexpr std::array<MeasuredFigure, 6> kFigures = {{
     {"residuals", "model / measured - 1 against scattering angle, view zenith and wavelength",
      false, has_directions,
      [](Outcomes fits, int, const Sheet& sheet) { return residuals_figure(fits[0], sheet); }},
-    {"irradiances", "irradiances against the sun's zenith angle; fits of irradiances only", false,
+    {"irradiances", "irradiances against the sun's zenith angle, where a fit has some", false,
      has_irradiances,
      [](Outcomes fits, int, const Sheet& sheet) { return irradiances_figure(fits[0], sheet); }},
     {"corner", "the covariance: densities, and pairs with ellipses of 1 and 2 sigma", false,
@@ -66,7 +66,7 @@ Figure draw(const MeasuredFigure& figure, std::span<const MeasuredOutcome> fits,
     throw std::invalid_argument(
         fmt::format("figure: {} fits of measured skies: expected 1 for this figure", fits.size()));
   const bool of_directions = figure.can_draw == has_directions;
-  if (of_directions && std::ranges::any_of(fits, has_irradiances)) {
+  if (of_directions && !std::ranges::all_of(fits, has_directions)) {
     throw std::invalid_argument(fmt::format(
         "figure {}: irradiances have no directions: expected the figure irradiances", figure.name));
   }

@@ -25,7 +25,8 @@ std::string words_of(std::string_view name) {
 std::vector<std::string_view> kinds_of(const MeasuredOutcome& outcome) {
   std::vector<std::string_view> kinds;
   for (const std::string_view name : kIrradianceNames) {
-    if (std::ranges::count(outcome.samples, name, &Sample::irradiance) > 0) kinds.push_back(name);
+    if (std::ranges::count(outcome.irradiances, name, &Sample::irradiance) > 0)
+      kinds.push_back(name);
   }
   return kinds;
 }
@@ -34,7 +35,7 @@ std::vector<std::string_view> kinds_of(const MeasuredOutcome& outcome) {
 void write_samples(Script& script, const MeasuredOutcome& outcome, std::string_view kind,
                    std::size_t index) {
   std::vector<Sample> samples;
-  for (const Sample& s : outcome.samples) {
+  for (const Sample& s : outcome.irradiances) {
     if (s.irradiance == kind && s.reference > 0 && s.weight > 0) samples.push_back(s);
   }
   std::ranges::sort(samples, {}, &Sample::sun_zenith_deg);
@@ -49,7 +50,7 @@ void write_samples(Script& script, const MeasuredOutcome& outcome, std::string_v
 // The same in all panels: measured and model within one sigma more than their largest difference.
 double limit_percent(const MeasuredOutcome& outcome) {
   double most = 1;
-  for (const Sample& s : outcome.samples) {
+  for (const Sample& s : outcome.irradiances) {
     if (s.reference > 0 && s.weight > 0)
       most = std::max(most, 100 * (std::abs(s.model / s.reference - 1) + s.sigma / s.reference));
   }

@@ -25,9 +25,10 @@ struct MeasuredUnknown {
 
 struct MeasuredOutcome {
   std::string title;
-  bool spectral = true;         // else cd/m^2, or irradiances
-  std::string irradiance_unit;  // of irradiances; empty: samples have directions
-  std::vector<Sample> samples;
+  bool spectral = true;             // else cd/m^2
+  std::vector<Sample> samples;      // that have a direction
+  std::vector<Sample> irradiances;  // the others
+  std::string irradiance_unit;      // of these
   std::vector<MeasuredScan> scans;
   std::vector<MeasuredUnknown> unknowns;
   std::vector<std::string> covariance_unknowns;

@@ -116,7 +116,7 @@ std::string subtitle_of(const Comparison& comparison, const FitRecord& record,
 
 FitOutcome read_fit_outcome(const std::filesystem::path& directory) {
   return {directory.string(), load_preset(directory / "preset.json"),
-          read_samples_csv(directory / "samples.csv")};
+          directions_only(read_samples_csv(directory / "samples.csv"))};
 }
 
 Comparison comparison_of(std::span<const FitOutcome> fits, const SpectralData& spectra,

@@ -53,6 +53,18 @@ void read_column(const refs::CsvTable& table, const refs::CsvRecord& record, con
 
 }  // namespace
 
+std::vector<Sample> directions_only(std::span<const Sample> samples) {
+  std::vector<Sample> chosen(samples.begin(), samples.end());
+  std::erase_if(chosen, [](const Sample& sample) { return !sample.irradiance.empty(); });
+  return chosen;
+}
+
+std::vector<Sample> irradiances_only(std::span<const Sample> samples) {
+  std::vector<Sample> chosen(samples.begin(), samples.end());
+  std::erase_if(chosen, [](const Sample& sample) { return sample.irradiance.empty(); });
+  return chosen;
+}
+
 double rms_log_percent(std::span<const Sample> samples) {
   double sum = 0, weight = 0;
   for (const Sample& sample : samples) {
@@ -109,9 +121,10 @@ std::vector<Sample> parse_samples_csv(std::string_view text, std::string_view so
     if (table.has(kStart)) read_column(table, record, kStartModel, sample);
     if (table.has(kIrradiance)) {
       sample.irradiance = table.text(record, kIrradiance);
-      if (std::ranges::count(kIrradianceNames, sample.irradiance) == 0)
+      if (!sample.irradiance.empty() &&
+          std::ranges::count(kIrradianceNames, sample.irradiance) == 0)
         table.fail_value(record, kIrradiance,
-                         fmt::format("one of {}", fmt::join(kIrradianceNames, ", ")));
+                         fmt::format("one of {}, or nothing", fmt::join(kIrradianceNames, ", ")));
     }
     samples.push_back(sample);
   }

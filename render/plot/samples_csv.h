@@ -3,9 +3,9 @@
 // Header, exactly:
 // scan,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,wavelength_nm,reference,sigma,model,residual,weight,
 // followed by start_model where the start values are known, and by irradiance (kIrradianceNames of
-// model/irradiance.h) where the samples are irradiances. Numbers are the shortest that read back
-// to the same double; residual is ln(model / reference), nan where one is not positive, and is not
-// read back.
+// model/irradiance.h, empty of other samples) where there are irradiances. Numbers are the shortest
+// that read back to the same double; residual is ln(model / reference), nan where one is not
+// positive, and is not read back.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ namespace skyfit::plot {
 // Angles in degrees, where the instrument truly points according to the fit; azimuth 0 looks toward
 // the sun's azimuth. `reference`, `sigma`, `model` and `start_model` share one unit (cd/m^2, that
 // of a relative reference, W m^-2 sr^-1 nm^-1, lx or W/m^2); both models carry the scale of the
-// scan.
+// scan, but for irradiances beside a sky.
 struct Sample {
   int scan = 1;  // from 1
   double sun_zenith_deg = 0;
@@ -38,6 +38,10 @@ struct Sample {
   double residual() const { return std::log(model / reference); }
   bool operator==(const Sample&) const = default;
 };
+
+// Those that are no irradiances, and those that are.
+std::vector<Sample> directions_only(std::span<const Sample> samples);
+std::vector<Sample> irradiances_only(std::span<const Sample> samples);
 
 // Weighted root mean square of the residuals, percent; NaN when no sample has weight.
 double rms_log_percent(std::span<const Sample> samples);

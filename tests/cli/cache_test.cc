@@ -85,6 +85,37 @@ TEST_F(CacheTest, APictureIsTheSameWithAndWithoutIt) {
     EXPECT_TRUE(read(name) == picture) << name;
 }
 
+TEST_F(CacheTest, ASkyOfParticlesIsTheSameWithAndWithoutIt) {
+  write("particles.json", R"({"skyfit_preset": 2, "name": "particles",
+    "planet": {"bottom_radius_m": 6360000, "top_radius_m": 6460000}, "ground": {"albedo": 0.15},
+    "constituents": [{"name": "fine", "volume_um3_per_um2": 0.025,
+      "profile": {"type": "exponential", "scale_height_m": 1200},
+      "phase": {"type": "size-distribution", "median_radius_um": 0.15, "width": 0.45,
+                "material": "sulphate"}}]})");
+  const auto sky = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"sky",
+                                          "--preset",
+                                          (folder_ / "particles.json").string(),
+                                          "--sun-zenith-deg",
+                                          "40",
+                                          "--view-zenith-deg",
+                                          "0:60:30",
+                                          "--wavelength-nm",
+                                          "440,550"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments, here_);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  const std::string computed = sky({"--no-cache"});
+  EXPECT_FALSE(fs::exists(caches_.path() / "skyfit"));
+  EXPECT_EQ(sky({}), computed);
+  const std::set<fs::path> kept = entries();
+  EXPECT_EQ(kept.size(), 2u) << "two wavelengths";
+  EXPECT_EQ(sky({}), computed);
+  EXPECT_EQ(entries(), kept);
+}
+
 TEST_F(CacheTest, NoPlaceForItIsToldWithTheStatisticsAlone) {
   const Outcome told = render("a.png", {"--stats"}, {"XDG_CACHE_HOME=", "HOME="});
   EXPECT_EQ(told.err, "skyfit: no cache: neither XDG_CACHE_HOME nor HOME is an absolute path\n");
@@ -95,9 +126,9 @@ TEST_F(CacheTest, NoPlaceForItIsToldWithTheStatisticsAlone) {
 
 TEST_F(CacheTest, TheDoctorSaysWhereItIs) {
   const Outcome outcome = run({"doctor"}, here_);
-  EXPECT_THAT(outcome.out,
-              HasSubstr("ok      cache of frames: " + (caches_.path() / "skyfit").string() +
-                        ", 0 entries, 0.0 MB of at most 2000 MB\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("ok      cache of frames and particles: " +
+                                     (caches_.path() / "skyfit").string() +
+                                     ", 0 entries, 0.0 MB of at most 2000 MB\n"));
 }
 
 }  // namespace

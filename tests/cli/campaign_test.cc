@@ -68,6 +68,26 @@ TEST_F(CampaignTest, FitsIrradiances) {
   EXPECT_THAT(content("days/campaign.csv"), HasSubstr("mie.optical_depth"));
 }
 
+TEST_F(CampaignTest, FitsIrradiancesBesideSkies) {
+  write("sun.csv",
+        "# latitude_deg=47.5 longitude_deg=11\ntime,direct_normal_lx\n"
+        "2024-05-15T10:00:00Z,95000\n2024-05-15T13:00:00Z,90000\n");
+  const std::string plan = R"({"skyfit_campaign": 1, "inputs": ["scans/*.csv"],
+      "irradiances": "IT", "options": {"lobes": 1, "starts": 1, "free": "mie.scattering"}})";
+  const auto with = [&](const std::string& table) {
+    std::string text = plan;
+    write("both.json", text.replace(text.find("IT"), 2, table));
+    return run({"campaign", in("both.json"), "--out", in("both")});
+  };
+  EXPECT_THAT(with("/sun.csv").err,
+              HasSubstr("both.json:2: irradiances: /sun.csv: expected a file"));
+  EXPECT_THAT(with("moon.csv").err, HasSubstr("both.json:2: irradiances: "));
+  const Outcome done = with("sun.csv");
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("1 fitted"));
+  EXPECT_THAT(done.out, HasSubstr("sun.csv: no irradiances are of the minute of a scan of"));
+}
+
 TEST_F(CampaignTest, WritesAJobArrayForSlurm) {
   const Outcome slurm =
       run({"campaign", in("plan.json"), "--out", in("o'ut"), "--slurm", "7", "--threads", "3"});

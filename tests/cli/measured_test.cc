@@ -123,6 +123,35 @@ TEST_F(MeasuredTest, IrradiancesAreFitted) {
               HasSubstr("irradiances have no directions"));
 }
 
+// A scan and the illuminances of one preset: both are within the report, and give back the preset.
+TEST_F(MeasuredTest, IrradiancesBesideASkyAreFittedWithIt) {
+  write_scan("a.csv", 40);
+  const std::vector<std::string> light = fields(
+      lines(run({"sky", "--preset", "earth-clear", "--sun-zenith-deg", "40", "--irradiance"}).out)
+          .at(1));
+  const std::string both = "direct=" + light[2] + "lx,diffuse=" + light[4] + "lx";
+  const auto fit = [&](const std::string& sun) {
+    return run({"fit", "--reference", "a.csv", "--irradiance", both, "--sun-zenith-deg", sun,
+                "--preset", "earth-clear", "--free", "mie.scattering,ground.albedo", "--scale",
+                "shared", "--starts", "1", "--out", "both", "--json"});
+  };
+  const Outcome outcome = fit("40");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const json report = json::parse(outcome.out);
+  EXPECT_EQ(report["reference"]["irradiance_quantity"], "illuminance_lx");
+  for (const char* kind : {"direct_normal", "diffuse_horizontal"})
+    EXPECT_LT(report["irradiances"][kind]["rms_percent"].get<double>(), 0.1) << kind;
+  const json& scale = report["unknowns"].back();
+  EXPECT_EQ(scale["name"], "instrument.scale");
+  EXPECT_NEAR(scale["fitted"].get<double>(), 1, 1e-3);
+  for (const char* file : {"irradiances.png", "maps.png", "spectra.png"})
+    EXPECT_TRUE(exists(std::string("both/") + file)) << file;
+  EXPECT_EQ(run({"report", "both"}).out, read("both/report.txt"));
+  EXPECT_EQ(run({"plot", "both", "--figure", "irradiances", "--out", "i.png"}).status, 0);
+  EXPECT_THAT(fit("42").err, HasSubstr("expected within 1 deg of a scan"));
+}
+
 TEST_F(MeasuredTest, ClassifyNamesTheType) {
   const Outcome found =
       run({"classify", "--reference", "cie:9", "--sun-zenith-deg", "40", "--json"});

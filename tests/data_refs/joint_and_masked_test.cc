@@ -6,7 +6,9 @@
 
 #include "data_refs/absorption_bands.h"
 #include "data_refs/ground_spectra.h"
+#include "data_refs/irradiance.h"
 #include "data_refs/joint_reference.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
@@ -53,6 +55,73 @@ TEST(JointReferenceTest, RefusesDifferentQuantities) {
       ThrowsMessage<std::invalid_argument>(
           HasSubstr("b: luminance: expected spectral radiance as in a")));
   EXPECT_THROW(joint_reference({}), std::invalid_argument);
+}
+
+// Two scans of the times given, under suns of 40 and 50 deg.
+Reference sky_of(const std::string& first, const std::string& second) {
+  Reference sky = two_scans("sky");
+  for (Sample& sample : sky.samples)
+    sample.sun_zenith = (sample.scan == 0 ? 40 : 50) * kRadiansPerDegree;
+  sky.scans[0].time_utc = first;
+  sky.scans[1].time_utc = second;
+  return sky;
+}
+
+Reference illuminance(double sun_deg, const std::string& time) {
+  Reference reference = irradiance_reference("direct=80000lx", sun_deg * kRadiansPerDegree, {});
+  reference.scans[0].time_utc = time;
+  return reference;
+}
+
+constexpr const char *kMorning = "2024-05-15T08:00:00Z", *kNoon = "2024-05-15T11:00:00Z",
+                     *kEvening = "2024-05-15T17:00:00Z";
+
+TEST(JointReferenceTest, IrradiancesBelongToTheScanOfTheirMinuteOrToOneOfTheirSun) {
+  const Reference sky = sky_of(kMorning, kNoon);
+  const auto scan = [&](const Reference& irradiances) {
+    const Reference joint = with_irradiances(sky, irradiances);
+    EXPECT_EQ(joint.name, "sky");
+    EXPECT_EQ(joint.quantity, Quantity::kSpectralRadiance);
+    EXPECT_EQ(joint.irradiance_quantity, Quantity::kIlluminance);
+    EXPECT_EQ(joint.samples.size(), 9u);
+    EXPECT_TRUE(is_beside_sky(joint, joint.samples.back()));
+    EXPECT_FALSE(is_beside_sky(joint, joint.samples.front()));
+    return joint.samples.back().scan;
+  };
+  EXPECT_EQ(scan(illuminance(50.9, "")), 1);
+  EXPECT_EQ(scan(illuminance(40.9, kMorning)), 0);
+  EXPECT_EQ(scan(illuminance(40, "2024-05-15T08:01:00Z")), 0);
+  EXPECT_EQ(scan(illuminance(40, "2024-05-15T08:01:01Z")), 2);
+  EXPECT_EQ(scan(illuminance(75, kEvening)), 2);
+  const Reference two = with_irradiances(sky, illuminance(75, kEvening));
+  ASSERT_EQ(two.scans.size(), 3u);
+  EXPECT_EQ(two.scans[2].time_utc, kEvening);
+  EXPECT_EQ(with_irradiances_of_scans(sky, illuminance(50, kNoon)).samples.back().scan, 1);
+}
+
+TEST(JointReferenceTest, RefusesIrradiancesThatContradictTheSky) {
+  const Reference sky = sky_of(kMorning, kNoon);
+  const auto complaint = [&](const auto& join, const Reference& of, const Reference& irradiances) {
+    try {
+      join(of, irradiances);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(with_irradiances, sky, illuminance(42, kMorning)),
+            "irradiances: 2024-05-15T08:00:00Z: the sun of sky0 is 40 deg from the zenith, that of "
+            "the irradiances 42 at the same time: expected within 1 deg");
+  EXPECT_EQ(complaint(with_irradiances, sky, illuminance(75, "")),
+            "irradiances: the sun of sky1 is 50 deg from the zenith, that of the irradiances 75: "
+            "expected within 1 deg of a scan, or the time of both");
+  EXPECT_EQ(complaint(with_irradiances_of_scans, sky, illuminance(75, kEvening)),
+            "irradiances: no irradiances are of the minute of a scan of sky: expected those of "
+            "each scan's time");
+  EXPECT_EQ(complaint(with_irradiances, illuminance(40, ""), illuminance(40, "")),
+            "irradiances: illuminance: expected a sky beside irradiances");
+  EXPECT_EQ(complaint(with_irradiances, sky, sky),
+            "sky: spectral radiance: expected irradiances beside a sky");
 }
 
 TEST(AbsorptionBandsTest, MaskedSamplesSayWhy) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavelengths of a scan that were measured one after the other have their own sun: the model's
-// values are those of that sun, a wavelength is evaluated under its own suns only, and the
-// derivatives hold.
+// values are those of that sun, many wavelengths are evaluated under their own suns only, few under
+// all at once, and the derivatives hold.
 #include <gtest/gtest.h>
 
-#include <array>
+#include <cstddef>
 
 #include "tests/fit/scans.h"
 #include "tests/fit/synthetic.h"
@@ -14,22 +14,21 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Almucantars of three wavelengths under three suns.
-refs::Reference almucantar() {
-  constexpr std::array kWavelengths = {440.0, 675.0, 870.0};
+// Almucantars of so many wavelengths, each under a sun of its own.
+refs::Reference almucantar(std::size_t wavelengths = 3) {
   refs::Reference reference;
   reference.name = "almucantar";
   reference.quantity = refs::Quantity::kSpectralRadiance;
   reference.scans.resize(1);
   reference.scans[0].sun_azimuth = 1.5;
-  for (std::size_t w = 0; w < kWavelengths.size(); ++w) {
+  for (std::size_t w = 0; w < wavelengths; ++w) {
     for (const double azimuth_deg : {6.0, 30.0, 90.0, 150.0}) {
       refs::Sample sample;
       sample.sun_zenith = (60 + 0.3 * static_cast<double>(w)) * kDegree;
       sample.sun_azimuth_since = 0.4 * static_cast<double>(w) * kDegree;
       sample.view_zenith = sample.sun_zenith;
       sample.relative_azimuth = azimuth_deg * kDegree;
-      sample.wavelength_nm = kWavelengths[w];
+      sample.wavelength_nm = 440 + 40 * static_cast<double>(w);
       sample.value = 0.1;
       reference.samples.push_back(sample);
     }
@@ -37,36 +36,49 @@ refs::Reference almucantar() {
   return reference;
 }
 
-// Counts the values that the toy is asked for.
+// Counts how often the toy is asked, and for how many values.
 class CountingSky : public ToySky {
  public:
-  mutable std::size_t values = 0;
+  mutable std::size_t calls = 0, values = 0;
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override {
+    ++calls;
     values += wavelengths.size() * points.size();
     return ToySky::radiance(atmosphere, wavelengths, points, derivatives);
   }
 };
 
-TEST(MovingSun, EverySampleIsEvaluatedOnceUnderItsOwnSun) {
-  const CountingSky model;
-  const refs::Reference reference = almucantar();
+void expect_values_of_own_suns(const refs::Reference& reference, const CountingSky& model) {
   const Dataset data = dataset(reference, refs::standard_spectral_data(), {});
   EXPECT_EQ(data.lines_of_sight.size(), 4u);  // directions from the sun
-  EXPECT_EQ(data.views.size(), 12u);
+  EXPECT_EQ(data.views.size(), reference.samples.size());
   const SkyState state = start_state(true_atmosphere(2), 1);
   const Eigen::VectorXd value = sky_values(model, data, state, {}).value;
-  EXPECT_EQ(model.values, reference.samples.size());
   for (std::size_t r = 0; r < data.samples.size(); ++r) {
     const refs::Sample& sample = reference.samples[data.samples[r].index];
     const SkyPoint point = sky_point(sample);
     const std::vector<WavelengthNode> node =
         spectral_nodes(refs::standard_spectral_data(), {sample.wavelength_nm});
     const double alone = refs::standard_spectral_data().solar_irradiance.at(sample.wavelength_nm) *
-                         model.radiance(true_atmosphere(2), node, {&point, 1}, {}).at(0, 0);
+                         ToySky().radiance(true_atmosphere(2), node, {&point, 1}, {}).at(0, 0);
     EXPECT_DOUBLE_EQ(value(static_cast<Eigen::Index>(r)), alone);
   }
+}
+
+TEST(MovingSun, ManyWavelengthsAreEvaluatedOnceUnderTheirOwnSun) {
+  const CountingSky model;
+  const refs::Reference reference = almucantar(9);
+  expect_values_of_own_suns(reference, model);
+  EXPECT_EQ(model.calls, 9u);
+  EXPECT_EQ(model.values, reference.samples.size());
+}
+
+TEST(MovingSun, FewWavelengthsAreEvaluatedAtOnce) {
+  const CountingSky model;
+  const refs::Reference reference = almucantar(8);
+  expect_values_of_own_suns(reference, model);
+  EXPECT_EQ(model.calls, 1u);
 }
 
 // A tilt turns with the sun's own azimuth.

@@ -7,11 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 
 #include "model/atmosphere/mie.h"
+#include "model/base/content_cache.h"
+#include "model/base/temporary_directory.h"
 #include "tests/model/truth.h"
 
 namespace skyfit {
@@ -159,6 +164,50 @@ TEST(Particles, DerivativesAreExact) {
       }
     }
   }
+}
+
+// What another process finds is what this one computed, bit by bit; a damaged entry is computed
+// again, and without a cache nothing is written.
+TEST(Particles, AreKeptInACache) {
+  const TemporaryDirectory directory;
+  const auto files = [&] {
+    std::vector<std::filesystem::path> all;
+    for (const auto& entry : std::filesystem::directory_iterator(directory.path()))
+      if (entry.is_regular_file()) all.push_back(entry.path());
+    return all;
+  };
+  const auto values = [](bool by_index) {
+    const auto optics = ParticleTables().optics(kFine, by_index);
+    std::vector<ParticleValue> all = {optics->extinction, optics->scattering};
+    for (const int l : {0, 3, 128}) {
+      const ParticleOptics::MatrixMoments moments = optics->matrix_moments(l);
+      all.insert(all.end(), {optics->moment(l), moments.alpha, moments.zeta, moments.gamma});
+    }
+    for (const double angle : {0.001, 1.2, 3.1})
+      all.insert(all.end(), {optics->phase(angle), optics->polarising_phase(angle)});
+    return all;
+  };
+  for (const bool by_index : {false, true}) {
+    const std::vector<ParticleValue> computed = values(by_index);
+    const std::size_t before = files().size();
+    const auto cache = std::make_shared<ContentCache>(directory.path());
+    keep_particles_in(cache);
+    EXPECT_EQ(values(by_index), computed) << "kept";
+    EXPECT_EQ(files().size(), before + 1);
+    EXPECT_EQ(values(by_index), computed) << "found";
+    EXPECT_EQ(files().size(), before + 1);
+    EXPECT_EQ(cache->trouble(), std::nullopt);
+    keep_particles_in(nullptr);
+  }
+  const std::vector<ParticleValue> computed = values(true);
+  for (const std::filesystem::path& file : files()) {
+    std::fstream damaged(file, std::ios::binary | std::ios::in | std::ios::out);
+    damaged.seekp(static_cast<std::streamoff>(std::filesystem::file_size(file) / 2));
+    damaged.put('!');
+  }
+  keep_particles_in(std::make_shared<ContentCache>(directory.path()));
+  EXPECT_EQ(values(true), computed) << "damaged";
+  keep_particles_in(nullptr);
 }
 
 TEST(Particles, RefuseSizesBeyondMie) {

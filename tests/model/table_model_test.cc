@@ -5,11 +5,15 @@
 
 #include <cmath>
 #include <iostream>
+#include <span>
+#include <vector>
 
 #include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/preset.h"
+#include "model/atmosphere/shells.h"
 #include "model/registry.h"
+#include "model/tables/height_axis.h"
 #include "model/tables/table_lookup.h"
 #include "tests/model/truth.h"
 
@@ -140,19 +144,13 @@ TEST(HeightAxis, HasTexelsAtTheEndsOfALayerAndIsItsOwnInverse) {
   int inside = 0;
   for (int i = 0; i < texels; ++i) {
     const double height = axis.height(i / (texels - 1.0), kTop);
-    inside += height > 6e3 && height < 1e4 ? 1 : 0;
+    inside += height > 5.9e3 && height < 10.1e3 ? 1 : 0;  // with its edges
   }
-  EXPECT_GT(inside, 20);
+  EXPECT_GT(inside, 25);
   for (int i = 0; i <= 1000; ++i)
     EXPECT_NEAR(axis.unit(axis.height(i / 1000.0, kTop), kTop), i / 1000.0, kRoundTrip);
   std::erase_if(a.constituents, [](const auto& c) { return c.name == "cloud"; });
   EXPECT_EQ(HeightAxis(shells_of(a, Keep::kWhatMatters), 32), HeightAxis());
-}
-
-// A cloud that rises takes the texels with it.
-TEST(HeightAxis, LiesBetweenTwo) {
-  const HeightAxis a({0, 0.2, 0.3, 1}), b({0, 0.4, 0.7, 1});
-  EXPECT_EQ(interpolated(a, b, 0.5).nodes(), (std::vector<double>{0, 0.3, 0.5, 1}));
 }
 
 TEST(TableModel, IrradianceTableFollowsTheReference) {

@@ -31,8 +31,9 @@ TEST_F(PlotTest, IrradiancesHaveAFigureOfTheirOwnAndNoMaps) {
   EXPECT_FALSE(measured_figure("irradiances").can_draw(fit));
   EXPECT_THROW(irradiances_figure(fit), std::invalid_argument);
   fit.irradiance_unit = "lx";
-  for (std::size_t i = 0; i < fit.samples.size(); ++i)
-    fit.samples[i].irradiance = kIrradianceNames[i % kIrradianceNames.size()];
+  fit.irradiances.swap(fit.samples);
+  for (std::size_t i = 0; i < fit.irradiances.size(); ++i)
+    fit.irradiances[i].irradiance = kIrradianceNames[i % kIrradianceNames.size()];
   const auto file = folder_ / "irradiances.png";
   write_figure(draw(measured_figure("irradiances"), {&fit, 1}), {file});
   EXPECT_GT(std::filesystem::file_size(file), 5000u);

@@ -57,12 +57,17 @@ TEST(SamplesCsv, IrradiancesKeepTheirNames) {
   for (Sample& sample : samples) sample.irradiance = "diffuse_horizontal";
   const std::string text = samples_to_csv(samples);
   EXPECT_EQ(parse_samples_csv(text, "samples.csv"), samples);
+  std::vector<Sample> beside_sky = samples;
+  beside_sky.front().irradiance = "";
+  EXPECT_EQ(parse_samples_csv(samples_to_csv(beside_sky), "samples.csv"), beside_sky);
+  EXPECT_THAT(directions_only(beside_sky), ElementsAre(beside_sky.front()));
+  EXPECT_EQ(irradiances_only(beside_sky).size(), samples.size() - 1);
   std::string wrong = text;
   wrong.replace(wrong.find("diffuse_horizontal"), 18, "diffuse");
   EXPECT_THAT([&] { parse_samples_csv(wrong, "samples.csv"); },
               ThrowsMessage<std::invalid_argument>(
                   StrEq("samples.csv:2: irradiance = \"diffuse\": expected one of direct_normal, "
-                        "direct_horizontal, diffuse_horizontal, global_horizontal")));
+                        "direct_horizontal, diffuse_horizontal, global_horizontal, or nothing")));
 }
 
 TEST(SamplesCsv, HeaderIsTheAgreedOne) {

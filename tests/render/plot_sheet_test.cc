@@ -123,8 +123,9 @@ TEST_F(PageTest, HoldsTheTextOfMeasuredFigures) {
   }
   MeasuredOutcome irradiances = outcome(false);
   irradiances.irradiance_unit = "lx";
-  for (std::size_t i = 0; i < irradiances.samples.size(); ++i)
-    irradiances.samples[i].irradiance = kIrradianceNames[i % kIrradianceNames.size()];
+  irradiances.irradiances.swap(irradiances.samples);
+  for (std::size_t i = 0; i < irradiances.irradiances.size(); ++i)
+    irradiances.irradiances[i].irradiance = kIrradianceNames[i % kIrradianceNames.size()];
   expect_on_page("irradiances", irradiances_figure(irradiances, page(85, 12)));
 }
 
