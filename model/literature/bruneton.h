@@ -11,11 +11,11 @@
 // which finds the ground, or not, by itself, and before surfaces the difference of two such
 // look-ups; ":mie-from-rayleigh", single Mie scattering by the proportion rule. What the choices
 // leave as it is: tables are made in full precision and rounded when they are finished. In frames
-// the sky's light on the ground and the light before clouds are read at exact coordinates, paths
-// are not taken from a volume (render/shaders/aerial_volume.glsl), and the table of transmittances,
-// from which the sun's light is read too, as by him, has the renderer's sizes and mapping
-// (model/tables/tables.h). The proportion is formed texel by texel at 680 nm, where his shader
-// forms it after the look-up; his wavelengths are not stated.
+// the sky's light on the ground and the light before clouds are read at exact coordinates; by the
+// first two choices no path is taken from render/shaders/aerial_volume.glsl; the table of
+// transmittances, from which the sun's light is read too, as by him, has the renderer's sizes and
+// mapping (model/tables/tables.h). The proportion is formed texel by texel at 680 nm, where his
+// shader forms it after the look-up; his wavelengths are not stated.
 // Five orders of scattering (his four are single scattering and three iterations) and of reflection
 // by a Lambertian ground; ozone as in Bruneton 2017.
 // Deviations: quadrature (table_rays.h); azimuths of incoming light by sixteen cosines, 16 x 32
