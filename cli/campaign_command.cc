@@ -186,6 +186,9 @@ void leave_summary(const CampaignArguments& arguments, const fit::CampaignRun& r
   print(text);
   const std::vector<plot::MeasuredOutcome> points = over_time(outcomes);
   if (points.size() > 1) plot::write_figure(plot::series_figure(points), {out / kSvg, out / kPng});
+  if (std::ranges::all_of(outcomes, [](const auto& outcome) { return !outcome.reason.empty(); }))
+    throw std::runtime_error(fmt::format("{}: the result is complete but holds no fit: {}",
+                                         arguments.out, outcomes.front().reason));
 }
 
 void run(const CampaignArguments& arguments) {
@@ -256,8 +259,9 @@ void add_campaign_command(CLI::App& app) {
       "\n"
       "Leaves campaign.nc (NetCDF), campaign.csv, campaign.txt and, where times are known,\n"
       "campaign.svg and campaign.png. A task that cannot be fitted is recorded with its reason\n"
-      "and stops no other. Run again, the command does what is missing or changed: results are\n"
-      "written in files of 64 tasks in DIR/tasks, each complete or absent.\n"
+      "and stops no other; the exit status is 1 where none could be fitted. Run again, the\n"
+      "command does what is missing or changed: results are written in files of 64 tasks in\n"
+      "DIR/tasks, each complete or absent.\n"
       "\n"
       "Examples:\n"
       "  skyfit campaign plan.json --out campaign\n"

@@ -14,14 +14,6 @@ namespace {
 bool has_irradiances(const MeasuredOutcome& outcome) { return !outcome.irradiances.empty(); }
 bool has_directions(const MeasuredOutcome& outcome) { return !outcome.samples.empty(); }
 
-bool has_series(const MeasuredOutcome& outcome) {
-  return outcome.scans.size() >= 2 &&
-         std::ranges::any_of(outcome.unknowns,
-                             [](const MeasuredUnknown& u) { return u.scan > 0; }) &&
-         std::ranges::none_of(outcome.scans,
-                              [](const MeasuredScan& s) { return s.time_utc.empty(); });
-}
-
 using Outcomes = std::span<const MeasuredOutcome>;
 
 constexpr std::array<MeasuredFigure, 6> kFigures = {{

@@ -37,6 +37,8 @@ Figure residuals_figure(const MeasuredOutcome& outcome, const Sheet& sheet = {})
 Figure irradiances_figure(const MeasuredOutcome& outcome, const Sheet& sheet = {});
 Figure corner_figure(const MeasuredOutcome& outcome, const Sheet& sheet = {});
 Figure series_figure(std::span<const MeasuredOutcome> fits, const Sheet& sheet = {});
+// Whether the scans of a fit have times and two of them an unknown of the same name.
+bool has_series(const MeasuredOutcome& fit);
 
 // The last part of a path.
 std::string short_name(const std::string& name);

@@ -28,7 +28,8 @@ struct Series {
 // "mie.scattering[2]" is a value of "mie.scattering".
 std::string name_without_scan(const std::string& name) { return name.substr(0, name.find('[')); }
 
-// Where the only scan of a fit has the unknown, its own and a shared one are the same.
+// The unknowns of two scans and more. Where the only scan of a fit has the unknown, its own and a
+// shared one are the same.
 std::map<std::string, Series> series_of(std::span<const MeasuredOutcome> fits) {
   std::map<std::string, Series> result;
   for (const MeasuredOutcome& fit : fits) {
@@ -45,10 +46,6 @@ std::map<std::string, Series> series_of(std::span<const MeasuredOutcome> fits) {
     }
   }
   std::erase_if(result, [](const auto& entry) { return entry.second.points.size() < 2; });
-  if (result.empty())
-    throw std::invalid_argument(
-        "figure series: no unknown of two scans: expected a fit with --per-scan, or several fits "
-        "of single scans");
   for (auto& [name, series] : result) std::ranges::sort(series.points, {}, &Point::time_utc);
   return result;
 }
@@ -90,8 +87,18 @@ void draw_panel(Script& script, const Box& box, const std::string& name, const S
 
 }  // namespace
 
+bool has_series(const MeasuredOutcome& fit) {
+  return std::ranges::none_of(fit.scans,
+                              [](const MeasuredScan& scan) { return scan.time_utc.empty(); }) &&
+         !series_of({&fit, 1}).empty();
+}
+
 Figure series_figure(std::span<const MeasuredOutcome> fits, const Sheet& sheet) {
-  std::map<std::string, Series> all = series_of(fits);
+  const std::map<std::string, Series> all = series_of(fits);
+  if (all.empty())
+    throw std::invalid_argument(
+        "figure series: no unknown of two scans: expected a fit with --per-scan, or several fits "
+        "of single scans");
   std::vector<std::string> names;
   for (const auto& [name, series] : all) names.push_back(name);
   const std::vector<std::size_t> rows = sheet.chosen(names);

@@ -77,6 +77,10 @@ TEST_F(BadInputTest, UnknownNames) {
 }
 
 TEST_F(BadInputTest, NamesOfFilesThatAreEmpty) {
+  expect_refusal({"fit", "--reference", "cie:12", "--irradiance", "", "--out", "x"},
+                 {"--irradiance \"\": expected NAME=VALUE"});
+  expect_refusal({"fit", "--reference", "", "--irradiance", "direct=96klx", "--out", "x"},
+                 {"--reference \"\": expected NAME|FILE"});
   expect_refusal({"compare", "--reference", "", "--out", "x"},
                  {"\"\": no such file or reference, expected cie:1"});
   expect_refusal({"render", "--preset", "earth-clear", "--dem", "", "--out", "frame.png"},

@@ -57,6 +57,16 @@ TEST_F(CampaignTest, LeavesOneResultOfAll) {
   EXPECT_EQ(content("parts/campaign.nc"), content("out/campaign.nc"));
 }
 
+TEST_F(CampaignTest, WithoutAnyFitIsAnError) {
+  write("none.json", R"({"skyfit_campaign": 1, "inputs": ["scans/c.csv"]})");
+  const Outcome none = run({"campaign", in("none.json"), "--out", in("out")});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.out, StartsWith("1 tasks: 0 fitted"));
+  EXPECT_EQ(lines(none.err).size(), 1u) << none.err;
+  EXPECT_THAT(none.err, HasSubstr("holds no fit: "));
+  EXPECT_THAT(none.err, HasSubstr("scans/c.csv:1: "));
+}
+
 TEST_F(CampaignTest, FitsIrradiances) {
   std::filesystem::copy_file(std::string(SKYFIT_EXAMPLES) + "irradiances.csv",
                              folder_ / "sun@noon=1.csv");  // a name that is none of an hour

@@ -3,6 +3,7 @@
 // refused with one line.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/irradiance.h"
@@ -69,6 +70,21 @@ TEST_F(PlotTest, WhatCannotBeDrawnIsRefused) {
         series_figure({&timeless, 1});
       },
       ThrowsMessage<std::invalid_argument>(HasSubstr("its time is not known")));
+}
+
+// As of a scan of the sky and one of irradiances, which has no pointing.
+TEST_F(PlotTest, AnUnknownOfOneScanAloneIsNoSeries) {
+  MeasuredOutcome fit = outcome(true);
+  ASSERT_EQ(fit.scans.size(), 2u);
+  ASSERT_TRUE(measured_figure("series").can_draw(fit));
+  std::erase_if(fit.unknowns, [](const MeasuredUnknown& unknown) { return unknown.scan == 2; });
+  ASSERT_TRUE(std::ranges::any_of(fit.unknowns, [](const auto& u) { return u.scan == 1; }));
+  EXPECT_FALSE(measured_figure("series").can_draw(fit));
+  EXPECT_THAT(
+      [&] {
+        series_figure({&fit, 1});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("no unknown of two scans")));
 }
 
 }  // namespace
