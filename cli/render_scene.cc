@@ -172,7 +172,9 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
   for (const std::string& mesh : options.meshes) scene.meshes.push_back(parse_mesh(mesh));
   scene.textures = options.textures;
   scene.named_files = named_files();
-  const OwnMaterials own = read_materials(scene.textures, scene.named_files);
+  if (!scene.textures.empty() && !std::filesystem::is_directory(scene.textures))
+    throw UsageError("--textures", options.textures, "no such directory");
+  const OwnMaterials own = read_materials(scene.textures, scene.named_files, scene.color_map);
   scene.soil = own.soil;
   scene.rock = own.rock;
   validate(scene);

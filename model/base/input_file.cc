@@ -91,6 +91,7 @@ std::string read_stdin(std::string_view expectation, std::uintmax_t most_bytes) 
 
 std::optional<fs::path> named_file(const fs::path& folder, std::string_view name,
                                    NamedFiles allowed) {
+  if (name.empty() || name.find('\0') != std::string_view::npos) return {};
   const fs::path path(name);
   if (allowed == NamedFiles::kAnywhere) return folder / path;
   if (path.is_absolute() || std::ranges::count(path, "..") > 0) return {};

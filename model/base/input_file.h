@@ -31,9 +31,9 @@ std::string read_stdin(std::string_view expectation, std::uintmax_t most_bytes =
 // Which files a data file may name.
 enum class NamedFiles { kInItsFolder, kAnywhere };
 
-// The file that a data file in `folder` names. Nothing where the name is absolute, has a part
-// "..", or leads out of the folder by a symbolic link, unless it may lie anywhere. A message then
-// expects kNamedFile.
+// The file that a data file in `folder` names. Nothing where the name is empty or has a character
+// of code 0, and, unless the file may lie anywhere, where it is absolute, has a part "..", or leads
+// out of the folder by a symbolic link. A message then expects kNamedFile.
 inline constexpr std::string_view kNamedFile =
     "a file in the folder of the one that names it, or --allow-paths";
 std::optional<std::filesystem::path> named_file(const std::filesystem::path& folder,

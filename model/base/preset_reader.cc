@@ -275,9 +275,13 @@ std::vector<std::string> PresetReader::texts(std::string_view field) const {
   return found.get<std::vector<std::string>>();
 }
 
-void PresetReader::fail_value(std::string_view field, std::string_view expectation) const {
+std::string PresetReader::place(std::string_view field) const {
   const std::string path = path_of(field);
-  throw std::invalid_argument(fmt::format("{}: {} = {}: expected {}", document_.place(path), path,
+  return fmt::format("{}: {}", document_.place(path), path);
+}
+
+void PresetReader::fail_value(std::string_view field, std::string_view expectation) const {
+  throw std::invalid_argument(fmt::format("{} = {}: expected {}", place(field),
                                           json_excerpt(value_.at(std::string(field))),
                                           expectation));
 }

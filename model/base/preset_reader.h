@@ -81,6 +81,9 @@ class PresetReader {
     }
   }
 
+  // `source:line: path` of a field that is there.
+  std::string place(std::string_view field) const;
+
   [[noreturn]] void fail_value(std::string_view field, std::string_view expectation) const;
   // Something that may have one of several names is missing.
   [[noreturn]] void fail_missing(std::string_view expectation) const;

@@ -50,12 +50,13 @@ AirAtNodes air_at_nodes(const Atmosphere<double>& atmosphere,
   const Shells shells = shells_of(atmosphere, Keep::kScatterers);
   const Atmosphere<Dual<0>> clear = without_absorption(seeded<0>(atmosphere, {}));
   AirAtNodes all;
+  const double thickness = atmosphere.top_radius_m - atmosphere.bottom_radius_m;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const ClearAir<0> air = clear_air(shells, clear, nodes[k]);
     all.air[k] = air.air.v;
     all.aerosol[k] = air.aerosol_scattering.v;
-    all.air_scale_height_m = air.air_scale_height.v;
-    all.aerosol_scale_height_m = air.aerosol_scale_height.v;
+    all.air_scale_height_m = air.air_profile < 0 ? thickness : air.air_scale_height.v;
+    all.aerosol_scale_height_m = air.aerosol_profile < 0 ? thickness : air.aerosol_scale_height.v;
   }
   return all;
 }

@@ -105,6 +105,7 @@ ClearAir<N> clear_air(const Shells& shells, const Atmosphere<Dual<N>>& atmospher
 // needs of closed forms.
 struct AirAtNodes {
   std::array<double, 4> air{}, aerosol{};  // scattering at density 1, 1/m
+  // Of what is not there: the thickness of the atmosphere.
   double air_scale_height_m = 0, aerosol_scale_height_m = 0;
 };
 AirAtNodes air_at_nodes(const Atmosphere<double>& atmosphere,

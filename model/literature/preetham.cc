@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -30,6 +31,7 @@ constexpr std::string_view kName = "preetham";
 constexpr double kUnitWavelength = 550;  // nm
 
 constexpr double kHighest = 3e3;  // m
+constexpr double kLeastTurbidity = 1.7, kMostTurbidity = 10;
 
 template <int N>
 std::array<Dual<N>, 3> xyz_of(const Dual<N>& t, double mu, double gamma, double sun_zenith) {
@@ -58,11 +60,13 @@ void check_view(const SkyPoint& point) {
                     point.view_zenith * kDegreesPerRadian, "below 90: the model has the sky alone");
 }
 
-void check_turbidity(double turbidity) {
-  if (turbidity >= 1.7 && turbidity <= 10) return;
+// Whether there is air. Throws std::domain_error where its turbidity is not of those of the paper.
+bool has_air(double turbidity) {
+  if (std::isnan(turbidity)) return false;
+  if (turbidity >= kLeastTurbidity && turbidity <= kMostTurbidity) return true;
   throw std::domain_error(
-      fmt::format("{} model: turbidity (tau_R + tau_M) / tau_R = {:.9g}: must be in 1.7 .. 10",
-                  kName, turbidity));
+      fmt::format("{} model: turbidity (tau_R + tau_M) / tau_R = {:.9g}: must be in {} .. {}",
+                  kName, turbidity, kLeastTurbidity, kMostTurbidity));
 }
 
 }  // namespace
@@ -95,7 +99,7 @@ SkyValues PreethamModel::radiance(const Atmosphere<double>& atmosphere,
   literature::check_request(kName, atmosphere, points, derivatives);
   literature::check_daylight(kName, points, kHighest);
   for (const SkyPoint& point : points) check_view(point);
-  check_turbidity(preetham_turbidity(atmosphere));
+  const bool dark = !has_air(preetham_turbidity(atmosphere));
   const Shells shells = shells_of(atmosphere, Keep::kScatterers);
   return literature::evaluate<literature::kAllAtOnce>(
       atmosphere, wavelengths, points.size(), derivatives,
@@ -104,10 +108,11 @@ SkyValues PreethamModel::radiance(const Atmosphere<double>& atmosphere,
         const Dual<N> turbidity = turbidity_of(shells, air);
         const std::array<double, 3> from_xyz = radiance_from_xyz(node.wavelength_nm);
         for (std::size_t i = 0; i < points.size(); ++i) {
+          out[i] = Dual<N>(0.0);
+          if (dark) continue;
           const double nu = literature::view_of(atmosphere, points[i]).nu;
           const std::array<Dual<N>, 3> xyz = xyz_of(turbidity, std::cos(points[i].view_zenith),
                                                     std::acos(nu), points[i].sun_zenith);
-          out[i] = Dual<N>(0.0);
           for (std::size_t c = 0; c < 3; ++c) out[i] += from_xyz[c] * xyz[c];
         }
       });
@@ -127,8 +132,10 @@ std::optional<SkyRayTables> PreethamModel::sky_rays(
   literature::check_exponential(kName, atmosphere);
   SkyRayTables rays =
       literature::closed_form(SkyRayMapping::kPreetham, {std::string(kName), kHighest}, atmosphere);
-  rays.preetham.turbidity = preetham_turbidity(atmosphere);
-  check_turbidity(rays.preetham.turbidity);
+  const double turbidity = preetham_turbidity(atmosphere);
+  // Without air any turbidity does: radiance_from_xyz is 0.
+  rays.preetham.turbidity = has_air(turbidity) ? turbidity : kLeastTurbidity;
+  if (!has_air(turbidity)) return rays;
   for (std::size_t k = 0; k < 4; ++k)
     rays.preetham.radiance_from_xyz[k] = radiance_from_xyz(nodes[k].wavelength_nm);
   return rays;

@@ -25,7 +25,8 @@
 
 namespace skyfit {
 
-// The vertical optical depth of the atmosphere over that of its air, at 550 nm.
+// The vertical optical depth of the atmosphere over that of its air, at 550 nm. Not a number
+// without both, where the sky is dark.
 double preetham_turbidity(const Atmosphere<double>& atmosphere);
 
 class PreethamModel final : public SkyModel {

@@ -182,6 +182,16 @@ TEST(RenderRequest, FramesAreKnownByTheContentOfTheirTextures) {
   EXPECT_NE(fingerprint(), made);
 }
 
+TEST(RenderRequest, FolderOfTexturesMustExist) {
+  const TemporaryDirectory directory;
+  const std::string folder = directory.path() / "ground";
+  EXPECT_THAT(
+      [&] {
+        request({"--textures", folder, "--out", "x.png"});
+      },
+      ::testing::ThrowsMessage<UsageError>("--textures \"" + folder + "\": no such directory"));
+}
+
 std::vector<double> altitudes_of(const GridRequest& grid) {
   std::vector<double> altitudes;
   for (const RenderRequest& cell : grid.cells)

@@ -69,6 +69,11 @@ TEST_F(InputFile, NamedByADataFileStaysInItsFolder) {
                            "up/outside", "loop"})
     EXPECT_EQ(named_file(data, name, NamedFiles::kInItsFolder), std::nullopt) << name;
   EXPECT_EQ(named_file(data, "../outside", NamedFiles::kAnywhere), data / "../outside");
+  // The system would open the folder, or a file whose name ends sooner.
+  for (const std::string_view name : {std::string_view(), std::string_view("a.csv\0x", 7)}) {
+    for (const NamedFiles allowed : {NamedFiles::kInItsFolder, NamedFiles::kAnywhere})
+      EXPECT_EQ(named_file(data, name, allowed), std::nullopt);
+  }
   EXPECT_EQ(named_file("", "a.csv", NamedFiles::kInItsFolder), "a.csv");
 }
 

@@ -235,5 +235,27 @@ TEST(ClosedFormFrames, NoPixelIsBlack) {
   EXPECT_LT(brightest, 1e5) << "cd/m^2";
 }
 
+// As with the other models: no turbidity, and the ground alone has light.
+TEST(ClosedFormFrames, WithoutAirPreethamHasADarkSky) {
+  Preset preset = shipped("earth-clear");
+  preset.atmosphere.constituents.clear();
+  Renderer renderer;
+  renderer.set_atmosphere(preset, tables_by("preetham", preset));
+  const Frame frame = renderer.draw(options_of("valley"));
+  int skies = 0, lit = 0;
+  for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
+    const float luminance = frame.luminance[i];
+    EXPECT_EQ(frame.layers->in_scatter[3 * i + 1], 0) << "pixel " << i;
+    if (std::isfinite(frame.depth_m[i])) {
+      EXPECT_TRUE(std::isfinite(luminance) && luminance >= 0) << luminance << " cd/m^2";
+      lit += luminance > 0;
+    } else {
+      ++skies;
+    }
+  }
+  EXPECT_GT(skies, 100);
+  EXPECT_GT(lit, 100);
+}
+
 }  // namespace
 }  // namespace skyfit

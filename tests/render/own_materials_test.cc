@@ -65,9 +65,9 @@ class OwnMaterialFiles : public MapFiles {
     std::ofstream(directory_ / kMaterialFile) << text;
   }
 
-  std::string refusal() const {
+  std::string refusal(const std::filesystem::path& color_map = {}) const {
     try {
-      read_materials(directory_, NamedFiles::kInItsFolder);
+      read_materials(directory_, NamedFiles::kInItsFolder, color_map);
     } catch (const std::exception& error) {
       return error.what();
     }
@@ -241,7 +241,14 @@ TEST_F(OwnMaterialFiles, FileIsRefusedInOneLineThatNamesTheField) {
            {R"({"skyfit_materials": 1, "sand": {}})", "sand"},
            {R"({"skyfit_materials": 1, "soil": {"colour": "grass.png"}})", "soil.colour"},
            {R"({"skyfit_materials": 1, "soil": {"color": "../grass.png"}})", "soil.color"},
+           {R"({"skyfit_materials": 1, "soil": {"color": ""}})", R"(soil.color = "": expected)"},
+           {R"({"skyfit_materials": 1, "soil": {"color": "grass.png\u0000x"}})",
+            R"(soil.color = "grass.png\u0000x": expected)"},
            {R"({"skyfit_materials": 1, "soil": {"near_m": 0}})", "soil.near_m = 0"},
+           {"{\"skyfit_materials\": 1, \"soil\":\n {\"near_m\": 66667}}",
+            ":2: soil.near_m = 66667: expected metres, 0.01 to 66666 without far_m"},
+           {R"({"skyfit_materials": 1, "soil": {"near_m": 3, "far_m": 2e6}})",
+            "soil.far_m = 2000000.0: expected metres, 0.01 to 1000000"},
            {R"({"skyfit_materials": 1, "soil": {"near_m": 9, "far_m": 3}})", "soil.far_m = 3"}}) {
     write_json(text);
     EXPECT_THAT(refusal(), HasSubstr(file + ":")) << text;
@@ -249,7 +256,17 @@ TEST_F(OwnMaterialFiles, FileIsRefusedInOneLineThatNamesTheField) {
     EXPECT_THAT(refusal(), Not(HasSubstr("\n")));
   }
   write_json(R"({"skyfit_materials": 1, "soil": {"color": "gras.png"}})");
-  EXPECT_THAT(refusal(), HasSubstr("gras.png: cannot be read"));
+  EXPECT_EQ(refusal(), (directory_ / "gras.png").string() +
+                           ": cannot be read (No such file or directory), expected a picture for " +
+                           file + ":1: soil.color");
+  write_json(R"({"skyfit_materials": 1, "soil": {"color": "grass.png"}})");
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(refusal("map.png"), file + R"(:1: soil.color = "grass.png": expected none with )"
+                                       "--color-map, which has the ground's colours");
+  // The longest of all.
+  write_json(R"({"skyfit_materials": 1, "soil": {"near_m": 66666}, "rock": )"
+             R"({"near_m": 1e6, "far_m": 1e6}})");
+  EXPECT_EQ(refusal(), "");
 }
 
 TEST_F(OwnMaterialFiles, PicturesOfAnotherKindAreRefusedInOneLine) {
@@ -276,6 +293,10 @@ TEST_F(OwnMaterialFiles, PicturesOfAnotherKindAreRefusedInOneLine) {
       message([&] { read_own_slopes(photograph); }),
       photograph.string() +
           ": blue is 0.2 of 1 in column 0 of row 0: expected normals, whose blue is above 0.5");
+  Scene with_grey = level();
+  with_grey.rock.normal = grey;
+  EXPECT_EQ(message([&] { with_ground(with_grey).draw(FrameOptions()); }),
+            grey.string() + ": 1 channel: expected red, green and blue (rock.normal)");
   Scene scene;
   scene.height_map = level().height_map;
   scene.color_map = oblong;

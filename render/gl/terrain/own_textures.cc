@@ -145,22 +145,27 @@ OwnPicture read_own_slopes(const fs::path& file) {
 OwnTextures::OwnTextures(const OwnMaterial& soil, const OwnMaterial& rock,
                          const ColorReflectance& colors)
     : soil_(soil), rock_(rock), textures_(4), means_(4, glm::vec4(0)) {
-  std::size_t at = 0;
-  const auto upload = [&](std::size_t i, const OwnPicture& picture, GLenum stored,
-                          GLenum channels) {
-    textures_[i] = texture_of(picture, stored, channels);
-    means_[i] = mean_of(picture);
+  struct Picture {
+    const fs::path& file;
+    const char *field, *define;
   };
-  for (const auto& [material, name] : {std::pair(&soil_, "SOIL"), std::pair(&rock_, "ROCK")}) {
-    if (!material->color.empty()) {
-      upload(at, read_own_color(material->color, colors), GL_RGBA16, GL_RGBA);
-      defines_.push_back(fmt::format("OWN_{}_COLOR", name));
+  const std::array<Picture, 4> pictures = {{{soil_.color, "soil.color", "OWN_SOIL_COLOR"},
+                                            {soil_.normal, "soil.normal", "OWN_SOIL_RELIEF"},
+                                            {rock_.color, "rock.color", "OWN_ROCK_COLOR"},
+                                            {rock_.normal, "rock.normal", "OWN_ROCK_RELIEF"}}};
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const auto& [file, field, define] = pictures[i];
+    if (file.empty()) continue;
+    const bool is_color = i % 2 == 0;
+    try {
+      const OwnPicture picture = is_color ? read_own_color(file, colors) : read_own_slopes(file);
+      textures_[i] =
+          texture_of(picture, is_color ? GL_RGBA16 : GL_RG16F, is_color ? GL_RGBA : GL_RG);
+      means_[i] = mean_of(picture);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("{} ({})", error.what(), field));
     }
-    if (!material->normal.empty()) {
-      upload(at + 1, read_own_slopes(material->normal), GL_RG16F, GL_RG);
-      defines_.push_back(fmt::format("OWN_{}_RELIEF", name));
-    }
-    at += 2;
+    defines_.emplace_back(define);
   }
   if (!defines_.empty()) defines_.emplace_back("OWN_MATERIALS");
 }

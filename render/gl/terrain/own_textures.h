@@ -34,6 +34,7 @@ OwnPicture read_own_slopes(const std::filesystem::path& file);
 
 class OwnTextures {
  public:
+  // Throws as the two above, with the material and its field, such as soil.color, at the end.
   OwnTextures(const OwnMaterial& soil, const OwnMaterial& rock, const ColorReflectance& colors);
 
   // For shaders of surfaces; none where all materials are the program's own.
