@@ -194,7 +194,8 @@ TEST_F(FilesTest, AFullDiskLeavesTheOldFigureAndAMessage) {
   EXPECT_FALSE(has_temporary());
 }
 
-// A whole line, and an exit of the program's own: HDF5 is not left with a file that it cannot close.
+// A whole line, and an exit of the program's own: HDF5 is not left with a file that it cannot
+// close.
 TEST_F(FilesTest, AFullDiskLeavesTheOldNetcdfAndAMessage) {
   write("sky.nc", "the old one");
   const Outcome outcome =
