@@ -176,8 +176,8 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       .option(
           "--aerial", options.aerial, "pixel|volume",
           "Light of the air before the ground: by pixel, or faster from a volume of 32 x 32 x 16. "
-          "It is by pixel with meshes, a moon or a second sun, above 12 km, and where the ground "
-          "may rise above the air")
+          "It is by pixel with meshes, a moon or a second sun, above 12 km, where the ground may "
+          "rise above the air, and under atmospheres with a dense layer, as of cloud")
       ->capture_default_str();
   group.flag("--gpu", options.gpu, "Draw through EGL, on a GPU where there is one");
   group.option("--exposure", options.exposure, "K",

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "cli/output.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/lowered_ground.h"
+#include "model/atmosphere/shells.h"
 #include "model/base/whole_file.h"
 #include "model/registry.h"
 #include "model/tables/table_cache.h"
@@ -17,6 +19,19 @@
 #include "render/sky_map/frame_polarisation.h"
 
 namespace skyfit::cli {
+namespace {
+
+// Whether tables that follow layers have the same heights at all steps.
+bool layers_stay(const std::vector<TimelineStep>& steps) {
+  const auto heights = [](const TimelineStep& step) {
+    return HeightAxis(shells_of(step.preset.atmosphere, Keep::kWhatMatters),
+                      TableSizes{}.scattering_r);
+  };
+  return std::ranges::all_of(
+      steps, [&](const TimelineStep& step) { return heights(step) == heights(steps.front()); });
+}
+
+}  // namespace
 
 RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineStep> timeline,
                              double first_time_s, TimeAccount& time, Report report)
@@ -26,6 +41,7 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
                             request.light.transfer)),
       stays_(timeline.size() == 1),
+      layers_stay_(layers_stay(timeline)),
       timeline_(request.update_frames > 0
                     ? std::optional<Timeline>()
                     : std::optional<Timeline>(
@@ -45,7 +61,7 @@ AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
   const auto atmosphere = drawn_atmosphere(preset);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
   TableSizes sizes = request_.table_sizes;
-  if (!stays_) sizes.follow_layers = 0;  // tables are interpolated, and layers may move
+  if (!layers_stay_) sizes.follow_layers = 0;  // tables are interpolated
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
   const auto compute = [&] {
     if (request_.light.orders > 0)

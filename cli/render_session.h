@@ -45,6 +45,7 @@ class RenderSession {
   Report report_;
   std::unique_ptr<SkyModel> model_;
   bool stays_;                           // the atmosphere, from frame to frame
+  bool layers_stay_;                     // where they are
   std::optional<Timeline> timeline_;     // or, with --update-frames,
   std::optional<TableUpdates> updates_;  // made for the first frame
   std::vector<TimelineStep> steps_;      // of the updates

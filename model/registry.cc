@@ -64,6 +64,22 @@ constexpr SkyModelVariant kNielsenVariants[] = {
     {NielsenModel::kSunThroughSky, "the sun's light is what the model's sky lets through"},
 };
 
+constexpr SkyModelVariant kBrunetonVariants[] = {
+    {BrunetonMethod::kHalfTransmittance,
+     "the transmittance of a path is the quotient of two look-ups in half floats"},
+    {BrunetonMethod::kHalfInScatter,
+     "in-scatter in half floats, looked up by radii in single precision, before surfaces as the "
+     "difference of two look-ups"},
+    {BrunetonMethod::kMieFromRayleigh,
+     "single Mie scattering follows from all other light, by the proportion of the two at 680 nm"},
+};
+
+std::unique_ptr<SkyModel> make_bruneton(const SkyModelRequest& request) {
+  return std::make_unique<BrunetonModel>(
+      request.threads, BrunetonMethod(bruneton_choices(request.variants),
+                                      node_at(request.spectra, BrunetonMethod::kRedNm)));
+}
+
 constexpr SkyModelVariant kBodareVariants[] = {
     {BodareMieFromRayleighMethod::kVariant,
      "aerosol's light is air's, by the proportion of the two at 650 nm, as in the source"},
@@ -122,8 +138,8 @@ std::span<const SkyModelEntry> sky_models() {
       {"reference", "the yardstick: quadrature and converged multiple scattering in shells",
        make_reference, kReferenceVariants},
       {"tables", "what the renderer looks up: tables of the reference", make_tables},
-      {"bruneton", "Bruneton & Neyret 2008: 4D tables, multiple scattering",
-       make_threaded<BrunetonModel>},
+      {"bruneton", "Bruneton & Neyret 2008: 4D tables, multiple scattering", make_bruneton,
+       kBrunetonVariants},
       {"bodare", "Bodare & Sandberg 2014: 3D tables, gathered multiple scattering", make_bodare,
        kBodareVariants},
       {"hillaire", "Hillaire 2020, as engines do: 2D tables, multiple scattering as a series",

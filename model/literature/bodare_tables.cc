@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/atmosphere/phase_moments.h"
+#include "model/literature/mie_from_rayleigh.h"
 #include "model/shared/shared.h"
 
 namespace skyfit::literature {
@@ -246,13 +247,7 @@ typename BodareTables<N>::InScatter BodareTables<N>::in_scatter(double height, d
 
 template <int N>
 void BodareTables<N>::take_aerosol_from_air(const BodareTables& red) {
-  const Dual<N> from = air_.air * red.air_.aerosol_scattering;
-  const bool any = from.v > 0;
-  const Dual<N> factor = any ? red.air_.air * air_.aerosol_scattering / from : Dual<N>(0.0);
-  for (std::size_t i = 0; i < air_sum_.count(); ++i) {
-    const Dual<N>& air = red.air_sum_[i];
-    aerosol_sum_[i] = air.v > 0 ? factor * air_sum_[i] * red.aerosol_sum_[i] / air : Dual<N>(0.0);
-  }
+  take_mie_from_rayleigh(air_, air_sum_, red.air_, red.air_sum_, red.aerosol_sum_, aerosol_sum_);
   light_ground();
 }
 

@@ -82,9 +82,7 @@ class BodareTables {
   Dual<N> ground_irradiance(double mu_s) const;  // by the sky
 
   // His equation 19, of finished tables: aerosol in the proportion to air that the tables `red`
-  // have,
-  //   M = R (M_red / R_red) (beta_R,red / beta_M,red) (beta_M / beta_R),
-  // texel by texel, where his shader forms it after the look-up. No light where there is no air.
+  // have (mie_from_rayleigh.h); he forms it in the shader, after the look-up.
   void take_aerosol_from_air(const BodareTables& red);
 
   // G: all light but the sun's that falls on a place, times the phase functions.

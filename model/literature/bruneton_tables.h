@@ -71,12 +71,19 @@ class BrunetonTables {
   static constexpr int kOrders = 5;  // of scattering, the single one included
 
   // Runs on the threads of the task arena. `geometry` is that of the atmosphere, and outlives the
-  // tables; every one is filled, whatever the views.
+  // tables; every one is filled, whatever the views. Half floats are rounded to when the tables are
+  // finished; derivatives are those of the numbers before.
   BrunetonTables(const BrunetonGeometry& geometry, const ClearAir<N>& air,
-                 std::span<const View> views);
+                 std::span<const View> views, const BrunetonChoices& choices = {});
+
+  // Single Mie scattering in the proportion that the tables `red` have (mie_from_rayleigh.h);
+  // published code forms it after the look-up.
+  void take_mie_from_rayleigh(const BrunetonTables& red);
 
   // Of the whole ray.
   RayLight<N> light(const View& view) const;
+  // The same without the ground, and at the coordinates of in_scatter() whatever the choices.
+  RayLight<N> scattered(const View& view) const;
 
   // What the tables hold at a place inside the atmosphere; cosines of view and sun zenith and of
   // the angle between them.
@@ -86,19 +93,33 @@ class BrunetonTables {
     Dual<N> single_mie;     // over the aerosol's phase function
   };
   InScatter in_scatter(double height, double mu, double mu_s, double nu, bool ground) const;
+  // At the coordinates by radii in single precision, km, as published; they know themselves, or do
+  // not, whether the ray meets the ground.
+  InScatter in_scatter_by_radii(double height, double mu, double mu_s, double nu) const;
+  // Of the path from a height to the ground, as published: the quotient of two look-ups of
+  // transmittances to the top in half floats, at most 1.
+  Dual<N> half_transmittance_to_ground(const ViewRay& ray) const;
   // On the horizontal, facing up; with derivatives (N > 0) of the ground alone, height 0.
   Dual<N> sky_irradiance(double height, double mu_s) const;
 
-  SkyRayTexels sky_rays() const;  // [r][mu][nu][mu_s]; rays along the horizon are the first of mu
+  // [r][mu][nu][mu_s]; of mu as SkyRayMapping::kBruneton says, rays to the sky from the horizon up.
+  SkyRayTexels sky_rays() const;
 
   std::size_t bytes() const;
 
  private:
   template <int>
   friend class BrunetonSolver;
+  void round_to_half();
+  InScatter in_scatter_at(const Between& r, const Between& mu, double mu_s, double nu) const;
+  Dual<N> half_transmittance(double height, double mu) const;
+  RayLight<N> with_phases(const View& view, const InScatter& in) const;
+
   const BrunetonGeometry& geometry_;
   ClearAir<N> air_;
+  BrunetonChoices choices_;
   Grid<N, 2> optical_depth_;               // [r][mu]
+  Grid<N, 2> half_transmittance_;          // the same, where it is chosen
   Grid<N, 2> irradiance_;                  // [r][mu_s]
   Grid<N, 4> rayleigh_like_, single_mie_;  // [r][mu][mu_s][nu]
 };

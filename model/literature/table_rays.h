@@ -35,13 +35,19 @@ struct SunLight {
 };
 SunLight sun_light(const Shells& shells, double height, double mu_s);
 
+// Of a view ray that meets the ground.
+template <int N>
+Dual<N> transmittance_to_ground(const Shells& shells, const ClearAir<N>& air, const ViewRay& ray) {
+  const RayPoint end = ray_point(ray, shells.bottom_radius, ray.length);
+  return exp(-air.optical_depth(columns_along(shells, ray, end)));
+}
+
 // What the ground sends along a view ray that meets it, at the ray's beginning, 1/sr. `sky(mu_s)`
-// is the irradiance of the ground by the sky.
+// is the irradiance of the ground by the sky, `through` the transmittance of the ray.
 template <int N, class SkyIrradiance>
 Dual<N> ground_light(const Shells& shells, const ClearAir<N>& air, const View& view,
-                     const SkyIrradiance& sky) {
+                     const SkyIrradiance& sky, const Dual<N>& through) {
   const double bottom = shells.bottom_radius;
-  const RayPoint end = ray_point(view.ray, bottom, view.ray.length);
   const double mu_s =
       ((bottom + view.ray.entry_height) * view.mu_s + view.ray.length * view.nu) / bottom;
   Dual<N> irradiance = sky(mu_s);
@@ -49,8 +55,12 @@ Dual<N> ground_light(const Shells& shells, const ClearAir<N>& air, const View& v
     const SunLight sun = sun_light(shells, 0, mu_s);
     irradiance += mu_s * sun.visible * exp(-air.optical_depth(sun.columns));
   }
-  return air.ground_albedo * (1 / std::numbers::pi) * irradiance *
-         exp(-air.optical_depth(columns_along(shells, view.ray, end)));
+  return air.ground_albedo * (1 / std::numbers::pi) * irradiance * through;
+}
+template <int N, class SkyIrradiance>
+Dual<N> ground_light(const Shells& shells, const ClearAir<N>& air, const View& view,
+                     const SkyIrradiance& sky) {
+  return ground_light(shells, air, view, sky, transmittance_to_ground(shells, air, view.ray));
 }
 
 }  // namespace skyfit::literature

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sky model of tables that are computed for one wavelength at a time. Its method names
-//   kName, kBatch (derivatives at once),
+//   kName, kBatch (derivatives at once); where it has choices, name, which says them,
 //   Geometry(Atmosphere<double>): all that does not depend on the wavelength,
 //   Tables<N>(geometry, optics, views): the tables, of which those that the views need may do,
 //   with light(view), sky_rays() and bytes(); no views: all of them; where it is cheaper,
 //   scattered(view), which is light(view) without the ground and without interpolation,
-//   kSkyRays: how sky_rays() are read,
+//   kSkyRays: how sky_rays() are read; where it has choices, mark(sky_rays()), which says them,
 //   see(Atmosphere<T>): the atmosphere as the method sees it,
 //   where it takes more than one wavelength, tables<N>(geometry, see(atmosphere), node, views),
 //   can_fit(Parameter).
@@ -32,7 +32,13 @@ class TabulatedModel final : public SkyModel {
       : threads_(threads), method_(std::move(method)) {
     check_model_value(Method::kName, threads >= 1, "threads", threads, ">= 1");
   }
-  std::string_view name() const override { return Method::kName; }
+  std::string_view name() const override {
+    if constexpr (requires { method_.name; }) {
+      return method_.name;
+    } else {
+      return Method::kName;
+    }
+  }
   Atmosphere<double> effective_atmosphere(const Atmosphere<double>& atmosphere) const override {
     return Method::see(atmosphere);
   }
@@ -97,6 +103,7 @@ class TabulatedModel final : public SkyModel {
                                        std::span<const WavelengthNode, 4> nodes) const override {
     const std::shared_ptr<const Kept> kept = prepared(atmosphere);
     SkyRayTables tables{Method::kSkyRays, {}, {}};
+    if constexpr (requires { method_.mark(tables); }) method_.mark(tables);
     for (std::size_t node = 0; node < nodes.size(); ++node) {
       const SkyRayTexels texels = kept->prepared(nodes[node]).sky_rays();
       for (const auto& [of_node, table] :

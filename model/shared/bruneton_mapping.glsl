@@ -31,5 +31,31 @@ Number bruneton_sun_from_unit(Number x_mu_s, Number mu_s_min, Number bottom, Num
   return clamp((tangent * tangent - d * d) / (2.0 * bottom * d), Number(-1.0), Number(1.0));
 }
 
+// The same coordinates by radii, as they are published: squares of radii are subtracted, which in single precision leaves of
+// the way to the ground near the horizon some kilometres. Whether a ray meets the ground, and x_mu of the two halves.
+Number bruneton_discriminant(Number r, Number mu, Number bottom) {
+  Number r_mu = r * mu;
+  return r_mu * r_mu - r * r + bottom * bottom;
+}
+bool bruneton_meets_ground(Number r, Number mu, Number bottom) {
+  return mu < Number(0.0) && bruneton_discriminant(r, mu, bottom) >= Number(0.0);
+}
+Number bruneton_horizon_distance(Number r, Number bottom) { return sqrt(max(r * r - bottom * bottom, Number(0.0))); }
+Number bruneton_unit_from_radius(Number r, Number bottom, Number top) {
+  return bruneton_horizon_distance(r, bottom) / bruneton_horizon_distance(top, bottom);
+}
+Number bruneton_ground_unit_by_radius(Number r, Number mu, Number bottom) {
+  Number d = -r * mu - sqrt(max(bruneton_discriminant(r, mu, bottom), Number(0.0)));
+  Number shortest = r - bottom;
+  Number longest = bruneton_horizon_distance(r, bottom);
+  return longest > shortest ? (d - shortest) / (longest - shortest) : Number(0.0);
+}
+Number bruneton_sky_unit_by_radius(Number r, Number mu, Number bottom, Number top) {
+  Number tangent = bruneton_horizon_distance(top, bottom);
+  Number d = -r * mu + sqrt(max(bruneton_discriminant(r, mu, bottom) + tangent * tangent, Number(0.0)));
+  Number shortest = top - r;
+  return (d - shortest) / (bruneton_horizon_distance(r, bottom) + tangent - shortest);
+}
+
 Number bruneton_unit_from_nu(Number nu) { return 0.5 * (nu + Number(1.0)); }
 Number bruneton_nu_from_unit(Number x_nu) { return 2.0 * x_nu - Number(1.0); }

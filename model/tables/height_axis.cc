@@ -30,16 +30,35 @@ std::vector<double> heights_in_layer(const LinearProfile& layer) {
   return heights;
 }
 
+double unit_of(double height, const Shells& shells) {
+  return shared.unit_from_height(std::min(height, shells.top), shells.top);
+}
+
+bool is_dense_layer(const Shells& shells, std::size_t profile) {
+  constexpr double kMost = 0.1, kSteps = 31;
+  if (!shells.profiles[profile].is_layer()) return false;
+  const std::vector<double> heights = heights_in_layer(shells.profiles[profile].table());
+  const auto [low, high] = std::ranges::minmax(heights);
+  return shells.layer_depth[profile] >
+         kMost * kSteps * (unit_of(high, shells) - unit_of(low, shells));
+}
+
 }  // namespace
 
+bool has_dense_layers(const Shells& shells) {
+  for (std::size_t i = 0; i < shells.profiles.size(); ++i) {
+    if (is_dense_layer(shells, i)) return true;
+  }
+  return false;
+}
+
 HeightAxis::HeightAxis(const Shells& shells, int heights) {
-  constexpr double kThin = 0.05;  // optical depth
   std::vector<std::pair<double, double>> layers;
   for (std::size_t i = 0; i < shells.profiles.size(); ++i) {
-    if (!shells.profiles[i].is_layer() || shells.layer_depth[i] <= kThin) continue;
+    if (!is_dense_layer(shells, i)) continue;
     std::vector<double> units;
     for (const double h : heights_in_layer(shells.profiles[i].table()))
-      units.push_back(shared.unit_from_height(std::min(h, shells.top), shells.top));
+      units.push_back(unit_of(h, shells));
     const auto [low, high] = std::ranges::minmax(units);
     layers.emplace_back(low, high);
     nodes_.insert(nodes_.end(), units.begin(), units.end());

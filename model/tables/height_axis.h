@@ -9,13 +9,16 @@
 
 namespace skyfit {
 
+// Whether light changes over metres somewhere: a layer has more than a tenth of optical depth
+// between two of 32 heights by docs/theory (9.1).
+bool has_dense_layers(const Shells& shells);
+
 class HeightAxis {
  public:
   HeightAxis() = default;  // by (9.1) alone
 
-  // Texels as of a table of `heights` by (9.1) where no layer is; within layers of more than a
-  // twentieth of optical depth in steps that grow from either end. Without such layers by (9.1)
-  // alone.
+  // Texels as of a table of `heights` by (9.1) where no layer is; within such layers in steps that
+  // grow from either end. Without them by (9.1) alone.
   HeightAxis(const Shells& shells, int heights);
   // Ascending values of unit_from_height() of model/shared/mapping.glsl, from 0 to 1, or none.
   explicit HeightAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {}

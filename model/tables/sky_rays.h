@@ -23,7 +23,9 @@ enum class SkyRayMapping {
   // mappings are those of AtmosphereTables, x: mu_s, y: azimuth, z: mu.
   kFromOutside,
   // A model's own, for every eye: amplitudes without phase functions.
-  kBruneton,     // x: nu * mu_s (mu_s fastest), y: mu, z: r; model/shared/bruneton_mapping.glsl
+  // x: nu * mu_s (mu_s fastest), y: mu, of rays to the sky, or by BrunetonInScatter::kInHalfFloats
+  // of all rays, those to the ground first, z: r; model/shared/bruneton_mapping.glsl.
+  kBruneton,
   kBodare,       // x: sun, y: view, z: height; model/shared/bodare_mapping.glsl; `gathered`
   kSchafhitzel,  // the same, height and angles spaced evenly; all views
   kONeil,        // no tables: sums in the shader, of all rays
@@ -48,6 +50,16 @@ struct NielsenChoices {
   NielsenMean mean = NielsenMean::kOfDensities;
   NielsenAirPhase phase = NielsenAirPhase::kPublished;
   NielsenSun sun = NielsenSun::kPublished;
+};
+
+// What kBruneton looks up, see model/literature/bruneton.h.
+enum class BrunetonTransmittance { kOfOpticalDepths, kInHalfFloats };
+enum class BrunetonInScatter { kExact, kInHalfFloats };
+enum class BrunetonMie { kKept, kFromRayleigh };
+struct BrunetonChoices {
+  BrunetonTransmittance transmittance = BrunetonTransmittance::kOfOpticalDepths;
+  BrunetonInScatter in_scatter = BrunetonInScatter::kExact;
+  BrunetonMie mie = BrunetonMie::kKept;
 };
 
 // What kONeil sums, see model/literature/oneil.h.
@@ -82,6 +94,7 @@ struct SkyRayTables {
   PreethamSky preetham = {};
   std::optional<DaylightLimits> limits = {};
   Table gathered = {};  // kBodare: all light but the sun's that falls on a place, x: sun, y: height
+  BrunetonChoices bruneton = {};
 };
 
 }  // namespace skyfit

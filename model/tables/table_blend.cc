@@ -133,7 +133,8 @@ AtmosphereTables interpolated_tables(const AtmosphereTables& a, const Atmosphere
            {std::lerp(a.sky_rays.preetham.turbidity, b.sky_rays.preetham.turbidity, share),
             a.sky_rays.preetham.radiance_from_xyz},
            a.sky_rays.limits,
-           interpolated(a.sky_rays.gathered, b.sky_rays.gathered, share)}};
+           interpolated(a.sky_rays.gathered, b.sky_rays.gathered, share),
+           a.sky_rays.bruneton}};
 }
 
 }  // namespace skyfit

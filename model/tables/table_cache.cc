@@ -16,6 +16,7 @@ namespace {
 // Bytes of padding would differ from run to run.
 static_assert(std::has_unique_object_representations_v<TableSizes> &&
               std::has_unique_object_representations_v<TableLight> &&
+              std::has_unique_object_representations_v<BrunetonChoices> &&
               std::has_unique_object_representations_v<NielsenChoices> &&
               std::has_unique_object_representations_v<ONeilChoices>);
 static_assert(sizeof(ColorRule) == (4 * 4 + 3 * 4) * sizeof(double));
@@ -33,6 +34,7 @@ struct Header {
   SkyRayMapping mapping;
   NielsenChoices nielsen;
   ONeilChoices oneil;
+  BrunetonChoices bruneton;
   PreethamSky preetham;
   bool limited;
   double highest_m;
@@ -51,12 +53,14 @@ auto all_tables(Tables& tables) {
 constexpr std::size_t kBefore = 3;
 
 void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tables) {
-  const auto& [mapping, air, aerosol, nielsen, oneil, preetham, limits, gathered] = tables.sky_rays;
+  const auto& [mapping, air, aerosol, nielsen, oneil, preetham, limits, gathered, bruneton] =
+      tables.sky_rays;
   Header header{};
   header.sizes = tables.sizes;
   header.mapping = mapping;
   header.nielsen = nielsen;
   header.oneil = oneil;
+  header.bruneton = bruneton;
   header.preetham = preetham;
   header.limited = limits.has_value();
   header.highest_m = limits ? limits->highest_m : 0;
@@ -99,6 +103,7 @@ bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
   tables.sky_rays.mapping = header.mapping;
   tables.sky_rays.nielsen = header.nielsen;
   tables.sky_rays.oneil = header.oneil;
+  tables.sky_rays.bruneton = header.bruneton;
   tables.sky_rays.preetham = header.preetham;
   if (header.limited) tables.sky_rays.limits = DaylightLimits{model, header.highest_m};
   return true;

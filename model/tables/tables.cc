@@ -13,6 +13,7 @@
 #include "model/atmosphere/parameter_field.h"
 #include "model/atmosphere/phase_moments.h"
 #include "model/geometry/ray.h"
+#include "model/numerics/half.h"
 #include "model/numerics/hemisphere.h"
 #include "model/shared/shared.h"
 #include "model/sky_model.h"
@@ -88,6 +89,11 @@ void make_optical_depth(const Shells& shells, const NodeOptics& optics, Atmosphe
       store(tables.optical_depth, x, y, tau);
     }
   });
+}
+
+void keep_transmittances_in_half_floats(Table& optical_depth) {
+  for (float& value : optical_depth.rgba)
+    value = static_cast<float>(rounded_to_half(std::exp(-double{value})));
 }
 
 // Of an observer's sky: the values [point][node] of its directions.
@@ -250,7 +256,9 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const Shells shells = shells_of(effective, Keep::kWhatMatters);
   const ReferenceOptions options = options_for(effective, {});
   const NodeOptics optics = optics_of(shells, effective, color, options.moments);
-  const bool closed = own && is_closed_form(own->mapping);
+  const bool closed = own && is_closed_form(own->mapping),
+             half_transmittances =
+                 own && own->bruneton.transmittance == BrunetonTransmittance::kInHalfFloats;
   if (sizes.follow_layers != 0 && !closed) follow_layers(shells, tables);
   const RayTexels texels = tables.sizes.scattering();
   const int heights = tables.sizes.scattering_r;
@@ -271,6 +279,7 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   }
   make_optical_depth(shells, optics, tables);
   make_irradiance(shells.top, closed ? of_daylight(*model, tables) : looked_up(tables), tables);
+  if (half_transmittances) keep_transmittances_in_half_floats(tables.optical_depth);
   if (progress) progress(1);
   return tables;
 }

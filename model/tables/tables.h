@@ -53,7 +53,8 @@ struct AtmosphereTables {
   HeightAxis heights;   // of all tables
   Table optical_depth;  // x: mu, y: r; from a point to the top of the atmosphere (pure number). Not
                         // the transmittance: that of a finite path is exp(a difference), which does
-                        // not lose its digits in thick air
+                        // not lose its digits in thick air. By BrunetonTransmittance::kInHalfFloats
+                        // that transmittance, rounded to half floats
   Table irradiance;     // x: mu_s, y: r; diffuse, on a horizontal surface that faces up, per unit
                         // solar irradiance
   // The two scattering tables hold natural logarithms: toward sunset light falls exponentially with

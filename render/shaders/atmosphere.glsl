@@ -200,6 +200,10 @@ vec2 place_in_changes(float unit, float h, vec2 size) {
 vec4 optical_depth_to_top(float h, float mu) {
   float unit = unit_from_upward_ray(h, mu, bottom_km, thickness_km);
   vec4 depth = look_up(optical_depth_table, place_in_table(unit, h, optical_depth_size));
+#ifdef LEAST_TRANSMITTANCE
+  // The table holds transmittances.
+  depth = -log(max(depth, grey(LEAST_TRANSMITTANCE)));
+#endif
 #ifdef CHANGES
   depth *= exp(look_up(optical_depth_change, place_in_changes(unit, h, vec2(textureSize(optical_depth_change, 0)))));
 #endif

@@ -129,7 +129,11 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
     path.in_scatter = radiance(oneil_sum(start, nu, in_air), nu);
 #else
     WholeRay whole = whole_ray(ray, start, sun, nu, i);
+#ifdef BRUNETON_BY_RADII
+    Scattering rest = sky_ray_scattering(end, nu);
+#else
     Scattering rest = scattering(end, nu, ray.hits_ground);
+#endif
     path.in_scatter = radiance(scattering_before(whole.scattering, path.transmittance, rest), nu);
 #endif
 #endif

@@ -33,8 +33,18 @@ Scattering sky_ray_scattering(Place from, float nu) {
   const float kNu = float(BRUNETON_NU);
   float turn = bruneton_unit_from_nu(nu) * (kNu - 1.0);
   float first = min(floor(turn), kNu - 2.0);
+#ifdef BRUNETON_BY_RADII  // all rays, those to the ground in the first half of the rows
+  float r = bottom_km + from.h, top = bottom_km + thickness_km;
+  bool ground = bruneton_meets_ground(r, from.mu, bottom_km);
+  float half_rows = 0.5 * sky_ray_size.y;
+  float view = ground ? bruneton_ground_unit_by_radius(r, from.mu, bottom_km)
+                      : bruneton_sky_unit_by_radius(r, from.mu, bottom_km, top);
+  vec3 near = texture_from_units(vec3(0.0, 0.0, bruneton_unit_from_radius(r, bottom_km, top)));
+  near.y = 0.5 * (texture_from_unit(clamp(view, 0.0, 1.0), half_rows) + (ground ? 0.0 : 1.0));
+#else
   vec3 near = texture_from_units(vec3(0.0, unit_from_upward_ray(from.h, from.mu, bottom_km, thickness_km),
                                       bruneton_unit_from_height(from.h, bottom_km, thickness_km)));
+#endif
   float sun = bruneton_unit_from_sun(max(from.mu_s, LOWEST_SUN), LOWEST_SUN, bottom_km, thickness_km);
   near.x = (first + texture_from_unit(clamp(sun, 0.0, 1.0), sky_ray_size.x / kNu)) / kNu;
   Scattering low = sky_ray_texels(near), high = sky_ray_texels(near + vec3(1.0 / kNu, 0.0, 0.0));

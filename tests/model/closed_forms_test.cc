@@ -258,7 +258,8 @@ TEST(Models, HaveNamesThatMakeThem) {
     EXPECT_EQ(model_named(entry.name)->name(), entry.name);
   for (const char* name :
        {"nielsen:mean-height", "nielsen:mean-height:rayleigh-phase:sun-through-sky",
-        "oneil:samples=3:isotropic-air:no-shadow", "bodare:mie-from-rayleigh"})
+        "oneil:samples=3:isotropic-air:no-shadow", "bodare:mie-from-rayleigh",
+        "bruneton:half-transmittance:half-inscatter:mie-from-rayleigh"})
     EXPECT_EQ(model_named(name)->name(), name);
   for (const char* wrong : {"nonsense", "nielsen:nonsense", "nielsen:", "oneil:mean-height",
                             "oneil:samples", "oneil:samples=", "oneil:samples=N", "oneil:samples=0",

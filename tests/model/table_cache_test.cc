@@ -92,6 +92,23 @@ INSTANTIATE_TEST_SUITE_P(Models, TableCacheOf,
                          ::testing::Values("reference", "oneil:samples=3:isotropic-air", "hillaire",
                                            "bodare", "nielsen:sun-through-sky"));
 
+TEST(TableCache, GivesBackWhatBrunetonLooksUp) {
+  const TemporaryDirectory folder;
+  ContentCache cache(folder.path());
+  const TableInputs inputs{"bruneton:half-inscatter", {}, earth(), color(), kTiny};
+  cached_tables(cache, inputs, [] {
+    AtmosphereTables tables;
+    tables.sky_rays.mapping = SkyRayMapping::kBruneton;
+    tables.sky_rays.bruneton.in_scatter = BrunetonInScatter::kInHalfFloats;
+    return tables;
+  });
+  const SkyRayTables found =
+      cached_tables(cache, inputs, [] { return AtmosphereTables{}; }).sky_rays;
+  EXPECT_EQ(found.mapping, SkyRayMapping::kBruneton);
+  EXPECT_EQ(found.bruneton.in_scatter, BrunetonInScatter::kInHalfFloats);
+  EXPECT_EQ(found.bruneton.transmittance, BrunetonTransmittance::kOfOpticalDepths);
+}
+
 // Every parameter of the atmosphere by its least step, and all that stands beside it.
 TEST(TableCache, AnyOtherInputIsComputed) {
   const TemporaryDirectory folder;

@@ -5,6 +5,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstdio>
@@ -130,6 +131,21 @@ TEST_P(EveryMaterial, ThatIsNoPictureIsRefusedInOneLine) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr(file.string() + ": cannot read"));
     EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+  }
+}
+
+// A pipe may never end.
+TEST_P(EveryMaterial, ThatIsAPipeIsRefusedInOneLine) {
+  const TemporaryDirectory directory;
+  const auto file =
+      directory.path() / (GetParam() == Texture::kGrains ? "grains.png" : "crags.png");
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  try {
+    load_texture(GetParam(), directory.path());
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), file.string() + ": cannot be read (it is a pipe or a device), expected "
+                                            "a texture of the ground (PNG)");
   }
 }
 

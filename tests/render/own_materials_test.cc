@@ -139,6 +139,28 @@ TEST_F(OwnMaterialFiles, ReliefTurnsTheDirectLightByItsSlope) {
   EXPECT_NEAR(aside / flat, std::cos(kLean), kStep);
 }
 
+// A normal along the ground, as close to it as 8 bits come: blue is 128 of 255.
+TEST_F(OwnMaterialFiles, SteepestNormalsHaveSlopesAndLight) {
+  constexpr float kSteepest = 8, kLowest = 128 / 255.0f;
+  const auto slopes = [&](const Color& color) {
+    const OwnPicture picture = read_own_slopes(plain("steep.png", color));
+    return std::array{picture.texels[0], picture.texels[1]};
+  };
+  EXPECT_EQ(slopes({1, 0.5f, kLowest}), (std::array{-kSteepest, 0.0f}));
+  EXPECT_EQ(slopes({0.5f, 0, kLowest}), (std::array{0.0f, kSteepest}));
+  EXPECT_EQ(slopes({0.5f, 0.5f, kLowest}), (std::array{0.0f, 0.0f}));
+  Scene scene = level();
+  scene.soil.color = plain("soil.png", {0.5f, 0.5f, 0.5f});
+  scene.soil.normal = plain("steep.png", {1, 0.5f, kLowest});
+  Renderer drawn = with_ground(scene);
+  const Frame frame = draw_layers(downward(drawn, kAboveRoughness), drawn);
+  const std::size_t middle = 24 * 48 + 24;
+  EXPECT_NEAR(color_of(frame.layers->normal, middle).x, std::sin(std::atan(kSteepest)),
+              2 * kEightBits);
+  for (const float luminance : frame.luminance)
+    EXPECT_TRUE(std::isfinite(luminance) && luminance >= 0) << luminance << " cd/m^2";
+}
+
 TEST_F(OwnMaterialFiles, WhatIsMissingIsTheProgramsOwn) {
   Scene scene = level();
   Renderer plain_ground = with_ground(scene);

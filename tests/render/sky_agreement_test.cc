@@ -159,6 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Sky{"bodare", "earth-clear", {{"limb", {30, 85, 92}}}},
         Sky{"bodare:mie-from-rayleigh", "bodare-2014", {{"sunset", {60}}}},
+        Sky{"bruneton:half-inscatter:mie-from-rayleigh", "sperlhofer-2011", {{"ground", {60, 91}}}},
         Sky{"schafhitzel", "bruneton-2008", {{"valley", {80}}, {"limb", {30, 85, 90}}}}));
 
 }  // namespace

@@ -103,10 +103,15 @@ std::vector<ShaderStage> stages_of(const std::string& path,
 
 bool AtmosphereView::volume(const AtmosphereTables& tables) const {
   const double thickness = thickness_m(tables);
-  return !is_closed_form(tables.sky_rays.mapping) &&
+  // The volume would smooth what half floats do.
+  const BrunetonChoices& bruneton = tables.sky_rays.bruneton;
+  return bruneton.transmittance == BrunetonTransmittance::kOfOpticalDepths &&
+         bruneton.in_scatter == BrunetonInScatter::kExact &&
+         !is_closed_form(tables.sky_rays.mapping) &&
          tables.sky_rays.mapping != SkyRayMapping::kONeil &&
          options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
-         options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness;
+         options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness &&
+         !has_dense_layers(shells_of(tables.atmosphere, Keep::kWhatMatters));
 }
 
 bool AtmosphereView::sky_rays(const AtmosphereTables& tables) const {
@@ -139,6 +144,7 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes
   tables_.sky_rays.mapping = tables.sky_rays.mapping;
   tables_.sky_rays.nielsen = tables.sky_rays.nielsen;
   tables_.sky_rays.oneil = tables.sky_rays.oneil;
+  tables_.sky_rays.bruneton = tables.sky_rays.bruneton;
   tables_.sky_rays.preetham = tables.sky_rays.preetham;
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
   tables_.phases = tables.phases;
@@ -238,7 +244,8 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
   if (path == kCompute) std::ranges::copy(class_defines(), std::back_inserter(defined));
   defined.insert(defined.end(), what.begin(), what.end());
   const bool surface = std::ranges::find(what, kSurface) != what.end();
-  if (!surface && view.sky_rays(tables_))
+  const bool own_paths = tables_.sky_rays.bruneton.in_scatter == BrunetonInScatter::kInHalfFloats;
+  if ((!surface || own_paths) && view.sky_rays(tables_))
     defined.push_back(fmt::format("SKY_RAYS {}", static_cast<int>(tables_.sky_rays.mapping)));
   if (view.volume(tables_)) defined.push_back("VOLUME");
   if (surface) std::ranges::copy(view.own_textures.defines(), std::back_inserter(defined));

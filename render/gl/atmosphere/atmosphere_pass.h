@@ -63,8 +63,9 @@ struct AtmosphereView {
   const OwnTextures& own_textures;
   bool read;  // the frame will be: the last colour target is kDiscWrite
 
-  // The volume holds one sun's light before the ground, for an eye in the lower air; VOLUME
-  // promises the shaders that both are in the air.
+  // The volume holds one sun's light before the ground, for an eye in the lower air, without
+  // layers, at whose edges it would mix light; VOLUME promises the shaders that both are in the
+  // air.
   bool volume(const AtmosphereTables& tables) const;
   // Whole rays to the sky have tables of their own, or sums in the shader in their place.
   bool sky_rays(const AtmosphereTables& tables) const;

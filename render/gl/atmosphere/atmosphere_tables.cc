@@ -9,6 +9,7 @@
 #include "model/literature/evaluate.h"
 #include "model/literature/hillaire_tables.h"
 #include "model/literature/nielsen.h"
+#include "model/numerics/half.h"
 #include "render/glsl/table_defines.h"
 
 namespace skyfit {
@@ -74,6 +75,14 @@ void define_closed_form(const AtmosphereTables& tables, std::vector<std::string>
   if (choices.mean == NielsenMean::kOfHeights) defined.emplace_back("NIELSEN_MEAN_HEIGHT");
   if (choices.phase == NielsenAirPhase::kPublished) defined.emplace_back("NIELSEN_PUBLISHED_PHASE");
   if (choices.sun == NielsenSun::kPublished) defined.emplace_back("NIELSEN_PUBLISHED_SUN");
+}
+
+// What stands in the place of Bruneton's repairs.
+void define_repairs(const BrunetonChoices& choices, std::vector<std::string>& defined) {
+  if (choices.transmittance == BrunetonTransmittance::kInHalfFloats)
+    defined.push_back(fmt::format("LEAST_TRANSMITTANCE {:.9g}", kLeastHalf));
+  if (choices.in_scatter == BrunetonInScatter::kInHalfFloats)
+    defined.emplace_back("BRUNETON_BY_RADII");
 }
 
 // What render/shaders/oneil.glsl is compiled for.
@@ -202,6 +211,7 @@ std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables,
                     fmt::format("HILLAIRE_SKY_VIEW {}, {}", Hillaire::sky_view_azimuth,
                                 Hillaire::sky_view_rows)});
   }
+  define_repairs(tables.sky_rays.bruneton, defined);
   if (tables.sky_rays.mapping == SkyRayMapping::kONeil) define_sums(tables.sky_rays.oneil, defined);
   if (tables.sky_rays.mapping == SkyRayMapping::kBodare) defined.emplace_back("BODARE");
   if (is_closed_form(tables.sky_rays.mapping)) define_closed_form(tables, defined);

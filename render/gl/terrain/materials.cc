@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "model/base/input_file.h"
 #include "render/gl/context/uniform_block.h"
 #include "render/gl/terrain/noise.h"
 #include "render/image/image_files.h"
@@ -181,6 +182,7 @@ MaterialTexels load_texture(Texture texture, const std::filesystem::path& direct
     write_png_texels(texels, kSide, kSide * kSide, file);
     return texels;
   }
+  require_regular_file(file, "a texture of the ground (PNG)", kMostImageBytes);
   OIIO::ImageSpec as_stored;
   as_stored.attribute("oiio:UnassociatedAlpha", 1);
   const auto input = OIIO::ImageInput::open(file.string(), &as_stored);

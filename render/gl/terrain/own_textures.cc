@@ -131,14 +131,14 @@ OwnPicture read_own_slopes(const fs::path& file) {
                              picture.texels[3 * i + 2], i % side, i / side));
   }
   return converted<2>(picture, [](const glm::vec3& coded, std::size_t) {
-    // Half of a step of 8 bits beside the middle is level.
-    const auto component = [](float value) {
-      const float signed_value = 2 * value - 1;
-      return std::abs(signed_value) <= 1.01f / 255 ? 0.0f : signed_value;
+    const float up = 2 * coded.z - 1;  // above 0
+    const auto slope = [up](float value) {
+      const float along = 2 * value - 1;
+      // Half of a step of 8 bits beside the middle is level.
+      if (std::abs(along) <= 1.01f / 255) return 0.0f;
+      return std::clamp(-along / up, -kSteepest, kSteepest);
     };
-    const float up = component(coded.z);
-    const auto slope = [up](float along) { return std::clamp(-along / up, -kSteepest, kSteepest); };
-    return std::array{slope(component(coded.x)), slope(component(coded.y))};
+    return std::array{slope(coded.x), slope(coded.y)};
   });
 }
 
