@@ -207,20 +207,17 @@ refs::Reference load_references(const std::string& names, const std::string& sun
   const refs::Sampling how = parse_sampling(sampling);
   const refs::ImportOptions options = parse_import_options(import);
   std::vector<refs::Reference> references;
-  const bool are_several = names.find(',') != names.npos;
+  const std::vector<std::string> parts = refs::reference_names(names);
   refs::LeftOut left_out("sky");
-  for (std::size_t begin = 0; begin <= names.size();) {
-    const std::size_t end = std::min(names.find(',', begin), names.size());
-    const std::string name = names.substr(begin, end - begin);
+  for (const std::string& name : parts) {
     const auto load = [&] { references.push_back(refs::load_reference(name, suns, how, options)); };
     // What a file holds may be bad among others; a name that is wrong is the caller's mistake.
-    if (are_several && std::filesystem::exists(name)) {
+    if (parts.size() > 1 && std::filesystem::exists(name)) {
       left_out.attempt(load);
     } else {
       load();
     }
     warn_of_unused_options(command, name);
-    begin = end + 1;
   }
   const std::vector<std::string> notes = left_out.notes();  // throws when nothing was read
   for (const std::string& note : notes) warn(note);

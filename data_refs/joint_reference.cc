@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "data_refs/civil_time.h"
@@ -151,13 +152,19 @@ Reference joined(Reference sky, const Reference& irradiances, bool own_scans) {
   return sky;
 }
 
+constexpr std::string_view kAnd = " and ", kMore = " more";
+
 }  // namespace
+
+bool is_joint_name(std::string_view name) {
+  return name.ends_with(kMore) && name.find(kAnd) != std::string_view::npos;
+}
 
 Reference joint_reference(const std::vector<Reference>& references) {
   if (references.empty()) throw std::invalid_argument("no reference given, expected at least one");
   if (references.size() == 1) return references.front();
   Reference joint;
-  joint.name = fmt::format("{} and {} more", references.front().name, references.size() - 1);
+  joint.name = fmt::format("{}{}{}{}", references.front().name, kAnd, references.size() - 1, kMore);
   joint.description = fmt::format("{} references together", references.size());
   joint.quantity = references.front().quantity;
   joint.transfer = references.front().transfer;

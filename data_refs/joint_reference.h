@@ -2,6 +2,7 @@
 // Several references become one, for a joint fit.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "data_refs/samples.h"
@@ -11,6 +12,8 @@ namespace skyfit::refs {
 // Scans are numbered on in the order given; each keeps what is known of it. Throws
 // std::invalid_argument with one line when the quantities differ or there is none.
 Reference joint_reference(const std::vector<Reference>& references);
+// Whether a name is that of several references together, "cie:1 and 2 more", which none has alone.
+bool is_joint_name(std::string_view name);
 
 // The samples of a sky and irradiances (irradiance.h) as one reference, which keeps the name of the
 // sky. Irradiances of the same minute as a scan belong to it; those without a time to the scan

@@ -20,6 +20,7 @@
 #include "data_refs/sampling.h"
 #include "data_refs/truth.h"
 #include "data_refs/weather_file.h"
+#include "model/base/text.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -30,6 +31,11 @@ constexpr std::string_view kTraditionalOvercast = "cie:traditional-overcast";
 constexpr std::string_view kPresetFolder = "presets/", kPresetExtension = ".json";
 
 std::string cie_name(const CieSky& sky) { return fmt::format("{}{}", kCiePrefix, sky.type); }
+
+// "perez:FILE@TIME"
+bool is_weather_name(std::string_view name) {
+  return is_perez_name(name) && name.find('@') != std::string_view::npos;
+}
 
 void expect_suns(std::string_view name, const std::vector<double>& sun_zenith) {
   if (sun_zenith.empty()) {
@@ -140,9 +146,23 @@ std::vector<ReferenceEntry> shipped_references() {
   return entries;
 }
 
+std::vector<std::string> reference_names(std::string_view list) {
+  std::vector<std::string> names;
+  bool is_delta = false;  // of the name before
+  for (const std::string_view part : split(list, ',')) {
+    if (is_delta) {
+      names.back().append(1, ',').append(part);
+    } else {
+      names.emplace_back(part);
+    }
+    is_delta = !is_delta && is_perez_name(part) && !is_weather_name(part);
+  }
+  return names;
+}
+
 Reference load_reference(std::string_view name, const std::vector<double>& sun_zenith,
                          Sampling sampling, const ImportOptions& options) {
-  if (is_perez_name(name) && name.find('@') != std::string_view::npos) {
+  if (is_weather_name(name)) {
     Reference reference = weather_reference(name, sampling);
     reference.name = name;
     return reference;

@@ -24,6 +24,9 @@ struct ReferenceEntry {
 // The analytic references with a name of their own: cie:1 .. cie:15 and cie:traditional-overcast.
 std::vector<ReferenceEntry> shipped_references();
 
+// The names of a list that commas part; the comma within "perez:EPSILON,DELTA" parts none.
+std::vector<std::string> reference_names(std::string_view list);
+
 // `name` is a shipped reference, "perez:EPSILON,DELTA" (data_refs/perez_sky.h),
 // "perez:FILE@TIME" of an hour of a weather file (data_refs/weather_file.h), one of
 // truth_references() (data_refs/truth.h) or the path of a measured sky

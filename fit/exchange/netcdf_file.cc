@@ -26,10 +26,7 @@ NetcdfFile netcdf_file(std::string_view title) {
 }
 
 void write_netcdf(const std::filesystem::path& file, const NetcdfFile& content) {
-  WholeFiles files({file});
-  files.make(0,
-             [&](const std::filesystem::path& temporary) { module().write(temporary, content); });
-  files.publish();
+  write_whole_file(file, module().bytes(file, content));
 }
 
 NetcdfFile read_netcdf(const std::filesystem::path& file) { return module().read(file); }

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "data_refs/joint_reference.h"
 #include "data_refs/perez_sky.h"
 #include "data_refs/references.h"
 #include "model/atmosphere/derived.h"
@@ -70,7 +71,7 @@ FitRecord record_of(const FitOutcome& fit) {
 }
 
 bool is_analytic(const std::string& reference) {
-  return refs::is_perez_name(reference) ||
+  return (refs::is_perez_name(reference) && !refs::is_joint_name(reference)) ||
          std::ranges::any_of(refs::shipped_references(), [&](const refs::ReferenceEntry& entry) {
            return entry.name == reference;
          });

@@ -113,6 +113,19 @@ TEST_F(CommandsTest, ExportIsReadBack) {
   EXPECT_THAT(taken.err, HasSubstr("`skyfit import` reads it"));
 }
 
+// Their sky is drawn from the samples: the name of both is that of no formula.
+TEST_F(CommandsTest, AnAllWeatherSkyIsFittedAloneAndBesideAnother) {
+  for (const auto& [reference, name] :
+       {std::pair{"perez:4,0.15", "perez:4,0.15"},
+        std::pair{"perez:4,0.15,cie:12", "perez:4,0.15 and 1 more"}}) {
+    output({"fit", "--reference", reference, "--sun-zenith-deg", "40", "--free", "none", "--model",
+            "hoffman-preetham", "--out", "all-weather"});
+    const json report = json::parse(read("all-weather/report.json"));
+    EXPECT_EQ(report.at("reference").at("name"), name);
+    EXPECT_THAT(files(), ::testing::Contains("all-weather/comparison.svg"));
+  }
+}
+
 TEST_F(CommandsTest, CompareLeavesTablesAndFigures) {
   const std::string text =
       output({"compare", "--reference", "perez:6,0.15", "--sun-zenith-deg", "30,60", "--models",

@@ -194,6 +194,20 @@ TEST_F(FilesTest, AFullDiskLeavesTheOldFigureAndAMessage) {
   EXPECT_FALSE(has_temporary());
 }
 
+// A whole line, and an exit of the program's own: HDF5 is not left with a file that it cannot
+// close.
+TEST_F(FilesTest, AFullDiskLeavesTheOldNetcdfAndAMessage) {
+  write("sky.nc", "the old one");
+  const Outcome outcome =
+      run_on_full_disk({"-q", "sky", "--preset", "earth-clear", "--sun-zenith-deg", "40",
+                        "--view-zenith-deg", "0:80:2", "--netcdf", "sky.nc"},
+                       1024);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err, "skyfit: error: sky.nc: cannot be written: File too large\n");
+  EXPECT_EQ(read("sky.nc"), "the old one");
+  EXPECT_FALSE(has_temporary());
+}
+
 TEST_F(FilesTest, AFullDiskLeavesTheOldResultAndAMessage) {
   fit("fitted");
   const std::string before = read("fitted/report.json");

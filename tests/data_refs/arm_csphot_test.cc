@@ -14,6 +14,7 @@
 #include "fit/exchange/netcdf/netcdf_module.h"
 #include "model/base/module_file.h"
 #include "model/base/temporary_directory.h"
+#include "model/base/whole_file.h"
 
 namespace skyfit::refs {
 namespace {
@@ -45,7 +46,8 @@ NetcdfFile small() {
 class ArmFiles : public ::testing::Test {
  protected:
   Reference read(const NetcdfFile& content) const {
-    module_named<fit::NetcdfModule>("skyfit_netcdf_module").write(file_, content);
+    write_file(file_,
+               module_named<fit::NetcdfModule>("skyfit_netcdf_module").bytes(file_, content));
     return load_measured_sky(file_, {});
   }
   std::string error_of(const NetcdfFile& content) const {

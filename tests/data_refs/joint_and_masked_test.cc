@@ -38,6 +38,8 @@ Reference two_scans(const std::string& name) {
 TEST(JointReferenceTest, ScansAreNumberedOn) {
   const Reference joint = joint_reference({two_scans("a"), two_scans("b")});
   EXPECT_EQ(joint.name, "a and 1 more");
+  EXPECT_TRUE(is_joint_name(joint.name));
+  EXPECT_FALSE(is_joint_name(joint_reference({two_scans("a")}).name));
   EXPECT_EQ(joint.samples.size(), 16u);
   EXPECT_EQ(joint.samples[8].scan, 2);
   EXPECT_EQ(joint.samples[15].scan, 3);

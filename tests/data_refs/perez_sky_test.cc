@@ -14,6 +14,7 @@ namespace skyfit::refs {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -31,6 +32,17 @@ TEST(Perez, IsAReferenceWithAScanPerSun) {
   EXPECT_EQ(sky.samples.size(), 290u);
   EXPECT_EQ(sky.quantity, Quantity::kRelativeLuminance);
   EXPECT_EQ(sky.samples.back().scan, 1);
+}
+
+TEST(Perez, ItsCommaPartsNoNames) {
+  EXPECT_THAT(reference_names("perez:4,0.15"), ElementsAre("perez:4,0.15"));
+  EXPECT_THAT(reference_names("perez:4,0.15,cie:12"), ElementsAre("perez:4,0.15", "cie:12"));
+  EXPECT_THAT(reference_names("a.csv,perez:4,0.15,perez:1,0.2"),
+              ElementsAre("a.csv", "perez:4,0.15", "perez:1,0.2"));
+  EXPECT_THAT(reference_names("perez:w.epw@2026-06-21T12:00,a.csv"),
+              ElementsAre("perez:w.epw@2026-06-21T12:00", "a.csv"));
+  EXPECT_THAT(reference_names("perez:4"), ElementsAre("perez:4"));
+  EXPECT_THAT(reference_names("a,,b"), ElementsAre("a", "", "b"));
 }
 
 TEST(Perez, NamesThatAreNone) {

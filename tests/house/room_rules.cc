@@ -117,7 +117,7 @@ std::span<const RoomRule> room_rules() {
                                                  "Ceres::", "pugixml::", "tomlplusplus::"}},
       {"fit/exchange/netcdf",
        {},
-       kMath + std::vector<std::string>{"netcdf.h", "hdf5.h"},
+       kMath + std::vector<std::string>{"netcdf.h", "netcdf_mem.h", "hdf5.h"},
        kMathLibraries + std::vector<std::string>{"PkgConfig::netCDF"}},
       {"render/dem",
        {},

@@ -4,23 +4,69 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace skyfit::fit {
 namespace {
 
-// An open file: every call is checked, and the last one, which writes what is left, too.
+constexpr std::size_t kIncrement = 1 << 16;  // bytes by which a file in memory grows
+
+// A file without content that keeps the order of what is put into it, as the NetCDF-4 format asks
+// and nc_create_mem() does not; no memory where HDF5 refuses.
+NC_memio empty_image() {
+  constexpr unsigned kOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
+  NC_memio image{};
+  const hid_t creation = H5Pcreate(H5P_FILE_CREATE), access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_link_creation_order(creation, kOrder);
+  H5Pset_attr_creation_order(creation, kOrder);
+  H5Pset_obj_track_times(creation, false);  // the same content is the same bytes
+  H5Pset_fapl_core(access, kIncrement, false);
+  const hid_t file = H5Fcreate("empty", H5F_ACC_TRUNC, creation, access);
+  H5Fflush(file, H5F_SCOPE_LOCAL);
+  if (const ssize_t size = H5Fget_file_image(file, nullptr, 0); size > 0) {
+    image.size = static_cast<std::size_t>(size);
+    image.memory = std::malloc(image.size);  // netCDF reallocates it
+    if (image.memory != nullptr) H5Fget_file_image(file, image.memory, image.size);
+  }
+  H5Fclose(file);
+  H5Pclose(access);
+  H5Pclose(creation);
+  return image;
+}
+
+// Of a file in memory, whose block is longer; 0 where HDF5 refuses.
+std::size_t bytes_in(const NC_memio& image) {
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fapl_core(access, kIncrement, false);
+  H5Pset_file_image(access, image.memory, image.size);
+  const hid_t file = H5Fopen("image", H5F_ACC_RDONLY, access);
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  H5Fclose(file);
+  H5Pclose(access);
+  return size > 0 ? static_cast<std::size_t>(size) : 0;
+}
+
+// An open file: every call is checked, the last one too. One to write is in memory: HDF5 keeps a
+// file open that it could not write to a full disk, and crashes over it when the program ends.
 class OpenFile {
  public:
   OpenFile(const std::filesystem::path& file, bool writes)
       : file_(file), doing_(writes ? "written" : "read") {
     // Of every thread, or HDF5 prints what it looked for in vain.
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    check(writes ? nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_)
-                 : nc_open(file.c_str(), NC_NOWRITE, &id_));
+    if (writes) {
+      NC_memio empty = empty_image();
+      if (empty.memory == nullptr) fail("HDF5 makes no file in memory");
+      check(nc_open_memio(file.c_str(), NC_NETCDF4 | NC_WRITE, &empty, &id_));
+    } else {
+      check(nc_open(file.c_str(), NC_NOWRITE, &id_));
+    }
     open_ = true;
   }
   ~OpenFile() {
@@ -39,6 +85,16 @@ class OpenFile {
   void close() {
     open_ = false;
     check(nc_close(id_));
+  }
+  // The same of one to write.
+  std::string close_to_bytes() {
+    open_ = false;
+    NC_memio written{};
+    check(nc_close_memio(id_, &written));
+    const std::unique_ptr<void, decltype(&std::free)> memory(written.memory, &std::free);
+    const std::size_t size = bytes_in(written);
+    if (size == 0) fail("HDF5 does not read what it wrote");
+    return {static_cast<const char*>(memory.get()), size};
   }
 
  private:
@@ -91,7 +147,7 @@ void put(const OpenFile& file, int id, const NetcdfVariable& variable) {
   std::visit(Put{file, id}, variable.values);
 }
 
-void write(const std::filesystem::path& path, const NetcdfFile& content) {
+std::string bytes(const std::filesystem::path& path, const NetcdfFile& content) {
   OpenFile file(path, true);
   for (const auto& [name, text] : content.attributes) put_text(file, NC_GLOBAL, name.c_str(), text);
   std::vector<int> dimensions(content.dimensions.size()), variables;
@@ -114,7 +170,7 @@ void write(const std::filesystem::path& path, const NetcdfFile& content) {
   }
   file.check(nc_enddef(file.id()));
   for (std::size_t i = 0; i < variables.size(); ++i) put(file, variables[i], content.variables[i]);
-  file.close();
+  return file.close_to_bytes();
 }
 
 std::string text_attribute(const OpenFile& file, int variable, const char* name) {
@@ -205,6 +261,6 @@ NetcdfFile read(const std::filesystem::path& path) {
 
 extern "C" __attribute__((visibility("default"))) const void* skyfit_netcdf_module() {
   static constexpr skyfit::fit::NetcdfModule kModule = {skyfit::fit::NetcdfModule::kRevision,
-                                                        skyfit::fit::write, skyfit::fit::read};
+                                                        skyfit::fit::bytes, skyfit::fit::read};
   return &kModule;
 }

@@ -27,10 +27,12 @@ struct NetcdfFile {
 };
 
 struct NetcdfModule {
-  static constexpr int kRevision = 1;
+  static constexpr int kRevision = 2;
   int revision;
-  // Throw std::runtime_error `file: cannot be written: ...`, `file: cannot be read: ...`.
-  void (*write)(const std::filesystem::path& file, const NetcdfFile& content);
+  // What the file holds that the caller writes. Throws std::runtime_error `file: cannot be written:
+  // ...`.
+  std::string (*bytes)(const std::filesystem::path& file, const NetcdfFile& content);
+  // Throws std::runtime_error `file: cannot be read: ...`.
   NetcdfFile (*read)(const std::filesystem::path& file);
 };
 
