@@ -15,8 +15,8 @@
 namespace skyfit::cli {
 
 // Of everything that the pixels of a frame depend on but the exposure: scene with the content of
-// its files, camera, sun, timeline, picture, model and version. Textures that drawing would make are
-// made by the constructor, so that they count from the first frame on.
+// its files, camera, sun, timeline, picture, model and version. Textures that drawing would make
+// are made by the constructor, so that they count from the first frame on.
 class Fingerprints {
  public:
   explicit Fingerprints(const RenderRequest& request, const std::vector<TimelineStep>& timeline);
