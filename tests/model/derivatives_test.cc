@@ -78,7 +78,7 @@ void expect_exact(const Atmosphere<double>& a, Parameter parameter,
   }
 }
 
-TEST(Derivatives, OfEveryParameterWithTwoLobes) {
+TEST(SlowDerivatives, OfEveryParameterWithTwoLobes) {
   const Atmosphere<double> a = atmosphere(PhaseType::kTwoLobe);
   for (const Parameter& id : standard_parameters()) {
     if (has_parameter(a, id)) expect_exact(a, id);

@@ -118,11 +118,13 @@ TEST(TableModel, FollowsTheReferenceThroughACloud) {
   TableSizes sizes;
   sizes.scattering_r = 16;
   sizes.scattering_ground = sizes.outside_sky = sizes.outside_mu_s = sizes.outside_azimuth = 2;
-  sizes.scattering_sky = 48;
+  sizes.scattering_sky = 40;
+  sizes.scattering_mu_s = 40;
+  sizes.scattering_azimuth = 14;
   const AtmosphereTables tables =
       compute_tables(a, color_rule(refs::standard_spectral_data()), sizes, 2, {});
   std::vector<SkyPoint> points;
-  for (const double altitude : {0.0, 5950.0, 6e3, 8e3, 9.8e3, 1e4, 10.2e3, 15e3}) {
+  for (const double altitude : {0.0, 6e3, 8e3, 9.8e3, 10.2e3}) {
     for (const double sun : {30.0, 70.0}) {
       for (const double view : {5.0, 50.0, 80.0}) {
         for (const double azimuth : {10.0, 90.0, 180.0})
