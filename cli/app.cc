@@ -44,16 +44,15 @@ int print_help(const CLI::App& app, const CLI::Success& help_or_version) {
   return status;
 }
 
-// An empty name is one that a script lost; it names no file. What may be another name as well says
-// itself which there are.
-void expect_names(CLI::App& command) {
+// An empty value is one that a script lost.
+void expect_values(CLI::App& command) {
   for (CLI::Option* const known : command.get_options()) {
-    const std::string form = known->get_type_name();
-    const auto names = [&](const char* what) { return form.find(what) != std::string::npos; };
-    if (names("NAME") || (!names("FILE") && !names("DIR") && !names("PLAN"))) continue;
-    const std::string name = known->get_name();
-    known->check([name, form](const std::string& text) {
-      if (text.empty()) throw UsageError(name, text, "expected " + form);
+    const std::string form = known->get_type_name(), name = known->get_name();
+    if (known->get_expected_max() == 0) continue;
+    const std::string expected =
+        fmt::format("expected {} (see skyfit {} --help)", form, command.get_name());
+    known->check([name, expected](const std::string& text) {
+      if (text.empty()) throw UsageError(name, text, expected);
       return std::string();
     });
   }
@@ -102,7 +101,7 @@ void add_commands(CLI::App& app) {
   add_doctor_command(app);
   for (CLI::App* const command : app.get_subcommands({})) {
     command->fallthrough();
-    expect_names(*command);
+    expect_values(*command);
   }
   app.footer(
       "Example: skyfit fit --reference cie:12 --out fitted\nMore about a command: skyfit COMMAND "

@@ -43,11 +43,6 @@ refs::Reference reference_of(const FitArguments& arguments, const CLI::App& comm
 }
 
 void run_fit(const FitArguments& arguments, const CLI::App& command) {
-  for (const char* const input : {"--reference", "--irradiance"}) {
-    const CLI::Option* const option = command.get_option(input);
-    if (option->count() > 0 && option->as<std::string>().empty())
-      throw UsageError(input, "", "expected " + option->get_type_name());
-  }
   if (arguments.reference.empty() && arguments.irradiance.empty())
     throw CLI::RequiredError("--reference or --irradiance");
   if (arguments.reference == kAllStandardSkies && !arguments.irradiance.empty())

@@ -21,14 +21,18 @@
 namespace skyfit::cli {
 namespace {
 
-// Whether tables that follow layers have the same heights at all steps.
-bool layers_stay(const std::vector<TimelineStep>& steps) {
-  const auto heights = [](const TimelineStep& step) {
-    return HeightAxis(shells_of(step.preset.atmosphere, Keep::kWhatMatters),
-                      TableSizes{}.scattering_r);
-  };
-  return std::ranges::all_of(
-      steps, [&](const TimelineStep& step) { return heights(step) == heights(steps.front()); });
+// Of the tables of each step. `drawn` makes of a preset's atmosphere that of the frames.
+std::vector<std::optional<HeightAxis>> heights_of(
+    const std::vector<TimelineStep>& steps, int heights,
+    const std::function<Atmosphere<double>(const Preset&)>& drawn) {
+  std::vector<Shells> shells;
+  for (const TimelineStep& step : steps) {
+    Atmosphere<double> atmosphere = drawn(step.preset);
+    std::ranges::sort(atmosphere.constituents, {}, &Constituent<double>::name);
+    shells.push_back(shells_of(atmosphere, Keep::kAll));
+  }
+  const std::vector<HeightAxis> axes = height_axes(shells, heights);
+  return {axes.begin(), axes.end()};
 }
 
 }  // namespace
@@ -41,14 +45,16 @@ RenderSession::RenderSession(const RenderRequest& request, std::vector<TimelineS
       model_(make_sky_model(request.model, refs::standard_spectral_data(), request.threads,
                             request.light.transfer)),
       stays_(timeline.size() == 1),
-      layers_stay_(layers_stay(timeline)),
+      steps_(std::move(timeline)),
+      heights_(stays_
+                   ? std::vector<std::optional<HeightAxis>>(1)
+                   : heights_of(steps_, request.table_sizes.scattering_r,
+                                [this](const Preset& preset) { return drawn_atmosphere(preset); })),
       timeline_(request.update_frames > 0
                     ? std::optional<Timeline>()
                     : std::optional<Timeline>(
-                          std::in_place, timeline,
-                          [this](const Preset& preset) { return tables_of(preset); },
-                          first_time_s)),
-      steps_(std::move(timeline)),
+                          std::in_place, steps_,
+                          [this](std::size_t step) { return tables_of(step); }, first_time_s)),
       renderer_(request.scene, request.device, request.cache) {
   time_.done("opening the renderer");
 }
@@ -57,16 +63,19 @@ Atmosphere<double> RenderSession::drawn_atmosphere(const Preset& preset) const {
   return lowered_by(basin_depth_m(request_.scene), preset.atmosphere);
 }
 
-AtmosphereTables RenderSession::tables_of(const Preset& preset) const {
+AtmosphereTables RenderSession::tables_of(std::size_t step) const {
+  const Preset& preset = steps_[step].preset;
   const auto atmosphere = drawn_atmosphere(preset);
   const ColorRule color = color_rule(refs::spectral_data_of(preset.atmosphere));
-  TableSizes sizes = request_.table_sizes;
-  if (!layers_stay_) sizes.follow_layers = 0;  // tables are interpolated
+  const TableSizes& sizes = request_.table_sizes;
+  const std::optional<HeightAxis>& heights = heights_[step];
   const auto progress = [this](double done) { report_(done, "tables of the atmosphere"); };
   const auto compute = [&] {
     if (request_.light.orders > 0)
-      return compute_tables(atmosphere, color, sizes, request_.threads, progress, request_.light);
-    return compute_tables_of(*model_, atmosphere, color, sizes, request_.threads, progress);
+      return compute_tables(atmosphere, color, sizes, request_.threads, progress, request_.light,
+                            heights);
+    return compute_tables_of(*model_, atmosphere, color, sizes, request_.threads, progress,
+                             heights);
   };
   if (!request_.cache || !stays_) return compute();  // not the many of one that changes
   return cached_tables(*request_.cache, {request_.model, request_.light, atmosphere, color, sizes},
@@ -141,8 +150,7 @@ Frame RenderSession::draw_updated(const Shot& shot, double time_s,
         steps_, request_.sequence.frames_per_second,
         color_rule(refs::spectral_data_of(first.atmosphere)),
         [this](const Preset& preset) { return drawn_atmosphere(preset); },
-        BodareUpdateOptions{.slices = request_.update_frames}, TableSizes{.follow_layers = 0},
-        request_.threads);
+        BodareUpdateOptions{.slices = request_.update_frames}, TableSizes{}, request_.threads);
     time_.done("first tables");
   }
   const auto frame = static_cast<int>(std::lround(time_s * request_.sequence.frames_per_second));

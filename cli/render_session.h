@@ -34,7 +34,7 @@ class RenderSession {
              const std::function<void(double)>& progress);
 
  private:
-  AtmosphereTables tables_of(const Preset& preset) const;
+  AtmosphereTables tables_of(std::size_t step) const;
   Atmosphere<double> drawn_atmosphere(const Preset& preset) const;
   FrameOptions placed(const Shot& shot, const Preset& preset, FrameOptions frame) const;
   Preset show(double time_s);
@@ -44,11 +44,11 @@ class RenderSession {
   TimeAccount& time_;
   Report report_;
   std::unique_ptr<SkyModel> model_;
-  bool stays_;                           // the atmosphere, from frame to frame
-  bool layers_stay_;                     // where they are
-  std::optional<Timeline> timeline_;     // or, with --update-frames,
-  std::optional<TableUpdates> updates_;  // made for the first frame
-  std::vector<TimelineStep> steps_;      // of the updates
+  bool stays_;  // the atmosphere, from frame to frame
+  std::vector<TimelineStep> steps_;
+  std::vector<std::optional<HeightAxis>> heights_;  // of each step's tables; none: their own
+  std::optional<Timeline> timeline_;                // or, with --update-frames,
+  std::optional<TableUpdates> updates_;             // made for the first frame
   Renderer renderer_;
   Timeline::Tables shown_;  // what renderer_ has
   bool settled_ = false;    // it has them for all times, and alone

@@ -114,7 +114,8 @@ void validate(const Atmosphere<double>& atmosphere, const VerticalProfile<double
              fmt::format("a height >= base_m + {} = {} m", kLeastHeight,
                          profile.base_m + kLeastHeight));
       return expect(profile.top_m * (1 + kLayerEdge) <= top, path + ".top_m", profile.top_m,
-                    fmt::format("a height within the atmosphere of {} m", top));
+                    fmt::format("a height <= {:.9g} m in an atmosphere of {:.9g} m, for its edge",
+                                top / (1 + kLayerEdge), top));
     case ProfileType::kTabulated:
       if (profile.table == nullptr) fail_text(path + ".type", "tabulated", "a table");
       return;

@@ -6,10 +6,8 @@
 #include <numbers>
 
 #include "model/atmosphere/phase_moments.h"
-#include "model/literature/mie_from_rayleigh.h"
 #include "model/literature/slab_kernels.h"
 #include "model/literature/sun_columns.h"
-#include "model/numerics/half.h"
 #include "model/numerics/hemisphere.h"
 #include "model/shared/shared.h"
 
@@ -374,29 +372,6 @@ BrunetonTables<N>::BrunetonTables(const BrunetonGeometry& geometry, const ClearA
       single_mie_({Sizes::r, Sizes::mu, Sizes::mu_s, Sizes::nu}) {
   BrunetonSolver<N>(*this).solve(kOrders);
   round_to_half();
-}
-
-template <int N>
-void BrunetonTables<N>::round_to_half() {
-  if (choices_.transmittance == BrunetonTransmittance::kInHalfFloats) {
-    half_transmittance_ = optical_depth_;
-    for (std::size_t i = 0; i < half_transmittance_.count(); ++i) {
-      half_transmittance_[i] = exp(-optical_depth_[i]);
-      half_transmittance_[i].v = rounded_to_half(half_transmittance_[i].v);
-    }
-  }
-  if (choices_.in_scatter == BrunetonInScatter::kInHalfFloats) {
-    for (Grid<N, 4>* table : {&rayleigh_like_, &single_mie_}) {
-      for (std::size_t i = 0; i < table->count(); ++i)
-        (*table)[i].v = rounded_to_half((*table)[i].v);
-    }
-  }
-}
-
-template <int N>
-void BrunetonTables<N>::take_mie_from_rayleigh(const BrunetonTables& red) {
-  literature::take_mie_from_rayleigh(air_, rayleigh_like_, red.air_, red.rayleigh_like_,
-                                     red.single_mie_, single_mie_);
 }
 
 template class BrunetonTables<0>;

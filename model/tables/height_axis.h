@@ -3,6 +3,7 @@
 // light changes over metres, at heights of their own.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "model/atmosphere/shells.h"
@@ -17,8 +18,9 @@ class HeightAxis {
  public:
   HeightAxis() = default;  // by (9.1) alone
 
-  // Texels as of a table of `heights` by (9.1) where no layer is; within such layers in steps that
-  // grow from either end. Without them by (9.1) alone.
+  // Texels as of a table of `heights` by (9.1) where no layer is; within dense layers, of more than
+  // two within the two of the greatest optical depth, in steps that grow from either end. Without
+  // them by (9.1) alone.
   HeightAxis(const Shells& shells, int heights);
   // Ascending values of unit_from_height() of model/shared/mapping.glsl, from 0 to 1, or none.
   explicit HeightAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {}
@@ -39,5 +41,14 @@ class HeightAxis {
  private:
   std::vector<double> nodes_;
 };
+
+// Of the steps of an atmosphere that changes, whose shells hold all constituents (Keep::kAll) in
+// the same order: the same node of each is the same place in a layer or between layers, wherever
+// these move. Layers that are dense at any step are followed at all; of two that meet or pass each
+// other the one of less optical depth is not.
+std::vector<HeightAxis> height_axes(std::span<const Shells> steps, int heights);
+
+// Nodes in between, linear in `share`. Throws std::invalid_argument unless both have as many.
+HeightAxis interpolated(const HeightAxis& a, const HeightAxis& b, double share);
 
 }  // namespace skyfit

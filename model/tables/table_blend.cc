@@ -112,14 +112,13 @@ AtmosphereTables interpolated_tables(const AtmosphereTables& a, const Atmosphere
                                      double share) {
   require_same(a.color.nodes == b.color.nodes, "wavelengths of tables");
   require_same(a.sky_rays.mapping == b.sky_rays.mapping, "sky model of tables");
-  require_same(a.heights == b.heights, "heights of tables");
   Atmosphere<double> atmosphere = interpolated_atmosphere(a.atmosphere, b.atmosphere, share);
   PhaseClasses phases = phase_classes(atmosphere);
   return {std::move(atmosphere),
           std::move(phases),
           a.color,
           a.sizes,
-          a.heights,
+          interpolated(a.heights, b.heights, share),
           interpolated(a.optical_depth, b.optical_depth, share),
           interpolated(a.irradiance, b.irradiance, share),
           interpolated(a.rayleigh_like, b.rayleigh_like, share),

@@ -229,17 +229,18 @@ void tabulate(const SkyModel& model, std::optional<SkyRayTables> own, const Shel
   progress(1);
 }
 
-void follow_layers(const Shells& shells, AtmosphereTables& tables) {
+void set_heights(HeightAxis axis, AtmosphereTables& tables) {
   TableSizes& sizes = tables.sizes;
-  tables.heights = HeightAxis(shells, sizes.scattering_r);
   for (int* heights : {&sizes.optical_depth_r, &sizes.irradiance_r, &sizes.scattering_r})
-    *heights = tables.heights.texels(*heights);
+    *heights = axis.texels(*heights);
+  tables.heights = std::move(axis);
 }
 
 // `model`: null for the light of the reference.
 AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphere,
                        const ColorRule& color, const TableSizes& sizes,
-                       const std::function<void(double)>& progress, const TableLight& light) {
+                       const std::function<void(double)>& progress, const TableLight& light,
+                       const std::optional<HeightAxis>& heights_wanted) {
   AtmosphereTables tables;
   tables.atmosphere = atmosphere;
   tables.color = color;
@@ -259,7 +260,8 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
   const bool closed = own && is_closed_form(own->mapping),
              half_transmittances =
                  own && own->bruneton.transmittance == BrunetonTransmittance::kInHalfFloats;
-  if (sizes.follow_layers != 0 && !closed) follow_layers(shells, tables);
+  if (!closed)
+    set_heights(heights_wanted.value_or(HeightAxis(shells, tables.sizes.scattering_r)), tables);
   const RayTexels texels = tables.sizes.scattering();
   const int heights = tables.sizes.scattering_r;
   tables.rayleigh_like = make_table(texels.mu_s * texels.azimuth, texels.rows(), heights);
@@ -289,20 +291,23 @@ AtmosphereTables build(const SkyModel* model, const Atmosphere<double>& atmosphe
 AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
                                 const TableSizes& sizes, int threads,
                                 const std::function<void(double)>& progress,
-                                const TableLight& light) {
+                                const TableLight& light, const std::optional<HeightAxis>& heights) {
   validate(atmosphere);
   tbb::task_arena arena(threads);
-  return arena.execute([&] { return build(nullptr, atmosphere, color, sizes, progress, light); });
+  return arena.execute(
+      [&] { return build(nullptr, atmosphere, color, sizes, progress, light, heights); });
 }
 
 AtmosphereTables compute_tables_of(const SkyModel& model, const Atmosphere<double>& atmosphere,
                                    const ColorRule& color, const TableSizes& sizes, int threads,
-                                   const std::function<void(double)>& progress) {
+                                   const std::function<void(double)>& progress,
+                                   const std::optional<HeightAxis>& heights) {
   if (model.name() == "reference" || model.name() == "tables")
-    return compute_tables(atmosphere, color, sizes, threads, progress, {model.transfer()});
+    return compute_tables(atmosphere, color, sizes, threads, progress, {model.transfer()}, heights);
   validate(atmosphere);
   tbb::task_arena arena(threads);
-  return arena.execute([&] { return build(&model, atmosphere, color, sizes, progress, {}); });
+  return arena.execute(
+      [&] { return build(&model, atmosphere, color, sizes, progress, {}, heights); });
 }
 
 }  // namespace skyfit

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "model/atmosphere/atmosphere.h"
@@ -31,9 +32,6 @@ struct TableSizes {
   int scattering_r = 32, scattering_ground = 22, scattering_sky = 70;  // rays to ground and to sky
   int scattering_mu_s = 64, scattering_azimuth = 24;
   int outside_sky = 100, outside_mu_s = 128, outside_azimuth = 48;  // SkyRayMapping::kFromOutside
-  // 1: beside layers there are as many heights as HeightAxis asks for; 0: as many as stated, as
-  // tables that are interpolated between atmospheres need them.
-  int follow_layers = 1;
 
   RayTexels scattering() const {
     return {scattering_ground, scattering_sky, scattering_mu_s, scattering_azimuth};
@@ -73,11 +71,13 @@ struct AtmosphereTables {
   SkyRayTables sky_rays;  // `aerosol`: classes one after the other along z as in `single`
 };
 
-// Of the reference's light. Progress in 0..1; may be empty.
+// Of the reference's light, at as many heights as their axis asks for and `sizes` state; without
+// `heights` at those of the atmosphere's own layers. Progress in 0..1; may be empty.
 AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const ColorRule& color,
                                 const TableSizes& sizes, int threads,
                                 const std::function<void(double)>& progress,
-                                const TableLight& light = {});
+                                const TableLight& light = {},
+                                const std::optional<HeightAxis>& heights = {});
 
 // Of another model's light, by its scattered_light(); `reference` and `tables` are the above,
 // with their transfer.
@@ -85,6 +85,7 @@ AtmosphereTables compute_tables(const Atmosphere<double>& atmosphere, const Colo
 class SkyModel;
 AtmosphereTables compute_tables_of(const SkyModel& model, const Atmosphere<double>& atmosphere,
                                    const ColorRule& color, const TableSizes& sizes, int threads,
-                                   const std::function<void(double)>& progress);
+                                   const std::function<void(double)>& progress,
+                                   const std::optional<HeightAxis>& heights = {});
 
 }  // namespace skyfit

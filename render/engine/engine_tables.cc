@@ -80,7 +80,7 @@ const EncodedTable& texels_of(const EngineTables& tables, std::string_view name)
 
 std::vector<std::string> defines_of(const EngineTables& engine, const AtmosphereTables& tables,
                                     TablePrecision precision, Primaries primaries) {
-  std::vector<std::string> defined = table_defines(tables), phases;
+  std::vector<std::string> defined = lasting_table_defines(tables), phases;
   for (const auto& parameters : phase_parameters(tables.phases))
     phases.push_back(fmt::format("vec4({})", listed(parameters)));
   const auto light = light_rows(tables.color, color_space(primaries));

@@ -37,10 +37,15 @@ std::vector<std::string> table_defines(const AtmosphereTables& tables) {
       fmt::format("SCATTERING_SIZE {}, {}, {}, {}", s.scattering_mu_s, s.scattering_azimuth,
                   s.scattering_ground, s.scattering_sky),
       fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r)};
-  if (const std::vector<double>& nodes = tables.heights.nodes(); !nodes.empty()) {
+  if (const std::vector<double>& nodes = tables.heights.nodes(); !nodes.empty())
     defined.push_back(fmt::format("HEIGHT_NODES {}", nodes.size()));
+  return defined;
+}
+
+std::vector<std::string> lasting_table_defines(const AtmosphereTables& tables) {
+  std::vector<std::string> defined = table_defines(tables);
+  if (const std::vector<double>& nodes = tables.heights.nodes(); !nodes.empty())
     defined.push_back(fmt::format("HEIGHT_UNITS {:.9g}", fmt::join(nodes, ", ")));
-  }
   return defined;
 }
 

@@ -11,8 +11,11 @@
 
 namespace skyfit {
 
-// Names and values, for #define.
+// Names and values, for #define: what is the same between any two atmospheres of a sequence.
 std::vector<std::string> table_defines(const AtmosphereTables& tables);
+
+// Of an atmosphere that does not change: with the heights of its tables.
+std::vector<std::string> lasting_table_defines(const AtmosphereTables& tables);
 
 // g, g1, g2 and weight of the phase functions behind the Rayleigh-like one; of another Rayleigh
 // phase function its depolarisation, 0, 0, 0.

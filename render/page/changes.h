@@ -20,8 +20,7 @@ inline constexpr TableSizes kChangeSizes = {.optical_depth_mu = 32,
                                             .scattering_azimuth = 8,
                                             .outside_sky = 4,
                                             .outside_mu_s = 8,
-                                            .outside_azimuth = 4,
-                                            .follow_layers = 0};
+                                            .outside_azimuth = 4};
 
 inline constexpr int kEveryHeight = 3;
 inline constexpr TableSizes kComparedSizes = [] {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/atmosphere/atmosphere.h"
+#include "model/tables/phase_classes.h"
 
 namespace skyfit {
 namespace {
@@ -70,11 +71,29 @@ bool is_main(const Atmosphere<double>& atmosphere, const Parameter& parameter) {
   }
 }
 
+// A page's tables have one class of light for each phase function; where two constituents share
+// one, another value would part them.
+bool shares_its_phase(const Atmosphere<double>& atmosphere, const PhaseClasses& phases,
+                      const Parameter& parameter) {
+  if (parameter.quantity() != Quantity::kPhaseG && parameter.quantity() != Quantity::kPhaseG1)
+    return false;
+  const Constituent<double>* const own = &atmosphere.at(parameter.constituent());
+  const auto kind = [&](const Constituent<double>& c) {
+    return phases.of_constituent[static_cast<std::size_t>(&c - atmosphere.constituents.data())];
+  };
+  return std::ranges::any_of(atmosphere.constituents, [&](const Constituent<double>& other) {
+    return &other != own && scatters(other) && kind(other) == kind(*own);
+  });
+}
+
 }  // namespace
 
 std::vector<Parameter> main_parameters(const Atmosphere<double>& atmosphere) {
   std::vector<Parameter> parameters = parameters_of(atmosphere);
-  std::erase_if(parameters, [&](const Parameter& p) { return !is_main(atmosphere, p); });
+  const PhaseClasses phases = phase_classes(atmosphere);
+  std::erase_if(parameters, [&](const Parameter& p) {
+    return !is_main(atmosphere, p) || shares_its_phase(atmosphere, phases, p);
+  });
   return parameters;
 }
 

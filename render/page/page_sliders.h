@@ -25,7 +25,8 @@ struct PageSlider {
 };
 
 // Amounts, scale heights and single scattering albedos of aerosols, the asymmetry of their only or
-// narrower lobe, the ground's albedo: those of them that the atmosphere has.
+// narrower lobe where it is theirs alone, the ground's albedo: those of them that the atmosphere
+// has.
 std::vector<Parameter> main_parameters(const Atmosphere<double>& atmosphere);
 
 // About the atmosphere's value and within the bounds of a fit: amounts from half to twice it,

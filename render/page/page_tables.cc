@@ -119,7 +119,7 @@ PageTables page_tables(const SkyPageRequest& request) {
   };
   report();
   const AtmosphereTables before =
-      compute_tables(atmosphere, color, kComparedSizes, request.threads, {});
+      compute_tables(atmosphere, color, kComparedSizes, request.threads, {}, {}, HeightAxis());
   for (const PageSlider& slider : request.sliders) page.sliders.push_back({slider, {}});
   tbb::task_arena arena(request.threads);
   arena.execute([&] {
@@ -127,8 +127,8 @@ PageTables page_tables(const SkyPageRequest& request) {
       SliderTables& slider = page.sliders[i];
       for (const double value : slider.slider.tabulated()) {
         const auto other = changed(atmosphere, slider.slider.parameter, value);
-        slider.changes.push_back(
-            table_change(before, compute_tables(other, color, kComparedSizes, 1, {})));
+        slider.changes.push_back(table_change(
+            before, compute_tables(other, color, kComparedSizes, 1, {}, {}, HeightAxis())));
       }
       measure.measure(slider);
       report();

@@ -87,7 +87,7 @@ std::string mat3_define(std::string_view name, const std::array<std::array<doubl
 }
 
 json shaders(const AtmosphereTables& tables) {
-  std::vector<std::string> defined = table_defines(tables);
+  std::vector<std::string> defined = lasting_table_defines(tables);
   defined.insert(defined.end(),
                  {"CHANGES",
                   fmt::format("CHANGE_SIZE {}, {}, {}, {}", kChangeSizes.scattering_mu_s,

@@ -118,7 +118,7 @@ const NamedView& find_view(std::string_view name) {
     if (view.name == name) return view;
     known += fmt::format("{}{}", known.empty() ? "" : ", ", view.name);
   }
-  throw std::invalid_argument(fmt::format("render.view = \"{}\": must be one of {}", name, known));
+  throw std::invalid_argument(fmt::format("view \"{}\": expected one of {}", name, known));
 }
 
 void validate(const FrameOptions& options) {

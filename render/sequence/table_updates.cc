@@ -29,8 +29,9 @@ Preset TableUpdates::preset_of(int frame) const {
 }
 
 TableUpdates::Whole TableUpdates::whole(const BodareSet& set, const Preset& preset) const {
-  return {preset, std::make_shared<const AtmosphereTables>(compute_tables_of(
-                      *set.model(threads_), set.atmosphere(), color_, sizes_, threads_, {}))};
+  return {preset,
+          std::make_shared<const AtmosphereTables>(compute_tables_of(
+              *set.model(threads_), set.atmosphere(), color_, sizes_, threads_, {}, HeightAxis()))};
 }
 
 // The share of the next frame in the next set.

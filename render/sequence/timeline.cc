@@ -123,7 +123,7 @@ std::shared_future<Timeline::Tables> Timeline::tables_of(std::size_t step) {
   for (const Made& made : made_) earlier.push_back(made.tables);
   made_.push_back({step, std::async(std::launch::async, [this, step, earlier]() -> Tables {
                            for (const auto& tables : earlier) tables.wait();
-                           return std::make_shared<AtmosphereTables>(compute_(steps_[step].preset));
+                           return std::make_shared<AtmosphereTables>(compute_(step));
                          }).share()});
   return made_.back().tables;
 }

@@ -39,7 +39,7 @@ Preset preset_at(const std::vector<TimelineStep>& steps, double time_s);
 
 class Timeline {
  public:
-  using Compute = std::function<AtmosphereTables(const Preset&)>;
+  using Compute = std::function<AtmosphereTables(std::size_t step)>;
   using Tables = std::shared_ptr<const AtmosphereTables>;
 
   // `compute` is called from another thread, one call at a time, at once for the tables of

@@ -81,8 +81,12 @@ const vec2 optical_depth_size = vec2(OPTICAL_DEPTH_SIZE);
 const vec2 irradiance_size = vec2(IRRADIANCE_SIZE);
 const vec4 scattering_size = vec4(SCATTERING_SIZE);  // mu_s, azimuth, rays to the ground, rays to the sky
 const float scattering_heights = float(SCATTERING_HEIGHTS);
-#ifdef HEIGHT_NODES
+#ifdef HEIGHT_UNITS
 const float kHeightNodes[HEIGHT_NODES] = LIST(float, HEIGHT_NODES, HEIGHT_UNITS);
+float height_node(int i) { return kHeightNodes[i]; }
+#elif defined(HEIGHT_NODES)  // too many for the constants above
+layout(std140, binding = 7) uniform TableHeights { vec4 height_nodes[(HEIGHT_NODES + 3) / 4]; };
+float height_node(int i) { return height_nodes[i >> 2][i & 3]; }
 #endif
 
 // The star's disc: its radius (rad), its solid angle (sr), its limb darkening 1 - u1 (1 - mu) - u2 (1 - mu)^2.
@@ -171,11 +175,11 @@ float unit_from_table_height(float h) {
   int below = 0, above = HEIGHT_NODES - 1;
   while (above - below > 1) {
     int middle = (below + above) / 2;
-    if (unit < kHeightNodes[middle]) above = middle;
+    if (unit < height_node(middle)) above = middle;
     else below = middle;
   }
-  unit = (float(below) + (unit - kHeightNodes[below]) / (kHeightNodes[above] - kHeightNodes[below])) /
-         float(HEIGHT_NODES - 1);
+  float low = height_node(below);
+  unit = (float(below) + (unit - low) / (height_node(above) - low)) / float(HEIGHT_NODES - 1);
 #endif
   return unit;
 }

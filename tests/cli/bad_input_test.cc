@@ -69,20 +69,25 @@ TEST_F(BadInputTest, UnknownNames) {
                  {"--sampling", "random", "tregenza"});
   expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", "magic"},
                      {"magic", "reference"});
-  for (const char* nothing : {"", ":"})
-    expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", nothing},
-                       {"expected one of reference"});
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", ":"},
+                     {"expected one of reference"});
   expect_refusal({"render", "--preset", "earth-clear", "--view", "moon", "--out", "frame.png"},
                  {"--view \"moon\"", "ground", "space"});
 }
 
-TEST_F(BadInputTest, NamesOfFilesThatAreEmpty) {
+TEST_F(BadInputTest, EmptyValues) {
+  for (const char* const option :
+       {"--link", "--scale", "--pointing", "--noise", "--ground", "--per-scan", "--hold-out"})
+    expect_refusal({"fit", "--reference", "cie:12", "--out", "x", option, ""},
+                   {fmt::format("{} \"\": expected ", option), "(see skyfit fit --help)"});
+  expect_sky_refusal({"--sun-zenith-deg", "0", "--view-zenith-deg", "0", "--model", ""},
+                     {"--model \"\": expected NAME"});
   expect_refusal({"fit", "--reference", "cie:12", "--irradiance", "", "--out", "x"},
                  {"--irradiance \"\": expected NAME=VALUE"});
   expect_refusal({"fit", "--reference", "", "--irradiance", "direct=96klx", "--out", "x"},
                  {"--reference \"\": expected NAME|FILE"});
   expect_refusal({"compare", "--reference", "", "--out", "x"},
-                 {"\"\": no such file or reference, expected cie:1"});
+                 {"--reference \"\": expected NAME|FILE"});
   expect_refusal({"render", "--preset", "earth-clear", "--dem", "", "--out", "frame.png"},
                  {"--dem \"\": expected FILE"});
   expect_refusal({"campaign", "", "--out", "x"}, {"plan \"\": expected PLAN"});

@@ -391,11 +391,5 @@ TEST_F(CommandsTest, RenderWritesPicturesOfTheGivenSize) {
   EXPECT_EQ(read("frame.exr").substr(0, 4), "\x76\x2f\x31\x01");
 }
 
-TEST_F(CommandsTest, AFullDiskIsAnError) {
-  const Outcome outcome = run({"presets", "mars"}, {}, "/dev/full");
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("stdout"));
-}
-
 }  // namespace
 }  // namespace skyfit::cli

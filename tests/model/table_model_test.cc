@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The model `tables`, which evaluates the renderer's tables: near to truth, and near to the
 // reference model wherever one looks from.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <span>
@@ -153,6 +156,70 @@ TEST(HeightAxis, HasTexelsAtTheEndsOfALayerAndIsItsOwnInverse) {
     EXPECT_NEAR(axis.unit(axis.height(i / 1000.0, kTop), kTop), i / 1000.0, kRoundTrip);
   std::erase_if(a.constituents, [](const auto& c) { return c.name == "cloud"; });
   EXPECT_EQ(HeightAxis(shells_of(a, Keep::kWhatMatters), 32), HeightAxis());
+}
+
+// Clear air with layers of 300 m: of each its base (m) and optical depth.
+Shells with_layers(std::vector<std::array<double, 2>> base_and_depth) {
+  Atmosphere<double> a =
+      parse_preset(refs::shipped_preset_json("earth-clear"), "earth-clear").atmosphere;
+  Constituent<double> layer =
+      parse_preset(refs::shipped_preset_json("overcast"), "overcast").atmosphere.at("cloud");
+  for (const auto& [base, depth] : base_and_depth) {
+    layer.name = fmt::format("layer-{}", a.constituents.size());
+    layer.profile.base_m = base;
+    layer.profile.top_m = base + 300;
+    layer.amount_type = AmountType::kOpticalDepth;
+    layer.amount = depth;
+    a.constituents.push_back(layer);
+  }
+  return shells_of(a, Keep::kAll);
+}
+
+double height_of_node(const HeightAxis& axis, std::size_t node) {
+  constexpr double kTop = 1e5;
+  return axis.height(static_cast<double>(node) / static_cast<double>(axis.nodes().size() - 1),
+                     kTop);
+}
+
+// Wherever a layer goes the same nodes are at its ends.
+TEST(HeightAxis, NodesGoWithALayer) {
+  const std::vector<Shells> steps = {with_layers({{0, 0}, {5000, 1}}),
+                                     with_layers({{0, 10}, {2000, 1}}),
+                                     with_layers({{200, 20}, {1000, 0.1}})};
+  const std::vector<HeightAxis> axes = height_axes(steps, 32);
+  const auto node_near = [&](std::size_t step, double height) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < axes[step].nodes().size(); ++i) {
+      if (std::abs(height_of_node(axes[step], i) - height) <
+          std::abs(height_of_node(axes[step], nearest) - height))
+        nearest = i;
+    }
+    constexpr double kSoftEdge = 15;  // m, of the layer
+    EXPECT_NEAR(height_of_node(axes[step], nearest), height, kSoftEdge);
+    return nearest;
+  };
+  for (std::size_t step : {1u, 2u}) {
+    ASSERT_EQ(axes[step].nodes().size(), axes[0].nodes().size());
+    EXPECT_TRUE(std::ranges::is_sorted(axes[step].nodes()));
+  }
+  EXPECT_EQ(node_near(1, 300), node_near(0, 300));
+  EXPECT_EQ(node_near(2, 500), node_near(0, 300));
+  EXPECT_EQ(node_near(1, 2300), node_near(0, 5300));
+  EXPECT_EQ(node_near(2, 1000), node_near(0, 5000));
+}
+
+TEST(HeightAxis, FollowsTwoLayersThatDoNotPassEachOther) {
+  const std::size_t one = HeightAxis(with_layers({{2000, 5}}), 32).nodes().size(),
+                    two = HeightAxis(with_layers({{2000, 5}, {4000, 9}}), 32).nodes().size();
+  EXPECT_GT(two, one);
+  EXPECT_EQ(HeightAxis(with_layers({{2000, 5}, {4000, 9}, {6000, 1}}), 32),
+            HeightAxis(with_layers({{2000, 5}, {4000, 9}}), 32));
+  EXPECT_EQ(HeightAxis(with_layers({{2000, 5}, {2100, 9}}), 32),
+            HeightAxis(with_layers({{2100, 9}}), 32));
+  const std::vector<Shells> passing = {with_layers({{2000, 5}, {4000, 9}}),
+                                       with_layers({{5000, 5}, {3000, 9}})};
+  const std::vector<Shells> alone = {with_layers({{4000, 9}}), with_layers({{3000, 9}})};
+  EXPECT_EQ(height_axes(passing, 32), height_axes(alone, 32));
 }
 
 TEST(TableModel, IrradianceTableFollowsTheReference) {

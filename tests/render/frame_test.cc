@@ -210,7 +210,7 @@ TEST(Views, AreFoundByNameOrListed) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "render.view = \"moon\": must be one of "
+                 "view \"moon\": expected one of "
                  "ground, sunset, away, valley, 10km, orbit, limb, space");
   }
 }

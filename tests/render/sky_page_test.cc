@@ -133,6 +133,17 @@ TEST(PageSliders, StayWithinTheBoundsOfAFit) {
   }
 }
 
+// Two layers of the same particles: a slider of the lobe of one would part a class of the tables.
+TEST(PageSliders, LeaveOutPhaseFunctionsThatAreShared) {
+  Atmosphere<double> atmosphere = shipped("hillaire-2020").atmosphere;
+  EXPECT_THAT(main_parameters(atmosphere), testing::Contains(parameter_from_name("mie.phase.g")));
+  atmosphere.constituents.push_back(atmosphere.at("mie"));
+  atmosphere.constituents.back().name = "dust";
+  const std::vector<Parameter> parameters = main_parameters(atmosphere);
+  EXPECT_THAT(parameters, Not(testing::Contains(parameter_from_name("mie.phase.g"))));
+  EXPECT_THAT(parameters, testing::Contains(parameter_from_name("dust.scattering")));
+}
+
 class EsShaders : public testing::Test {
  protected:
   // What the driver says of a shader; empty where it compiles.

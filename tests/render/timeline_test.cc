@@ -53,13 +53,16 @@ TEST(Timeline, MomentsLieBetweenSteps) {
 
 TEST(Timeline, TablesAreMadeOncePerStep) {
   std::atomic<int> calls = 0, running = 0;
+  const std::vector<TimelineStep> steps = {
+      {0, preset(1e-5)}, {1, preset(1.2e-5)}, {2, preset(1.2e-5)}, {3, preset(1e-5)}};
   Timeline timeline(
-      {{0, preset(1e-5)}, {1, preset(1.2e-5)}, {2, preset(1.2e-5)}, {3, preset(1e-5)}},
-      [&](const Preset& p) {
+      steps,
+      [&](std::size_t step) {
         EXPECT_EQ(++running, 1);
         ++calls;
         const AtmosphereTables tables =
-            compute_tables(p.atmosphere, color_rule(refs::standard_spectral_data()), kTiny, 1, {});
+            compute_tables(steps[step].preset.atmosphere,
+                           color_rule(refs::standard_spectral_data()), kTiny, 1, {});
         --running;
         return tables;
       },
@@ -78,7 +81,7 @@ TEST(Timeline, TablesAreMadeOncePerStep) {
 TEST(Timeline, ErrorsOfTheTablesArrive) {
   Timeline timeline(
       {{0, preset(1e-5)}},
-      [](const Preset&) -> AtmosphereTables { throw std::runtime_error("no tables"); }, 0);
+      [](std::size_t) -> AtmosphereTables { throw std::runtime_error("no tables"); }, 0);
   EXPECT_THAT([&] { timeline.at(0); }, ThrowsMessage<std::runtime_error>("no tables"));
 }
 

@@ -189,6 +189,14 @@ void bind_atmosphere(const AtmosphereTables& tables, GLuint program, UniformBuff
   }
   if (is_closed_form(tables.sky_rays.mapping)) set_closed_form(tables, block);
   block.bind(buffers);
+  if (const std::vector<double>& nodes = tables.heights.nodes(); !nodes.empty()) {
+    std::vector<glm::vec4> fours((nodes.size() + 3) / 4);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      fours[i / 4][static_cast<int>(i % 4)] = static_cast<float>(nodes[i]);
+    UniformBlock heights(program, "TableHeights");
+    heights.set("height_nodes", std::span<const glm::vec4>(fours));
+    heights.bind(buffers);
+  }
 }
 
 std::vector<std::string> atmosphere_defines(const AtmosphereTables& tables,
