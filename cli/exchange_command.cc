@@ -148,7 +148,8 @@ void add_export_command(CLI::App& app) {
   command.footer(
       "Programs:\n" + named_lines(fit::programs()) +
       "\nRadiance and Mitsuba get the sky of the sun that the options state, with its ground and "
-      "its beam.\n"
+      "its beam\n"
+      "(mitsuba-sunsky: a formula fitted to that sky, and no ground).\n"
       "The others get the atmosphere. What they cannot hold (a second lobe, layers, heights that "
       "are fixed, a\n"
       "spectrum) is refitted to the preset's sky by the model reference, without polarisation, "

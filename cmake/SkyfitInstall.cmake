@@ -17,7 +17,8 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/model/version.h DESTINATION ${CMAK
 install(DIRECTORY data_refs/presets DESTINATION ${CMAKE_INSTALL_DATADIR}/skyfit COMPONENT program FILES_MATCHING PATTERN "*.json")
 install(FILES data_refs/preset.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/skyfit COMPONENT program)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-install(FILES LICENSE README.md CHANGELOG.md docs/preset.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# The last for the licence in its first lines.
+install(FILES LICENSE README.md CHANGELOG.md docs/preset.md model/literature/hosek_wilkie_2012_xyz.csv DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/skyfit_config.cmake.in
   ${PROJECT_BINARY_DIR}/generated/skyfit-config.cmake INSTALL_DESTINATION ${package_dir})

@@ -15,6 +15,7 @@
 #include "model/literature/bruneton.h"
 #include "model/literature/hillaire.h"
 #include "model/literature/hoffman_preetham.h"
+#include "model/literature/hosek_wilkie.h"
 #include "model/literature/nielsen.h"
 #include "model/literature/oneil.h"
 #include "model/literature/preetham.h"
@@ -53,8 +54,9 @@ std::unique_ptr<SkyModel> make_tables(const SkyModelRequest& request) {
   return std::make_unique<TableModel>(request.threads, request.transfer);
 }
 
-std::unique_ptr<SkyModel> make_preetham(const SkyModelRequest& request) {
-  return std::make_unique<PreethamModel>(request.spectra);
+template <class Model>
+std::unique_ptr<SkyModel> make_with_spectra(const SkyModelRequest& request) {
+  return std::make_unique<Model>(request.spectra);
 }
 
 constexpr SkyModelVariant kNielsenVariants[] = {
@@ -155,7 +157,12 @@ std::span<const SkyModelEntry> sky_models() {
        make<HoffmanPreethamModel>},
       {"preetham",
        "Preetham, Shirley & Smits 1999: formula over the turbidity; day, up to 3 km, sky",
-       make_preetham},
+       make_with_spectra<PreethamModel>},
+      {"hosek-wilkie",
+       "Hosek & Wilkie 2012: formula over turbidity and albedo; day, from the ground, no frames",
+       make_with_spectra<HosekWilkieModel>,
+       {},
+       false},
   };
   return kModels;
 }
@@ -173,9 +180,9 @@ const SkyModelEntry& sky_model_entry(std::string_view name) {
 bool draws_frames(std::string_view name) {
   const SkyModelEntry& entry = sky_model_entry(name);
   const std::vector<std::string_view> parts = split(name);
-  return std::ranges::none_of(entry.variants, [&](const auto& variant) {
-    return !variant.draws_frames && std::ranges::count(parts, variant.name) > 0;
-  });
+  return entry.draws_frames && std::ranges::none_of(entry.variants, [&](const auto& variant) {
+           return !variant.draws_frames && std::ranges::count(parts, variant.name) > 0;
+         });
 }
 
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies of programs that are a formula and no atmosphere, fitted to the sky of a preset: that of S.
-// Wallner and M. Upitis after Preetham, Shirley & Smits 1999, which three.js has and Godot took
-// over.
+// Skies of programs that are a formula and no atmosphere, fitted to the sky of a preset. One such
+// formula is that of S. Wallner and M. Upitis after Preetham, Shirley & Smits 1999, which three.js
+// has and Godot took over.
 #pragma once
 
 #include <ceres/ceres.h>
@@ -70,13 +70,14 @@ struct FormulaResidual {
   }
 };
 
-// The unknowns for which color(x, channel, point), positive light of sRGB's primaries, is nearest
-// to `truth` in logarithms, without directions within 3 deg of the sun (as color_loss()) and
-// channels that sRGB does not hold. `color` takes an array of double or of ceres::Jet. Throws
+// The unknowns for which color(x, channel, point), positive, is nearest to `truth`,
+// [point][channel], in logarithms, without directions within 3 deg of the sun (as color_loss()) and
+// what is not positive in `truth`. `color` takes an array of double or of ceres::Jet. Throws
 // std::runtime_error where the fit fails.
 template <int kCount, class Color>
 Unknowns<kCount> fitted(const Color& color, const FormulaFit<kCount>& fit,
-                        const std::vector<SkyPoint>& points, const std::vector<Xyz>& truth,
+                        const std::vector<SkyPoint>& points,
+                        const std::vector<std::array<double, 3>>& truth,
                         const std::function<void(double)>& progress) {
   using Residual = FormulaResidual<kCount, Color>;
   constexpr double kClose = 3 * std::numbers::pi / 180;
@@ -90,11 +91,10 @@ Unknowns<kCount> fitted(const Color& color, const FormulaFit<kCount>& fit,
     ceres::Problem problem;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (angle_from_sun(points[i]) < kClose) continue;
-      const Rgb rgb = linear_srgb(truth[i]);
       for (std::size_t k = 0; k < 3; ++k) {
-        if (rgb[k] <= 0) continue;
+        if (truth[i][k] <= 0) continue;
         problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Residual, 1, kCount>(
-                                     new Residual{color, points[i], k, std::log(rgb[k])}),
+                                     new Residual{color, points[i], k, std::log(truth[i][k])}),
                                  nullptr, x.data());
       }
     }

@@ -113,7 +113,7 @@ Exported export_godot(const ExportRequest& request) {
   const std::vector<Xyz> truth = sky_colors(request.models.truth, rule, a, points);
   const GodotColor color;
   const Unknowns<kCount> x =
-      fitted(color, fit_of(truth.front()[1]), points, truth, request.progress);
+      fitted(color, fit_of(truth.front()[1]), points, linear_srgb(truth), request.progress);
   std::vector<Xyz> shown;
   for (const SkyPoint& p : points)
     shown.push_back(xyz_of_srgb({color(x, 0, p), color(x, 1, p), color(x, 2, p)}));

@@ -94,6 +94,8 @@ std::vector<Program> all_programs() {
                   false,
                   export_mitsuba,
                   {}});
+  list.push_back({"mitsuba-sunsky", "Mitsuba 3, emitter sunsky, and sun, of one hour (.xml)",
+                  ".xml", true, false, false, export_mitsuba_sunsky, read_mitsuba_sunsky});
   list.push_back({"godot",
                   "Godot 4, resource PhysicalSkyMaterial (.tres)",
                   ".tres",

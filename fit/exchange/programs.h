@@ -69,6 +69,10 @@ const Program* program_of(std::string_view text);
 // The programs that are not of engines.h. Their sources are named in each .cc.
 Exported export_radiance(const ExportRequest& request);
 Exported export_mitsuba(const ExportRequest& request);
+Exported export_mitsuba_sunsky(const ExportRequest& request);
+std::optional<Atmosphere<double>> read_mitsuba_sunsky(std::string_view text,
+                                                      std::string_view source,
+                                                      std::vector<std::string>& notes);
 Exported export_godot(const ExportRequest& request);
 Exported export_threejs(const ExportRequest& request);
 std::optional<Atmosphere<double>> read_threejs(std::string_view text, std::string_view source,

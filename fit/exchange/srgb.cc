@@ -23,6 +23,12 @@ std::array<double, 3> times(const Eigen::Matrix3d& m, const std::array<double, 3
 
 Rgb linear_srgb(const Xyz& xyz) { return times(from_xyz(), xyz); }
 
+std::vector<Rgb> linear_srgb(const std::vector<Xyz>& colors) {
+  std::vector<Rgb> all;
+  for (const Xyz& xyz : colors) all.push_back(linear_srgb(xyz));
+  return all;
+}
+
 Xyz xyz_of_srgb(const Rgb& rgb) {
   static const Eigen::Matrix3d matrix = from_xyz().inverse();
   return times(matrix, rgb);

@@ -7,6 +7,7 @@
 namespace skyfit::fit {
 
 Rgb linear_srgb(const Xyz& xyz);  // negative where the primaries do not hold the colour
+std::vector<Rgb> linear_srgb(const std::vector<Xyz>& colors);
 Xyz xyz_of_srgb(const Rgb& rgb);
 
 }  // namespace skyfit::fit

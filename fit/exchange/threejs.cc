@@ -63,7 +63,7 @@ Exported export_threejs(const ExportRequest& request) {
     }
   }
   const ThreejsColor color;
-  const Unknowns<kCount> x = fitted(color, fit, points, truth, request.progress);
+  const Unknowns<kCount> x = fitted(color, fit, points, linear_srgb(truth), request.progress);
   std::vector<Xyz> shown;
   for (const SkyPoint& p : points)
     shown.push_back(xyz_of_srgb({color(x, 0, p), color(x, 1, p), color(x, 2, p)}));

@@ -3,13 +3,11 @@
 // and chromaticity of a clear sky in closed form over the turbidity T, for each of Y, x, y
 //   L = L_zenith F(Z, gamma) / F(0, Z_sun),
 //   F(Z, gamma) = (1 + A exp(B / cos Z)) (1 + C exp(D gamma) + E cos^2 gamma).
-// T is the preset's: (tau_R + tau_M) / tau_R, vertical optical depths at 550 nm, of extinction. The
-// spectrum is not that of the paper: it is the solar irradiance times the polynomial of degree 2 in
-// wavelength that has the model's X, Y, Z, so that a rule of few wavelengths gives them back; at
-// the ends of the spectrum it is negative for some reddish skies near the horizon. Known: far too
-// bright against measurements, by a factor of about 2.4. Left out: everything of the atmosphere but
-// T. Valid on the ground, up to 3 km high, toward the sky, sun above the horizon, T 1.7 .. 10
-// (below, F is negative at the zenith); throws std::domain_error for a turbidity outside.
+// T is the preset's, literature::turbidity_of(). The spectrum is not that of the paper: it is the
+// one that literature::SpectrumOfXyz has for the model's X, Y, Z. Known: far too bright against
+// measurements, by a factor of about 2.4. Left out: everything of the atmosphere but T. Valid on
+// the ground, up to 3 km high, toward the sky, sun above the horizon, T 1.7 .. 10 (below, F is
+// negative at the zenith); throws std::domain_error for a turbidity outside.
 //
 // Frames have his paths before the ground, section 4: air and aerosol with the exponential
 // densities of the preset, lit by the sun as from the ground and by the sky. Deviations: he fills a
@@ -19,15 +17,9 @@
 // ozone and gases.
 #pragma once
 
-#include <array>
-
-#include "model/sky_model.h"
+#include "model/literature/turbidity_sky.h"
 
 namespace skyfit {
-
-// The vertical optical depth of the atmosphere over that of its air, at 550 nm. Not a number
-// without both, where the sky is dark.
-double preetham_turbidity(const Atmosphere<double>& atmosphere);
 
 class PreethamModel final : public SkyModel {
  public:
@@ -42,12 +34,7 @@ class PreethamModel final : public SkyModel {
   bool can_fit(const Parameter& parameter) const override;
 
  private:
-  // Per cd/m^2 of X, Y and Z.
-  std::array<double, 3> radiance_from_xyz(double wavelength_nm) const;
-
-  // [power][X, Y, Z]: coefficient of the power of the wavelength (550 nm = 1) per cd/m^2 of X, Y,
-  // Z.
-  std::array<std::array<double, 3>, 3> power_from_xyz_;
+  literature::SpectrumOfXyz spectrum_;
 };
 
 }  // namespace skyfit

@@ -14,7 +14,7 @@
 
 namespace skyfit::plot {
 
-inline constexpr std::size_t kMaxCurves = 10;  // colours that stay apart
+inline constexpr std::size_t kMaxCurves = 11;  // colours that stay apart
 inline constexpr std::size_t kMapCurves = 4;   // curves whose maps of the sky find a place
 inline constexpr std::size_t kMaxPanels =
     16;  // more suns than that: evenly chosen ones are shown, and it is said

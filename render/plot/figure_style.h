@@ -17,10 +17,10 @@ struct Box {
   double top() const { return bottom + height; }
 };
 
-// Okabe & Ito 2008, told apart with every common colour vision; the last four are darker.
-inline constexpr std::array<std::string_view, 10> kCurveColors = {
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9",
-    "#e69f00", "#6a3d9a", "#8c510a", "#7f7f00", "#00304d"};
+// Okabe & Ito 2008, told apart with every common colour vision; the last five are darker.
+inline constexpr std::array<std::string_view, 11> kCurveColors = {
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00",
+    "#6a3d9a", "#8c510a", "#7f7f00", "#00304d", "#882255"};
 inline constexpr std::string_view kReferenceColor = "#202020";
 inline constexpr std::string_view kStartColor = "#d55e00";
 inline constexpr std::string_view kSunColor = "#b87a00";

@@ -46,7 +46,7 @@ void Sky(benchmark::State& state, const char* name, std::span<const Parameter> d
 
 const bool kRegistered = [] {
   for (const char* name : {"reference", "bruneton", "bodare", "hillaire", "schafhitzel", "oneil",
-                           "nielsen", "hoffman-preetham", "preetham"}) {
+                           "nielsen", "hoffman-preetham", "preetham", "hosek-wilkie"}) {
     const auto add = [&](const char* what, std::span<const Parameter> derivatives, bool prepared) {
       benchmark::RegisterBenchmark(
           (std::string(what) + "/" + name).c_str(),

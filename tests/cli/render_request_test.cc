@@ -137,6 +137,7 @@ TEST(RenderRequest, ModelsThatDoNotDrawAreRefused) {
             "nielsen:sun-through-sky");
   EXPECT_EQ(request({"--model", "preetham", "--out", "x.png"}).model, "preetham");
   EXPECT_THROW(request({"--model", "reference:refraction", "--out", "x.png"}), UsageError);
+  EXPECT_THROW(request({"--model", "hosek-wilkie", "--out", "x.png"}), UsageError);
 }
 
 TEST(RenderRequest, SheetsOfCloudsMayBeSeveral) {

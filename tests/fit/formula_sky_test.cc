@@ -7,10 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <pugixml.hpp>
+#include <sstream>
 
 #include "fit/exchange/programs.h"
 #include "fit/exchange/reduction.h"
 #include "fit/exchange/srgb.h"
+#include "model/literature/turbidity_sky.h"
 #include "tests/fit/exchange.h"
 
 namespace skyfit::fit {
@@ -129,6 +132,113 @@ TEST(Threejs, UniformsGiveTheSkyWithinTheLoss) {
   std::vector<std::string> notes;
   ASSERT_TRUE(read_threejs(text, "sky.js", notes));
   EXPECT_THAT(notes, ::testing::Contains(HasSubstr("another sky")));
+}
+
+// The value of a named child of an emitter.
+std::string emitter_value(const pugi::xml_document& scene, const char* type, const char* name) {
+  const pugi::xml_node emitter =
+      scene.child("scene").find_child_by_attribute("emitter", "type", type);
+  EXPECT_TRUE(emitter) << type;
+  return emitter.find_child_by_attribute("name", name).attribute("value").value();
+}
+
+// The file that is read back is, by the model `hosek-wilkie`, the sky within the loss; the beam is
+// the preset's.
+TEST(MitsubaSunsky, ReadBackIsTheSkyWithinTheLoss) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const double zenith = 0.9, azimuth = 1.9;
+  const Exported written = exported(preset, "mitsuba-sunsky", zenith, azimuth);
+  const std::string& text = written.files.at(0).text;
+  EXPECT_THAT(text, HasSubstr(written.loss));
+  pugi::xml_document scene;
+  ASSERT_TRUE(scene.load_string(text.c_str()));
+  std::vector<std::string> notes;
+  const auto read = program_named("mitsuba-sunsky").read(text, "sky.xml", notes);
+  ASSERT_TRUE(read);
+  EXPECT_THAT(notes, ::testing::ElementsAre(HasSubstr("hosek-wilkie"), HasSubstr("sky_scale")));
+  const double scale = std::stod(emitter_value(scene, "sunsky", "sky_scale"));
+  const std::vector<SkyPoint> points = lattice_sky(zenith);
+  const XyzRule rule = xyz_rule(spectra());
+  std::vector<Xyz> shown =
+      sky_colors(*make_sky_model("hosek-wilkie", spectra(), 1), rule, *read, points);
+  for (Xyz& xyz : shown) {
+    for (double& value : xyz) value *= scale;
+  }
+  const SkyLoss loss =
+      color_loss(points, sky_colors(scalar(), rule, preset.atmosphere, points), shown);
+  double rms = 0;
+  ASSERT_EQ(std::sscanf(written.loss.c_str(), "luminance RMS %lf %%", &rms), 1) << written.loss;
+  EXPECT_NEAR(loss.rms_percent, rms, 0.06);  // its digits, and a rule of six wavelengths
+  EXPECT_LT(rms, 30);
+
+  std::istringstream direction(emitter_value(scene, "sunsky", "sun_direction")),
+      irradiance(emitter_value(scene, "directional", "irradiance"));
+  double x = 0, y = 0, z = 0;
+  direction >> x >> y >> z;
+  EXPECT_NEAR(x, std::sin(zenith) * std::sin(azimuth), 1e-8);
+  EXPECT_NEAR(y, std::sin(zenith) * std::cos(azimuth), 1e-8);
+  EXPECT_NEAR(z, std::cos(zenith), 1e-8);
+  Rgb rgb{};
+  irradiance >> rgb[0] >> rgb[1] >> rgb[2];
+  constexpr double kUnit = 683 * 106.856895;  // lx of 1 W/(m^2 nm), the integral of y_bar in nm
+  const double lux =
+      irradiance_color(scalar().irradiance(preset.atmosphere, rule.nodes, 0, zenith, {}),
+                       kDirectNormal, rule, std::vector<double>(rule.nodes.size(), 1))[1];
+  EXPECT_NEAR(kUnit * xyz_of_srgb(rgb)[1] / lux, 1, 1e-5);
+  EXPECT_EQ(emitter_value(scene, "sunsky", "sun_scale"), "0");
+}
+
+// A sky of the model itself, written as a file would hold it, is found again.
+TEST(MitsubaSunsky, FitFindsItsOwnSky) {
+  const auto model = make_sky_model("hosek-wilkie", spectra(), 1);
+  Preset preset{"own", Atmosphere<double>{}, nullptr};
+  preset.atmosphere.ground_albedo = 0.35;
+  const Models truth{*model, *model};
+  const Exported written = program_named("mitsuba-sunsky")
+                               .write({.preset = preset,
+                                       .spectra = spectra(),
+                                       .models = truth,
+                                       .sun_zenith = 0.7,
+                                       .sun_azimuth = 0,
+                                       .file = "sky.xml",
+                                       .write_sky_map = {}});
+  pugi::xml_document scene;
+  ASSERT_TRUE(scene.load_string(written.files.at(0).text.c_str()));
+  constexpr double kRule = 1e-3;  // of six wavelengths
+  const auto number = [&](const char* name) {
+    return std::stod(emitter_value(scene, "sunsky", name));
+  };
+  EXPECT_NEAR(number("turbidity"), literature::turbidity_of(preset.atmosphere), kRule);
+  EXPECT_NEAR(number("albedo"), 0.35, kRule);
+  EXPECT_NEAR(number("sky_scale"), 1, kRule);
+}
+
+TEST(MitsubaSunsky, RefusesTwilightAndNumbersOutside) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  EXPECT_THAT([&] { exported(preset, "mitsuba-sunsky", 0.5 * std::numbers::pi, 0); },
+              ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr("90 deg: expected below")));
+  const auto read = [](const std::string& child) {
+    std::vector<std::string> notes;
+    return program_named("mitsuba-sunsky")
+        .read("<scene><emitter type='sunsky'>" + child + "</emitter></scene>", "sky.xml", notes);
+  };
+  const auto by_default = read("");
+  ASSERT_TRUE(by_default);
+  EXPECT_EQ(by_default->ground_albedo, 0.3);
+  EXPECT_NEAR(literature::turbidity_of(*by_default), 3, 1e-12);
+  for (const char* wrong :
+       {"<float name='turbidity' value='11'/>", "<float name='turbidity' value=''/>",
+        "<rgb name='albedo' value='0.1 0.2 0.3'/>", "<spectrum name='albedo' value='nan'/>",
+        "<float name='sky_scale' value='-1'/>"})
+    EXPECT_THAT([&] { read(wrong); },
+                ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr("sky.xml: sunsky: ")))
+        << wrong;
+  EXPECT_THAT([&] { read("<float name='turbidity' value='11'/>"); },
+              ::testing::ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("turbidity = 11: expected a number from 1 to 10")));
+  std::vector<std::string> notes;
+  EXPECT_FALSE(program_named("mitsuba-sunsky").read("<scene><emitter/></scene>", "s.xml", notes));
+  EXPECT_FALSE(program_named("mitsuba-sunsky").read("{\"a\": 1}", "s.json", notes));
 }
 
 }  // namespace

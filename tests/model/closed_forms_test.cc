@@ -10,7 +10,7 @@
 #include "data_refs/spectra.h"
 #include "model/atmosphere/slant_column.h"
 #include "model/literature/nielsen.h"
-#include "model/literature/preetham.h"
+#include "model/literature/turbidity_sky.h"
 #include "model/photometry/photometry.h"
 #include "model/registry.h"
 #include "model/shared/shared.h"
@@ -85,7 +85,7 @@ TEST(Nielsen, RefusesTwilightAndSpace) {
 TEST(Preetham, ColourByHand) {
   Atmosphere<double> a;
   a.at("mie").amount = 2 * 1.216e-5 * 8000 / 1200 * a.at("mie").single_scattering_albedo;
-  ASSERT_NEAR(preetham_turbidity(a), 3, 1e-12);
+  ASSERT_NEAR(literature::turbidity_of(a), 3, 1e-12);
   const XyzRule sum = xyz_sum_5nm(refs::standard_spectral_data());
   const SkyValues sky = model_named("preetham")->radiance(a, sum.nodes, {&kSide, 1}, {});
   double xyz[3] = {};
@@ -107,7 +107,7 @@ TEST(Preetham, TurbidityKnowsTheAlbedoOfATable) {
   table.at("mie").single_scattering_albedo = 1;
   table.at("mie").albedo_spectrum = std::make_shared<const SpectrumTable>(
       TwoColumns{{450, 550, 650}, {0.7, 0.8, 0.9}}, kAlbedoFormat);
-  EXPECT_NEAR(preetham_turbidity(table) / preetham_turbidity(number), 1, 1e-12);
+  EXPECT_NEAR(literature::turbidity_of(table) / literature::turbidity_of(number), 1, 1e-12);
 }
 
 // The rules of few wavelengths give the model's luminance and colour back.

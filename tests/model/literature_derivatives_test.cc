@@ -100,7 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{"bruneton", false, false}, Case{"hillaire", false, false},
                       Case{"bodare", false, false}, Case{"schafhitzel", false, true},
                       Case{"oneil", false, true}, Case{"nielsen", true, true},
-                      Case{"hoffman-preetham", true, true}, Case{"preetham", true, false}),
+                      Case{"hoffman-preetham", true, true}, Case{"preetham", true, false},
+                      Case{"hosek-wilkie", true, false}),
     [](const auto& tested) {
       std::string name(tested.param.model);
       std::erase(name, '-');

@@ -153,7 +153,7 @@ TEST_F(PlotTest, BadFiguresAreRefusedAndLeaveNothing) {
                   StrEq("figure: model = -1 in \"fitted\" at sun zenith 30, view zenith "
                         "85, azimuth 180 deg: expected a number > 0")));
   EXPECT_THAT([&] { write_comparison(Comparison(), {folder_ / "c.svg"}); },
-              ThrowsMessage<std::invalid_argument>(StrEq("figure: 0 curves: expected 1 to 10")));
+              ThrowsMessage<std::invalid_argument>(StrEq("figure: 0 curves: expected 1 to 11")));
   EXPECT_THAT(
       [&] {
         write_comparison(comparison_at({30}), {folder_ / "c.svg", folder_ / "c.gif"});
