@@ -141,8 +141,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       "--refraction", options.refraction,
       "Suns' discs stand, and are flat, as air refracts them; ground and sky stay as straight\n"
       "rays see them");
-  group.flag("--shadows", options.shadows,
-             "Shadows of the terrain, under each sun, on the ground and in the air");
+  group.flag(
+      "--shadows", options.shadows,
+      "Shadows of the terrain, under each sun, on the ground and in the air, and of --clouds in "
+      "the air");
 }
 
 void add_terrain_options(CLI::App& command, RenderOptions& options) {

@@ -202,7 +202,7 @@ struct FrameOptions {
   double sun_zenith = 0.5;
   int samples_per_side = 2;  // each pixel is the mean of samples_per_side^2 samples: 1 to 4
   AerialPerspective aerial = AerialPerspective::kVolume;
-  bool shadows = false;  // of the terrain, under each sun, on the ground and in the air
+  bool shadows = false;  // of the terrain, under each sun, on ground and in air; of clouds, in air
   double wind_m_s = 5;   // 12.5 m above the sea: how rough it is, 0 to 30
   // The suns' discs stand where air refracts them to, and as flat: those of the light of one
   // wavelength, 550 nm, toward which the ground and the sky are drawn as along straight rays.

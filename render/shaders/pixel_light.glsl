@@ -17,9 +17,8 @@
 #ifdef CLOUDS
 #include "render/shaders/clouds.glsl"
 #endif
-#ifdef SHADOWS
-vec2 pixel_centre;  // that seen_at() is asked for
-#include "render/shaders/shadows.glsl"
+#if defined(SHADOWS) || defined(CLOUD_SHADOWS)
+#include "render/shaders/shaded_air.glsl"
 #endif
 
 layout(binding = 7) uniform usampler2D gbuffer;
@@ -170,7 +169,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   lit *= sunlit(surface.d * ray.direction, surface.normal, i);
 #endif
 #ifdef CLOUDS
-  lit *= clear_of_clouds(surface.d * ray.direction, end, sun, kNoCloud);
+  lit *= clear_of_clouds(surface.d * ray.direction, end, sun, kNoCloud, surface.d * pixel_angle);
 #endif
 #ifdef VOLUME
   Place at = end;
@@ -217,6 +216,9 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #ifdef SHADOWS
   if (ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air, i), 0.0);
 #endif
+#ifdef CLOUD_SHADOWS
+  if (ray.air) path.in_scatter = max(path.in_scatter - shaded_by_clouds(ray, start, nu, in_air, i), 0.0);
+#endif
 #ifdef CLOUDS
   // Of the light behind a cloud the cloud lets the rest pass; from the farthest sheet to the nearest.
   vec4 of_clouds = vec4(0.0);
@@ -233,8 +235,11 @@ PathLight light_of(int i, ViewRay ray, float clear) {
     vec4 before = radiance(
         scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground)), nu);
 #endif
+#ifdef CLOUD_SHADOWS
+    before = max(before - shaded_before_sheets[c], 0.0);
+#endif
     path.in_scatter = mix(path.in_scatter, min(before, path.in_scatter), opacity);
-    float lit = clear_of_clouds(cloud_distances[c] * ray.direction, at, sun, c);
+    float lit = clear_of_clouds(cloud_distances[c] * ray.direction, at, sun, c, cloud_distances[c] * pixel_angle);
     of_clouds = mix(of_clouds, dimming * cloud_radiance(cloud_sheets[c].x, at, ray.h, lit), opacity);
   }
   path.reflected += of_clouds;

@@ -255,6 +255,7 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
     defined.push_back(fmt::format("DISC_LOCATION {}", disc_location(view.options)));
   if (!view.options.clouds.empty())
     defined.push_back(fmt::format("CLOUDS {}", view.options.clouds.size()));
+  if (view.options.shadows && !view.options.clouds.empty()) defined.emplace_back("CLOUD_SHADOWS");
   if (!view.shadows.empty()) defined.push_back("SHADOWS");
   return program(path, defined);
 }
