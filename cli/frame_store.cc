@@ -96,11 +96,16 @@ ordered_json json_of(const FrameOptions& frame) {
                        {"cull", frame.terrain.cull},
                        {"wireframe", frame.terrain.wireframe},
                        {"boxes", static_cast<int>(frame.terrain.boxes)}};
-  if (const auto& sun = frame.second_sun)
+  if (const auto& sun = frame.second_sun) {
     json["second_sun"] = {sun->zenith, sun->azimuth, sun->irradiance};
+    if (sun->spectra) {
+      const Spectrum& irradiance = sun->spectra->solar_irradiance;
+      json["second_spectrum"] = {irradiance.wavelength_nm, irradiance.value};
+    }
+  }
   if (const auto& moon = frame.moon)
-    json["moon"] = {moon->zenith, moon->azimuth, moon->distance_m, moon->radius_m,
-                    moon->reflectance};
+    json["moon"] = {moon->zenith,   moon->azimuth,     moon->distance_m,
+                    moon->radius_m, moon->reflectance, moon->lights};
   for (const CloudLayer& clouds : frame.clouds)
     json["clouds"].push_back({clouds.altitude_m, clouds.cover, clouds.opacity});
   return json;

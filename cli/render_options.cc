@@ -110,8 +110,18 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false);
   group.option("--moon", options.moon, "ZENITH,AZIMUTH[,DISTANCE,RADIUS]",
                "A moon (degrees, from the sun; metres)");
+  group.flag("--moonlight", options.moonlight,
+             "The moon lights the scene, by its phase, and is drawn as a disc with it; the moon is "
+             "full opposite to the sun, as --sun-zenith-deg 130 --moon 50,180");
   group.option("--second-sun", options.second_sun, "ZENITH,AZIMUTH,SHARE",
-               "Another sun (degrees, from the first) and its share of the first's light");
+               "Another sun (degrees, from the first) and its share of the first's illuminance "
+               "above the air");
+  group.option("--second-sun-temperature-k", options.second_sun_temperature, "KELVIN",
+               "The second sun has the spectrum of a black body, 1000 to 100000 K; by default that "
+               "of the first");
+  group.option("--second-sun-spectrum", options.second_sun_spectrum, "FILE",
+               "The second sun has the spectrum of a CSV with the columns wavelength_nm (360 or "
+               "less to 830 or more) and irradiance_w_m2_nm, of which only the form counts");
   group
       .option(
           "--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
@@ -131,8 +141,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       "--refraction", options.refraction,
       "Suns' discs stand, and are flat, as air refracts them; ground and sky stay as straight\n"
       "rays see them");
-  group.flag("--shadows", options.shadows,
-             "Shadows of the terrain, under each sun, on the ground and in the air");
+  group.flag(
+      "--shadows", options.shadows,
+      "Shadows of the terrain, under each sun, on the ground and in the air, and of --clouds in "
+      "the air");
 }
 
 void add_terrain_options(CLI::App& command, RenderOptions& options) {
@@ -274,6 +286,9 @@ struct Pair {
 constexpr Pair kNeeds[] = {
     {"--latitude-deg", "--longitude-deg"},
     {"--longitude-deg", "--latitude-deg"},
+    {"--moonlight", "--moon"},
+    {"--second-sun-temperature-k", "--second-sun"},
+    {"--second-sun-spectrum", "--second-sun"},
     {"--date", "--time"},
     {"--time", "--date"},
     {"--utc-offset-h", "--date"},
@@ -292,6 +307,8 @@ constexpr Pair kExcludes[] = {
     {"--look-at", "--azimuth-deg"},
     {"--look-at", "--pitch-deg"},
     {"--look-at", "--view-zenith-deg"},
+    {"--moonlight", "--second-sun"},
+    {"--second-sun-temperature-k", "--second-sun-spectrum"},
     {"--date", "--sun-zenith-deg"},
     {"--date", "--sun-azimuth-deg"},
     {"--step-min", "--frames"},

@@ -26,7 +26,8 @@ struct RenderOptions {
   int frames = 0, update_frames = 0;  // 0: not typed
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
-  std::string moon, second_sun, wind = "5", atmosphere = "on";
+  std::string moon, second_sun, second_sun_temperature, second_sun_spectrum, wind = "5",
+                                                                             atmosphere = "on";
   std::vector<std::string> meshes, dems, clouds;
   std::string lod_constant, culling = "on", block_boxes = "none", overview;
   int terrain_levels = 0;  // 0: not typed
@@ -38,8 +39,8 @@ struct RenderOptions {
   std::string primaries = "rec709", table_precision = "float", table_size = "full";
   int samples_per_side = FrameOptions{}.samples_per_side;
   int orders = 0;  // 0: all
-  bool scalar = false, shadows = false, refraction = false, layers = false, panels = false,
-       gpu = false, stats = false;
+  bool scalar = false, shadows = false, moonlight = false, refraction = false, layers = false,
+       panels = false, gpu = false, stats = false;
   bool no_cache = false, stokes = false, iau = false;
   std::vector<std::string> out;
   int threads = default_threads();

@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "cli/arguments.h"
 #include "cli/inputs.h"
 #include "cli/render_arguments.h"
+#include "data_refs/spectra.h"
+#include "data_refs/table_csv.h"
 #include "model/base/input_file.h"
 #include "render/scene/material_file.h"
 
@@ -79,6 +82,28 @@ void parse_dems(const RenderOptions& options, const CLI::App& command, Scene& sc
         parse_number_within("--dem-edge-m", options.dem_edge, 0, 1e7, "a length in metres");
 }
 
+// Null: that of the first sun.
+std::shared_ptr<const SpectralData> parse_second_spectrum(const RenderOptions& options,
+                                                          const CLI::App& command) {
+  Star star;
+  if (command.count("--second-sun-temperature-k") > 0) {
+    star.spectrum = StarSpectrum::kBlackBody;
+    star.temperature_k = parse_number("--second-sun-temperature-k", options.second_sun_temperature);
+    expect_valid("--second-sun-temperature-k", options.second_sun_temperature, star);
+  } else if (command.count("--second-sun-spectrum") > 0) {
+    star.spectrum = StarSpectrum::kTabulated;
+    star.table = std::make_shared<const SpectrumTable>(
+        refs::load_table_csv(options.second_sun_spectrum, kIrradianceFormat), kIrradianceFormat);
+  } else {
+    return nullptr;
+  }
+  auto spectra = std::make_shared<const SpectralData>(under(refs::standard_spectral_data(), star));
+  if (!(illuminance_of(*spectra) > 0))
+    throw UsageError("--second-sun-spectrum", options.second_sun_spectrum,
+                     "expected irradiance between 380 and 780 nm");
+  return spectra;
+}
+
 void parse_sky_objects(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {
   if (command.count("--moon") > 0) {
     const auto values = parse_tuple("--moon", options.moon, 2, 4,
@@ -90,6 +115,7 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
       frame.moon->distance_m = values[2];
       frame.moon->radius_m = values[3];
     }
+    frame.moon->lights = options.moonlight;
     FrameOptions alone;
     alone.moon = frame.moon;
     expect_valid("--moon", options.moon, alone);
@@ -97,7 +123,8 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
   if (command.count("--second-sun") > 0) {
     const auto values =
         parse_tuple("--second-sun", options.second_sun, 3, 3, "ZENITH,AZIMUTH,SHARE");
-    frame.second_sun = SecondSun{radians(values[0]), radians(values[1]), values[2]};
+    frame.second_sun = SecondSun{radians(values[0]), radians(values[1]), values[2],
+                                 parse_second_spectrum(options, command)};
     FrameOptions alone;
     alone.second_sun = frame.second_sun;
     expect_valid("--second-sun", options.second_sun, alone);

@@ -12,6 +12,7 @@
 #include "model/numerics/angles.h"
 #include "render/dem/dem_module.h"
 #include "render/module/module.h"
+#include "render/scene/second_light.h"
 
 namespace skyfit {
 namespace {
@@ -119,7 +120,8 @@ FrameOptions Renderer::above_lowest_ground(const FrameOptions& options) const {
   }
   if (limits_) {
     std::vector<SkyPoint> suns = {{options.camera.altitude_m, options.sun_zenith, 0, 0}};
-    if (options.second_sun) suns.push_back({options.camera.altitude_m, options.second_sun->zenith});
+    if (const auto second = second_light(options))
+      suns.push_back({options.camera.altitude_m, second->zenith});
     literature::check_daylight(limits_->model, suns, limits_->highest_m);
   }
   return raised(options);

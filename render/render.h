@@ -25,6 +25,7 @@
 #include "model/atmosphere/preset.h"
 #include "model/base/content_cache.h"
 #include "model/base/input_file.h"
+#include "model/photometry/second_light.h"
 #include "model/tables/table_precision.h"
 #include "model/tables/tables.h"
 #include "render/color_space.h"
@@ -123,18 +124,24 @@ struct Scene {
   NamedFiles named_files = NamedFiles::kInItsFolder;  // which a mesh may name: its materials
 };
 
-// Another sun of the same colour and angular size in the same sky; its irradiance as a share of the
-// first's.
+// Another sun of the same angular size in the same sky; its irradiance above the air, as the eye
+// weights it (illuminance), as a share of the first's.
 struct SecondSun {
   double zenith = 1, azimuth = 1;  // azimuth relative to the first
   double irradiance = 0.2;
+  // Under its own star (photometry.h), at any irradiance; null: under the first's.
+  std::shared_ptr<const SpectralData> spectra = nullptr;
 };
 
 // A grey sphere; its centre as seen from the camera. The default is the Earth's moon.
 struct Moon {
   double zenith = 1, azimuth = 1;  // azimuth relative to the sun
-  double distance_m = 384.4e6, radius_m = 1737.4e3;
+  double distance_m = kMoonDistance_m, radius_m = kMoonRadius_m;
   double reflectance = 0.12;
+  // It lights the scene as a second sun does and is drawn like the suns, a disc with its phase, far
+  // beyond all else; the reflectance is then that of the Earth's moon, which depends on the phase
+  // (model/photometry/second_light.h).
+  bool lights = false;
 };
 
 // A thin sheet of white clouds that dims and scatters like a Lambertian surface seen from both
@@ -195,7 +202,7 @@ struct FrameOptions {
   double sun_zenith = 0.5;
   int samples_per_side = 2;  // each pixel is the mean of samples_per_side^2 samples: 1 to 4
   AerialPerspective aerial = AerialPerspective::kVolume;
-  bool shadows = false;  // of the terrain, under each sun, on the ground and in the air
+  bool shadows = false;  // of the terrain, under each sun, on ground and in air; of clouds, in air
   double wind_m_s = 5;   // 12.5 m above the sea: how rough it is, 0 to 30
   // The suns' discs stand where air refracts them to, and as flat: those of the light of one
   // wavelength, 550 nm, toward which the ground and the sky are drawn as along straight rays.

@@ -56,7 +56,8 @@ constexpr std::array<NamedView, 8> kViews = {{
 
 constexpr int kMaxSide = 16384;
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
-constexpr double kMaxLength = 1e12;        // m
+constexpr double kMaxLength = 1e12;                              // m
+const double kWidestMoonDisc = std::sin(5 * kRadiansPerDegree);  // radius over distance
 constexpr double kLeastBetweenClouds = 1;  // m: two sheets at one height have no order
 
 void require(bool good, std::string_view name, double value, std::string_view expected) {
@@ -162,6 +163,8 @@ void validate(const FrameOptions& options) {
     require_direction("second_sun", sun->zenith, sun->azimuth);
     require(within(sun->irradiance, 0, 1e3), "second_sun.irradiance", sun->irradiance,
             "0 to 1000 of the first sun's");
+    if (options.moon && options.moon->lights)
+      throw std::invalid_argument("render.moon.lights = true: must be false with a second_sun");
   }
   if (const auto& moon = options.moon) {
     require_direction("moon", moon->zenith, moon->azimuth);
@@ -169,6 +172,9 @@ void validate(const FrameOptions& options) {
     require(moon->distance_m > moon->radius_m && moon->distance_m <= kMaxLength, "moon.distance_m",
             moon->distance_m, "more than its radius and at most 1e12 m");
     require(within(moon->reflectance, 0, 1), "moon.reflectance", moon->reflectance, "0 to 1");
+    if (moon->lights)
+      require(moon->radius_m <= kWidestMoonDisc * moon->distance_m, "moon.radius_m", moon->radius_m,
+              "that of a disc of at most 10 degrees, where the moon lights");
   }
   require_clouds(options.clouds);
 }

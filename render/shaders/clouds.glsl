@@ -20,14 +20,12 @@ const mat3 kCloudTurn = mat3(0.492624970, 0.792613254, -0.359283826, -0.63649786
 // Periods of the noise between sheets a kilometre apart: clouds do not lie straight above others of the same form.
 const vec3 kSheetShift = vec3(0.61, 0.37, 0.23);
 
-// At a point above or below a sheet, relative to the planet's centre, seen along the vertical: the mean over about a
-// pixel, `distance_km` away.
-float cloud_opacity_at(vec4 sheet, vec3 from_centre, float distance_km) {
+// At a point above or below a sheet, relative to the planet's centre, seen along the vertical: the mean over about `width_km`.
+float cloud_opacity_at(vec4 sheet, vec3 from_centre, float width_km) {
   vec3 place = planet_from_site * normalize(from_centre) * bottom_km;
-  float pixel_km = distance_km * pixel_angle;
   float noise = 0.0, kept = 0.0;
   for (int i = 0; i < 4; ++i) {
-    float level = log2(max(64.0 * pixel_km / kCloudLengths[i], 1.0));
+    float level = log2(max(64.0 * width_km / kCloudLengths[i], 1.0));
     noise += kCloudWeights[i] * textureLod(cloud_noise, place / kCloudLengths[i] + vec3(0.37 * float(i)) + sheet.x * kSheetShift, level).x;
     float part = kCloudWeights[i] * clamp(1.0 - 0.25 * level, 0.0, 1.0);  // of its deviation; the fifth mipmap is flat
     kept += part * part;
@@ -63,7 +61,7 @@ float meet_clouds(ViewRay ray, float end) {
     float opacity = 0.0;
     if (!isinf(d) && d < end) {
       vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + d * ray.direction;
-      opacity = slanted(cloud_opacity_at(cloud_sheets[i], from_centre, d), dot(normalize(from_centre), ray.direction));
+      opacity = slanted(cloud_opacity_at(cloud_sheets[i], from_centre, d * pixel_angle), dot(normalize(from_centre), ray.direction));
     }
     cloud_distances[i] = d;
     cloud_opacities[i] = opacity;
@@ -72,15 +70,15 @@ float meet_clouds(ViewRay ray, float end) {
   return clear;
 }
 
-// Share of a sun's beam that gets through the sheets on its way to a place; `position` is relative to the camera. Of a place in
-// a sheet, `own`, that sheet does not count.
-float clear_of_clouds(vec3 position, Place at, vec3 sun, int own) {
+// Share of a sun's beam that gets through the sheets on its way to a place, as the mean over about `width_km`; `position` is
+// relative to the camera. Of a place in a sheet, `own`, that sheet does not count.
+float clear_of_clouds(vec3 position, Place at, vec3 sun, int own, float width_km) {
   float clear = 1.0;
   for (int i = 0; i < CLOUDS; ++i) {
     if (i == own || at.h >= cloud_sheets[i].x || at.mu_s <= 0.0) continue;
     float d = distance_to_outer_sphere(bottom_km, at.h, at.mu_s, cloud_sheets[i].x);
     vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + position + d * sun;
-    clear *= 1.0 - slanted(cloud_opacity_at(cloud_sheets[i], from_centre, length(position)), dot(normalize(from_centre), sun));
+    clear *= 1.0 - slanted(cloud_opacity_at(cloud_sheets[i], from_centre, width_km), dot(normalize(from_centre), sun));
   }
   return clear;
 }

@@ -17,14 +17,18 @@
 #ifdef CLOUDS
 #include "render/shaders/clouds.glsl"
 #endif
-#ifdef SHADOWS
-vec2 pixel_centre;  // that seen_at() is asked for
-#include "render/shaders/shadows.glsl"
+#if defined(SHADOWS) || defined(CLOUD_SHADOWS)
+#include "render/shaders/shaded_air.glsl"
 #endif
 
 layout(binding = 7) uniform usampler2D gbuffer;
 
 const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // in the frame's primaries and luminance, cd/m^2
+
+#ifdef SECOND_COLOR
+// From the second sun's light to light of the first that looks the same (render/gl/atmosphere/light_matrices.h).
+const mat4 alike_nodes = mat4(SECOND_COLOR);
+#endif
 
 const float kInfinity = uintBitsToFloat(0x7f800000u);
 
@@ -43,11 +47,32 @@ vec3 before_refraction(vec3 ray, vec4 bending, vec4 range) {
 }
 #endif
 
+#ifdef MOON_RADIUS
+#include "model/shared/moon.glsl"
+// Of a direction, `inside` the moon's radius from its middle: x: radiance over the mean, y: 1 where the sun lights the moon.
+vec2 moon_at(vec3 ray, float inside) {
+  vec3 middle = suns[1].xyz, aside = ray - dot(ray, middle) * middle;
+  float mu = sqrt(1.0 - inside * inside);
+  vec3 normal = (inside / max(length(aside), 1e-9)) * aside - mu * middle;
+  float mu_0 = dot(normal, suns[0].xyz), phase = acos(clamp(-dot(suns[0].xyz, middle), -1.0, 1.0));
+  return vec2(moon_brightness(mu, mu_0, phase), step(0.0, mu_0));
+}
+#endif
+
+// x: radiance of a disc over the mean, y: whether it shines; `inside` is the distance from the middle in radii.
+vec2 disc_at(int sun, vec3 ray, float inside) {
+#ifdef MOON_RADIUS
+  if (sun == 1) return moon_at(ray, inside);
+#endif
+  return vec2(disc_brightness(inside), 1.0);
+}
+
 // A sun's disc with its limb darkening, whose mean over the disc is 1, as the mean over a square of the picture about a ray
 // that is not normalised, with the square's sides. x: the disc, y: the share of the square that it covers. By points on
 // rows and columns of 8, the edge softened over their distance.
 vec2 disc(vec3 site_ray, vec3 across, vec3 along, int sun) {
   const int kSide = 8;
+  float radius = disc_radius(sun);
   float softness = length(across) / (float(kSide) * length(site_ray));
   vec2 sum = vec2(0.0);
   for (int i = 0; i < kSide * kSide; ++i) {
@@ -57,13 +82,13 @@ vec2 disc(vec3 site_ray, vec3 across, vec3 along, int sun) {
     ray = before_refraction(ray, bending[2 * sun], bending[2 * sun + 1]);
 #endif
     float away = 2.0 * asin(clamp(0.5 * length(ray - suns[sun].xyz), 0.0, 1.0));
-    float cover = clamp((kSunRadius - away) / softness + 0.5, 0.0, 1.0);
+    float cover = clamp((radius - away) / softness + 0.5, 0.0, 1.0);
     // Where the covered part has its mean; near the limb, which is steep.
-    float inside = clamp((away - 0.3 * (1.0 - cover) * softness) / kSunRadius, 0.0, 1.0);
-    sum += cover * vec2(disc_brightness(inside), 1.0);
+    float inside = clamp((away - 0.3 * (1.0 - cover) * softness) / radius, 0.0, 1.0);
+    sum += cover * disc_at(sun, ray, inside);
   }
   // An edge that rises evenly over the width w makes a disc larger by w^2 / (12 r^2).
-  sum /= 1.0 + softness * softness / (12.0 * kSunRadius * kSunRadius);
+  sum /= 1.0 + softness * softness / (12.0 * radius * radius);
   return sum / float(kSide * kSide);
 }
 #endif
@@ -144,7 +169,7 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
   lit *= sunlit(surface.d * ray.direction, surface.normal, i);
 #endif
 #ifdef CLOUDS
-  lit *= clear_of_clouds(surface.d * ray.direction, end, sun, kNoCloud);
+  lit *= clear_of_clouds(surface.d * ray.direction, end, sun, kNoCloud, surface.d * pixel_angle);
 #endif
 #ifdef VOLUME
   Place at = end;
@@ -181,7 +206,7 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   }
 #ifdef DISC
   vec2 disc_and_cover = disc(square_ray, square_across, square_along, i);
-  path.disc = suns[i].w * clear * path.transmittance * (disc_and_cover.x / kSunSolidAngle);
+  path.disc = suns[i].w * clear * path.transmittance * (disc_and_cover.x / disc_solid_angle(i));
   path.disc_cover = disc_and_cover.y;
 #endif
 #endif
@@ -190,6 +215,9 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #endif
 #ifdef SHADOWS
   if (ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air, i), 0.0);
+#endif
+#ifdef CLOUD_SHADOWS
+  if (ray.air) path.in_scatter = max(path.in_scatter - shaded_by_clouds(ray, start, nu, in_air, i), 0.0);
 #endif
 #ifdef CLOUDS
   // Of the light behind a cloud the cloud lets the rest pass; from the farthest sheet to the nearest.
@@ -207,8 +235,11 @@ PathLight light_of(int i, ViewRay ray, float clear) {
     vec4 before = radiance(
         scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground)), nu);
 #endif
+#ifdef CLOUD_SHADOWS
+    before = max(before - shaded_before_sheets[c], 0.0);
+#endif
     path.in_scatter = mix(path.in_scatter, min(before, path.in_scatter), opacity);
-    float lit = clear_of_clouds(cloud_distances[c] * ray.direction, at, sun, c);
+    float lit = clear_of_clouds(cloud_distances[c] * ray.direction, at, sun, c, cloud_distances[c] * pixel_angle);
     of_clouds = mix(of_clouds, dimming * cloud_radiance(cloud_sheets[c].x, at, ray.h, lit), opacity);
   }
   path.reflected += of_clouds;
@@ -291,6 +322,16 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   PathLight other = light_of(1, ray, surface, clear);
 #else
   PathLight other = light_of(1, ray, clear);
+#endif
+#ifdef SECOND_COLOR
+  other.in_scatter = alike_nodes * other.in_scatter;
+  other.reflected = alike_nodes * other.reflected;
+#ifdef LAYERS
+  other.direct = alike_nodes * other.direct;
+#endif
+#ifdef DISC
+  other.disc = alike_nodes * other.disc;
+#endif
 #endif
   path.in_scatter += other.in_scatter;
   path.reflected += other.reflected;

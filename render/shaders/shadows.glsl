@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows that the terrain casts under each sun, on surfaces and in the air: maps of the depth seen from the sun, each of a
-// larger part of the terrain about the camera.
-#include "render/shaders/densities.glsl"
+// Shadows that the terrain casts under each sun: maps of the depth seen from the sun, each of a larger part of the terrain
+// about the camera.
 #include "render/shaders/view_ray.glsl"
 
 layout(binding = 12) uniform sampler2DArrayShadow shadow_maps;
@@ -58,40 +57,4 @@ float sunlit(vec3 position, vec3 normal, int sun) {
     sum += lit_in_map(vec4(place.xy + corner * texel, place.zw), sun);
   }
   return mix(1.0, 0.25 * sum, shadow_strength(position, sun));
-}
-
-// Of the light that a sun's beam scatters into a view ray up to a distance, as the model has it lit all along: the part that
-// comes from where the beam does not reach. Steps along the ray, begun at another place in each pixel.
-vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km, int sun) {
-  const int kSteps = 24;
-  float reach = min(length_km, shadow_reach_km - ray.entry);
-  if (reach <= 0.0) return vec4(0.0);
-  float step_km = reach / float(kSteps);
-  // Jimenez 2014: interleaved gradient noise.
-  float begin = fract(52.9829189 * fract(dot(pixel_centre, vec2(0.06711056, 0.00583715))));
-  vec4 sum = vec4(0.0);
-#ifdef CLOSED_FORM
-  vec4 before = vec4(0.0);  // light of the path up to a step
-#endif
-  for (int i = 0; i < kSteps; ++i) {
-    float t = (float(i) + begin) * step_km;
-    vec3 position = (ray.entry + t) * ray.direction;
-    // The air above level ground is not in its shadow.
-    vec4 place = place_off(position, normalize(position + vec3(0.0, 0.0, bottom_km + camera_km)), sun);
-    float lit = place.z < 0.0 ? 1.0 : lit_in_map(place, sun);
-    float shaded = shadow_strength(position, sun) * (1.0 - lit);
-#ifdef CLOSED_FORM
-    float end_km = float(i + 1) * step_km;
-    vec4 to_end = max(closed_form_beam_inscatter(start, nu, place_along(start, nu, end_km).h, end_km), before);
-    sum += shaded * (to_end - before);
-    before = to_end;
-#else
-    Place at = place_along(start, nu, t);
-    vec4 light = transmittance_between(start, at, ray.hits_ground) * sun_transmittance(at.h, at.mu_s);
-    Scattering here = scattering_at(at.h);
-    here.rayleigh_like *= own_air_phase(nu);
-    sum += (shaded * step_km) * light * radiance(here, nu);
-#endif
-  }
-  return sum;
 }

@@ -11,7 +11,7 @@ void main() {
   vec3 right = normalize(cross(sun, abs(sun.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   // The disc's edge is softened over a pixel.
-  vec2 offset = tan(kSunRadius + pixel_angle) * corner;
+  vec2 offset = tan(disc_radius(gl_InstanceID) + pixel_angle) * corner;
   vec3 eye = (sun + offset.x * right + offset.y * cross(right, sun)) * site_from_view;
   pass_ray(eye.xy / (tangent * -eye.z));
   pass_constants();

@@ -8,6 +8,20 @@ const int kSuns = 2;
 const int kSuns = 1;
 #endif
 
+// Angular radius of a sun's disc, or of the moon's that is the second light.
+float disc_radius(int i) {
+#ifdef MOON_RADIUS
+  if (i == 1) return float(MOON_RADIUS);
+#endif
+  return kSunRadius;
+}
+float disc_solid_angle(int i) {
+#ifdef MOON_RADIUS
+  if (i == 1) return 4.0 * kPi * pow(sin(0.5 * float(MOON_RADIUS)), 2.0);
+#endif
+  return kSunSolidAngle;
+}
+
 // Of each sun where and how its disc is refracted, render/gl/atmosphere/disc_bending.h.
 #ifdef REFRACTION
 #define BENDING_CONSTANTS(HOW) HOW vec4 bending[2 * kSuns];
@@ -16,7 +30,7 @@ const int kSuns = 1;
 #endif
 
 // Of a frame. Half the field of view; the camera's height; a pixel's angle, rad; the farthest distance of the volume; the variance of the sea's slopes; of each
-// sun the unit vector in the camera frame and the irradiance as a share of the first one's.
+// sun the unit vector in the camera frame and the illuminance as a share of the first one's.
 #define VIEW_CONSTANTS(HOW)  \
   HOW mat3 site_from_view;   \
   HOW mat3 planet_from_site; \

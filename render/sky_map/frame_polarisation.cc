@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/numerics/angles.h"
+#include "render/scene/second_light.h"
 #include "render/sky_map/light_grid.h"
 #include "render/sky_map/sky_map.h"
 
@@ -26,11 +27,13 @@ struct Direction {
 
 struct Sun {
   double zenith, azimuth, share;
+  LuminanceRule rule;  // of the first sun's illuminance
 };
 
 std::vector<LinearLight> by_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
-                                 const LuminanceRule& rule, double altitude_m, const Sun& sun,
+                                 double altitude_m, const Sun& sun,
                                  const std::vector<Direction>& directions) {
+  const LuminanceRule& rule = sun.rule;
   const double r = atmosphere.bottom_radius_m + altitude_m;
   std::vector<std::size_t> met;  // directions whose rays meet the air
   std::vector<SkyPoint> points;
@@ -55,8 +58,9 @@ std::vector<LinearLight> by_rays(const SkyModel& model, const Atmosphere<double>
 }
 
 std::vector<LinearLight> by_grid(const SkyModel& model, const Atmosphere<double>& atmosphere,
-                                 const LuminanceRule& rule, double altitude_m, const Sun& sun,
+                                 double altitude_m, const Sun& sun,
                                  const std::vector<Direction>& directions) {
+  const LuminanceRule& rule = sun.rule;
   const MapChannels channels{{"Y"}, rule.nodes, {{rule.weight.begin(), rule.weight.end()}}, {0}};
   SkyMapOptions options;
   options.altitude_m = altitude_m;
@@ -90,14 +94,14 @@ void add_polarisation(const SkyModel& model, const Atmosphere<double>& atmospher
     directions.push_back({kRadiansPerDegree * double{frame.view_zenith_deg[i]},
                           kRadiansPerDegree * double{frame.view_azimuth_deg[i]}});
   }
-  std::vector<Sun> suns = {{options.sun_zenith, 0, 1}};
-  if (const auto& second = options.second_sun)
-    suns.push_back({second->zenith, second->azimuth, second->irradiance});
+  std::vector<Sun> suns = {{options.sun_zenith, 0, 1, rule}};
+  if (const auto second = second_light(options))
+    suns.push_back({second->zenith, second->azimuth, second->share, second->rule(rule)});
   const bool is_outside = atmosphere.bottom_radius_m + altitude_m > atmosphere.top_radius_m;
   std::vector<LinearLight> sum(pixels.size());
   for (const Sun& sun : suns) {
     const std::vector<LinearLight> light =
-        (is_outside ? by_rays : by_grid)(model, atmosphere, rule, altitude_m, sun, directions);
+        (is_outside ? by_rays : by_grid)(model, atmosphere, altitude_m, sun, directions);
     for (std::size_t k = 0; k < sum.size(); ++k) {
       sum[k].i += sun.share * light[k].i;
       sum[k].q += sun.share * light[k].q;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad input ends with one line that says where, what was found and what was expected, a status that
 // is not 0, and nothing left behind.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "data_refs/references.h"

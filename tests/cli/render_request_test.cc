@@ -123,6 +123,17 @@ TEST(RenderRequest, SceneOptions) {
   EXPECT_EQ(r.tone.exposure, 1e-4);
 }
 
+TEST(RenderRequest, SecondLights) {
+  const RenderRequest red = request(
+      {"--second-sun", "70,90,0.5", "--second-sun-temperature-k", "3000", "--out", "x.png"});
+  ASSERT_TRUE(red.frame.second_sun->spectra);
+  const Spectrum& light = red.frame.second_sun->spectra->solar_irradiance;
+  EXPECT_GT(light.at(700), 2 * light.at(500));
+  EXPECT_FALSE(request({"--second-sun", "70,90,0.5", "--out", "x.png"}).frame.second_sun->spectra);
+  EXPECT_FALSE(request({"--moon", "60,0", "--out", "x.png"}).frame.moon->lights);
+  EXPECT_TRUE(request({"--moon", "60,0", "--moonlight", "--out", "x.png"}).frame.moon->lights);
+}
+
 TEST(RenderRequest, WithoutAtmosphereNothingScatters) {
   EXPECT_FALSE(
       request({"--out", "x.png"}).sequence.keyframes[0].preset.atmosphere.constituents.empty());

@@ -249,6 +249,18 @@ TEST_F(RenderTest, ScenesThatCannotBe) {
                         {"--moon \"10,20,30,40\"", "moon.distance_m", "30"});
   expect_render_refusal({"--second-sun", "10,20,-1"},
                         {"--second-sun \"10,20,-1\"", "second_sun.irradiance", "-1"});
+  const std::string second = "--second-sun=10,20,0.5", hot = "--second-sun-temperature-k";
+  expect_render_refusal({second, hot, "500"}, {hot + " \"500\"", "1000 to 100000 K"});
+  expect_render_refusal({hot, "5000"}, {hot, "with --second-sun"});
+  expect_render_refusal({second, "--second-sun-spectrum", "nowhere.csv"}, {"nowhere.csv"});
+  write("dark.csv", "wavelength_nm,irradiance_w_m2_nm\n300,0\n900,0\n");
+  expect_render_refusal({second, "--second-sun-spectrum", "dark.csv"},
+                        {"--second-sun-spectrum", "dark.csv", "between 380 and 780 nm"});
+  expect_render_refusal({"--moonlight"}, {"--moonlight", "with --moon"});
+  expect_render_refusal({"--moon", "10,20", "--moonlight", second},
+                        {"--moonlight", "without --second-sun"});
+  expect_render_refusal({"--moon", "10,20,4e8,1e8", "--moonlight"},
+                        {"--moon \"10,20,4e8,1e8\"", "moon.radius_m", "10 degrees"});
   expect_render_refusal({"--clouds", "2"}, {"--clouds \"2\"", "clouds.cover", "2"});
   expect_render_refusal({"--aerial", "fog"}, {"--aerial", "fog", "pixel or volume"});
   expect_render_refusal({"--tone", "sepia"}, {"--tone", "sepia", "filmic, exponential or clip"});

@@ -15,7 +15,8 @@
 namespace skyfit {
 namespace {
 
-constexpr double kFloatSum = 1e-5;  // sums and products of floats in another order
+constexpr double kFloatSum = 1e-5;     // sums and products of floats in another order
+constexpr double kShadedSteps = 0.05;  // 32 steps, of small tables
 
 TEST(Clouds, OfNoCoverAreNone) {
   for (const char* view : {"ground", "orbit"}) {
@@ -171,6 +172,48 @@ TEST(SlowTwoSheets, ShadeTheGroundByTheProductOfWhatEachDoes) {
     shaded += product < 0.5 * lit ? 1 : 0;
   }
   EXPECT_GT(shaded, 20);
+}
+
+// Light that met the air once alone, so that none is left below a deck that no beam gets through.
+TEST(SlowCloudShadows, LeaveNoSingleScatteringBelowAClosedDeck) {
+  Renderer& with = renderer();
+  with.set_atmosphere(earth_clear(), compute_tables(earth_clear().atmosphere,
+                                                    color_rule(refs::standard_spectral_data()),
+                                                    kSmallTables, 2, {}, {.orders = 1}));
+  for (const double zenith : {40.0, 86.0}) {
+    FrameOptions options = with_clouds(
+        options_at({300, zenith * kDegree, 1, 0.1}, 50 * kDegree, 8, 8), {{2000, 1, 1}});
+    const Frame lit = draw_layers(options, with);
+    options.shadows = true;
+    const Frame shaded = draw_layers(options, with);
+    double most = 0;
+    for (std::size_t i = 0; i < lit.luminance.size(); ++i)
+      most = std::max(most, luminance_of(shaded.layers->in_scatter, i) /
+                                luminance_of(lit.layers->in_scatter, i));
+    std::printf("[ shade  ] %.3g of the light at %g deg is left\n", most, zenith);
+    EXPECT_LT(most, kShadedSteps) << zenith;
+  }
+  with.set_atmosphere(earth_clear(), small_tables());
+}
+
+// Shadows take light away, the more the more clouds there are, and none without clouds.
+TEST(CloudShadows, TakeLightAndNeverAddIt) {
+  FrameOptions options = with_clouds(options_at({1500, 84 * kDegree, 0.3, 1}, 70 * kDegree, 48, 32),
+                                     {{3000, 0.5, 0.9}});
+  const Frame lit = draw_layers(options);
+  options.shadows = true;
+  const Frame shaded = draw_layers(options);
+  int darker = 0;
+  for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
+    const double before = luminance_of(lit.layers->in_scatter, i),
+                 after = luminance_of(shaded.layers->in_scatter, i);
+    EXPECT_LE(after, before * (1 + kFloatSum)) << "pixel " << i;
+    darker += after < 0.95 * before ? 1 : 0;
+  }
+  std::printf("[ shade  ] %d of %zu pixels are darker by 5 %%\n", darker, lit.luminance.size());
+  EXPECT_GT(darker, 100);
+  const Frame terrain_alone = draw_layers(with_clouds(options, {}));
+  EXPECT_EQ(draw_layers(with_clouds(options, {{3000, 0.5, 0}})).rgb, terrain_alone.rgb);
 }
 
 TEST(TwoSheets, OfOneHeightAreRefused) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The polarisation of a frame's sky is that of the model in the direction of each pixel, inside the
-// atmosphere and outside, on both sides of the sun, of two suns their sum.
+// atmosphere and outside, on both sides of the sun, of two suns, the second of
+// another colour, their sum.
 #include "render/sky_map/frame_polarisation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -35,6 +37,12 @@ void add_light(const SkyModel& model, const LuminanceRule& rule, double share,
       light.u += weight * values.u.at(p, k);
     }
   }
+}
+
+double illuminance_of(const LuminanceRule& rule) {
+  double sum = 0;
+  for (const double weight : rule.weight) sum += weight;
+  return sum;
 }
 
 struct Case {
@@ -76,8 +84,11 @@ TEST_P(FramePolarisationOf, SkyIsThatOfTheModel) {
   ASSERT_GT(pixels.size(), 10u);
   std::vector<Light> expected;
   add_light(*model, rule, 1, points, expected);
-  if (const auto& second = options.second_sun)
-    add_light(*model, rule, second->irradiance, of_second, expected);
+  if (const auto& second = options.second_sun) {
+    const LuminanceRule own = second->spectra ? luminance_rule(*second->spectra) : rule;
+    const double share = second->irradiance * illuminance_of(rule) / illuminance_of(own);
+    add_light(*model, own, share, of_second, expected);
+  }
   double worst = 0, most_polarised = 0;
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     const std::size_t i = pixels[k];
@@ -98,9 +109,20 @@ TEST_P(FramePolarisationOf, SkyIsThatOfTheModel) {
   EXPECT_LT(worst, kInterpolation);
 }
 
-constexpr SecondSun kSecond = {.zenith = 1.2, .azimuth = 0.9, .irradiance = 0.4};
+SecondSun red_sun() {
+  Star star;
+  star.spectrum = StarSpectrum::kBlackBody;
+  star.temperature_k = 3000;
+  return {
+      .zenith = 1.2,
+      .azimuth = 0.9,
+      .irradiance = 0.4,
+      .spectra = std::make_shared<const SpectralData>(under(refs::standard_spectral_data(), star))};
+}
+
+const SecondSun kSecond = {.zenith = 1.2, .azimuth = 0.9, .irradiance = 0.4};
 INSTANTIATE_TEST_SUITE_P(Views, FramePolarisationOf,
-                         ::testing::Values(Case{"ground", kSecond}, Case{"10km", std::nullopt},
+                         ::testing::Values(Case{"ground", red_sun()}, Case{"10km", std::nullopt},
                                            Case{"limb", kSecond}));
 
 }  // namespace

@@ -12,10 +12,12 @@
 
 #include "model/shared/sea.h"
 #include "render/gl/atmosphere/disc_bending.h"
+#include "render/gl/atmosphere/light_matrices.h"
 #include "render/gl/context/shader.h"
 #include "render/gl/context/uniform_block.h"
 #include "render/gl/context/uniforms.h"
 #include "render/gl/passes/frame_setup.h"
+#include "render/scene/second_light.h"
 
 namespace skyfit {
 namespace {
@@ -75,19 +77,6 @@ double thickness_m(const AtmosphereTables& tables) {
   return tables.atmosphere.top_radius_m - tables.atmosphere.bottom_radius_m;
 }
 
-// Columns: a node each.
-std::array<double, 16> light_from_nodes(const ColorRule& color, const ColorSpace& space) {
-  std::array<double, 16> columns{};
-  for (std::size_t node = 0; node < 4; ++node) {
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t k = 0; k < 3; ++k)
-        columns[4 * node + row] += space.from_xyz[row][k] * color.xyz_from_nodes[k][node];
-    }
-    columns[4 * node + 3] = color.xyz_from_nodes[1][node];
-  }
-  return columns;
-}
-
 std::vector<ShaderStage> stages_of(const std::string& path,
                                    const std::vector<std::string>& defined) {
   if (path == kFillVolume || path == kCompute) return {{GL_COMPUTE_SHADER, path}};
@@ -109,7 +98,7 @@ bool AtmosphereView::volume(const AtmosphereTables& tables) const {
          bruneton.in_scatter == BrunetonInScatter::kExact &&
          !is_closed_form(tables.sky_rays.mapping) &&
          tables.sky_rays.mapping != SkyRayMapping::kONeil &&
-         options.aerial == AerialPerspective::kVolume && only_ground && !options.second_sun &&
+         options.aerial == AerialPerspective::kVolume && only_ground && !second_light(options) &&
          options.camera.altitude_m <= std::min(kVolumeAbove, thickness) && highest_m <= thickness &&
          !has_dense_layers(shells_of(tables.atmosphere, Keep::kWhatMatters));
 }
@@ -164,7 +153,15 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
 
 AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
   Defined defined = atmosphere_defines(tables_, codes_);
-  if (options.second_sun) defined.push_back("SECOND_SUN");
+  if (const auto second = second_light(options)) {
+    defined.push_back("SECOND_SUN");
+    if (second->has_own_color()) {
+      const std::array<double, 16> alike = alike_nodes(tables_.color, second->rule(tables_.color));
+      defined.push_back(fmt::format("SECOND_COLOR {:.9g}", fmt::join(alike, ", ")));
+    }
+    if (second->moon_radius)
+      defined.push_back(fmt::format("MOON_RADIUS {:.9g}", *second->moon_radius));
+  }
   if (options.refraction) defined.push_back("REFRACTION");
   if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
   return defined;
@@ -181,18 +178,21 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   block.set("pixel_angle", pixel_rad(options));
   block.set("volume_km", view.farthest_km);
   block.set("slope_variance", SharedSea<double>{}.sea_slope_variance(options.wind_m_s));
+  const auto second = second_light(options);
   std::vector<glm::vec4> suns;
   for (const glm::dvec3& sun : directions_of_suns(options)) suns.emplace_back(sun, 1);
-  if (options.second_sun) suns.back().w = static_cast<float>(options.second_sun->irradiance);
+  if (second) suns.back().w = static_cast<float>(second->share);
   block.set("suns", std::span<const glm::vec4>(suns));
   if (options.refraction) {
     constexpr double kWavelength = 550;  // of which the bending is that of all
     if (!refraction_) refraction_.emplace(tables_.atmosphere, kWavelength);
     std::vector<glm::vec4> bending;
-    for (const glm::vec4& sun : suns) {
-      const double zenith = std::atan2(glm::length(glm::dvec2(sun.x, sun.y)), double{sun.z});
-      std::ranges::copy(disc_bending(*refraction_, options.camera.altitude_m, zenith,
-                                     tables_.atmosphere.star.angular_radius_rad()),
+    for (std::size_t i = 0; i < suns.size(); ++i) {
+      const double zenith =
+          std::atan2(glm::length(glm::dvec2(suns[i].x, suns[i].y)), double{suns[i].z});
+      const double star = tables_.atmosphere.star.angular_radius_rad(),
+                   radius = i > 0 ? second->moon_radius.value_or(star) : star;
+      std::ranges::copy(disc_bending(*refraction_, options.camera.altitude_m, zenith, radius),
                         std::back_inserter(bending));
     }
     block.set("bending", std::span<const glm::vec4>(bending));
@@ -203,7 +203,7 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
 
 void AtmospherePass::add_sky_view(const FrameOptions& options, FrameGraph& graph) const {
   const glm::ivec3 size = sky_view_size(tables_);
-  const int suns = options.second_sun ? 2 : 1,
+  const int suns = second_light(options) ? 2 : 1,
             classes = static_cast<int>(tables_.phases.others.size());
   for (const std::string& target : kSkyViewWrites)
     graph.add_target(target, GL_RGBA32F, size.x * suns * classes, size.y + size.z);
@@ -255,6 +255,7 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
     defined.push_back(fmt::format("DISC_LOCATION {}", disc_location(view.options)));
   if (!view.options.clouds.empty())
     defined.push_back(fmt::format("CLOUDS {}", view.options.clouds.size()));
+  if (view.options.shadows && !view.options.clouds.empty()) defined.emplace_back("CLOUD_SHADOWS");
   if (!view.shadows.empty()) defined.push_back("SHADOWS");
   return program(path, defined);
 }
@@ -360,7 +361,7 @@ void AtmospherePass::draw_suns(const AtmosphereView& view) {
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_EQUAL);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, view.options.second_sun ? 2 : 1);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, second_light(view.options) ? 2 : 1);
   if (view.read) glColorMaski(disc_location(view.options), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 

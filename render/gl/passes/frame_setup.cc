@@ -9,6 +9,7 @@
 
 #include "render/gl/atmosphere/atmosphere_pass.h"
 #include "render/gl/passes/gbuffer.h"
+#include "render/scene/second_light.h"
 
 namespace skyfit {
 namespace {
@@ -48,7 +49,8 @@ std::vector<glm::dvec3> directions_of_suns(const FrameOptions& options) {
                       std::cos(zenith));
   };
   std::vector<glm::dvec3> suns = {direction(options.sun_zenith, 0)};
-  if (const auto& sun = options.second_sun) suns.push_back(direction(sun->zenith, sun->azimuth));
+  if (const auto second = second_light(options))
+    suns.push_back(direction(second->zenith, second->azimuth));
   return suns;
 }
 

@@ -19,7 +19,7 @@ int affordable_samples(const FrameOptions& options);
 // The textures of a frame of so many samples.
 void add_targets(int width, int height, bool layers, FrameGraph& graph);
 
-// Unit vectors in the camera frame, one or two.
+// Unit vectors in the camera frame, one or two: of the sun and of the second light.
 std::vector<glm::dvec3> directions_of_suns(const FrameOptions& options);
 
 std::int64_t device_clock_ns();

@@ -278,7 +278,7 @@ class GlRenderer final : public FrameDrawer {
       statistics.triangles += meshes_[i].triangles();
     }
     current_.moon.reset();
-    if (!options.moon) return;
+    if (!options.moon || options.moon->lights) return;  // then it is drawn as suns are
     if (!moon_ || moon_reflectance_ != options.moon->reflectance) {
       moon_ = ObjectPass::upload_mesh(moon_mesh(*options.moon));
       moon_reflectance_ = options.moon->reflectance;
