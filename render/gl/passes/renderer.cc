@@ -19,6 +19,7 @@
 #include "render/gl/passes/passes.h"
 #include "render/gl/passes/resolve.h"
 #include "render/gl/passes/shadow_pass.h"
+#include "render/gl/passes/submitted_frame.h"
 #include "render/gl/terrain/block_boxes.h"
 #include "render/gl/terrain/color_reflectance.h"
 #include "render/gl/terrain/map_ground.h"
@@ -160,20 +161,6 @@ class GlRenderer final : public FrameDrawer {
     sampled.samples_per_side = affordable_samples(options);
     return sampled;
   }
-
-  // What the device draws while the next frame is prepared.
-  struct SubmittedFrame {
-    FrameStatistics statistics;
-    std::int64_t begin_ns;  // by the device's clock
-    StartedPasses passes;
-
-    FrameStatistics wait() const {
-      FrameStatistics finished = statistics;
-      finished.passes = passes.times();
-      finished.milliseconds = 1e-6 * static_cast<double>(passes.end_ns() - begin_ns);
-      return finished;
-    }
-  };
 
   // `read`: distances are wanted, too.
   SubmittedFrame start_frame(const FrameOptions& options, bool read,
