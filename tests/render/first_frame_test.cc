@@ -30,6 +30,17 @@ const Feature kFeatures[] = {
     {"shadows", [](FrameOptions& options) { options.shadows = true; }},
     {"clouds", [](FrameOptions& options) { options.clouds.emplace_back(); }},
     {"moon and second sun", add_sky_objects},
+    {"shadows of clouds",
+     [](FrameOptions& options) {
+       options.shadows = true;
+       options.clouds.emplace_back();
+     }},
+    {"moonlight",
+     [](FrameOptions& options) {
+       options.sun_zenith = 120 * kDegree;
+       options.moon = Moon{.zenith = 1, .azimuth = 3, .lights = true};
+     }},
+    {"refraction", [](FrameOptions& options) { options.refraction = true; }},
     {"layers", [](FrameOptions& options) { options.layers = true; }},
     {"air by the pixel",
      [](FrameOptions& options) { options.aerial = AerialPerspective::kPerPixel; }},
