@@ -11,110 +11,10 @@ mkdir -p "$out"
 page=$out/index.html
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-commands=""
+# shellcheck source=docs/gallery/page.sh
+source "$(dirname "$0")/page.sh"
 
-escaped() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
-
-# picture NAME ARGUMENTS: one frame or strip, kept as NAME.jpg; its command goes under the figure.
-picture() {
-  local name=$1
-  shift
-  commands+="skyfit render $* --out $name.png"$'\n'
-  "$skyfit" render "$@" --out "$scratch/$name.png" >/dev/null
-  oiiotool "$scratch/$name.png" --ch R,G,B --compression jpeg:88 -o "$out/$name.jpg"
-  pictures+=("$name")
-}
-
-# both NAME MODEL ARGUMENTS: the picture by the source's model and by the reference.
-both() {
-  local name=$1 model=$2
-  shift 2
-  picture "$name-${model//:/-}" --model "$model" "$@"
-  picture "$name-reference" "$@"
-}
-
-# panel NAME PANEL ARGUMENTS: one part of a frame, as `skyfit render --panels` writes it.
-panel() {
-  local name=$1 part=$2
-  shift 2
-  commands+="skyfit render $* --panels --out $name.png    # $name.$part.png"$'\n'
-  "$skyfit" render "$@" --panels --out "$scratch/$name.png" >/dev/null
-  oiiotool "$scratch/$name.$part.png" --ch R,G,B --compression jpeg:88 -o "$out/$name.jpg"
-  pictures+=("$name")
-}
-
-# plotted NAME ARGUMENTS: a figure of `skyfit plot`.
-plotted() {
-  local name=$1
-  shift
-  commands+="skyfit plot $* --out $name.png"$'\n'
-  "$skyfit" plot "$@" --out "$scratch/$name.png" >/dev/null
-  oiiotool "$scratch/$name.png" --ch R,G,B --compression jpeg:88 -o "$out/$name.jpg"
-  pictures+=("$name")
-}
-
-source_of() { # ID TITLE
-  printf '<h2 id="%s">%s</h2>\n' "$1" "$(escaped <<<"$2")" >>"$page"
-}
-
-begin() {
-  pictures=()
-  commands=""
-  table=""
-}
-
-# figure TITLE WHAT-IS-TO-BE-SEEN CAPTION...: with the pictures, or a table, since begin, each with its caption.
-figure() {
-  local title=$1 seen=$2 i
-  shift 2
-  {
-    printf '<section><h3>%s</h3>\n<p>%s</p>\n<div class="row">\n' "$(escaped <<<"$title")" "$(escaped <<<"$seen")"
-    for i in "${!pictures[@]}"; do
-      printf '<figure><img loading="lazy" src="%s.jpg" alt="%s"><figcaption>%s</figcaption></figure>\n' \
-        "${pictures[$i]}" "$(escaped <<<"$title")" "$(escaped <<<"${1-}")"
-      shift || true
-    done
-    [[ -z $table ]] || printf '<pre>%s</pre>\n' "$table"
-    printf '</div>\n<details><summary>Commands</summary><pre>%s</pre></details></section>\n' "$(escaped <<<"$commands")"
-  } >>"$page"
-}
-
-# text TITLE WHAT-IS-TO-BE-SEEN ARGUMENTS: what a command prints.
-text() {
-  local title=$1 seen=$2
-  shift 2
-  {
-    printf '<section><h3>%s</h3>\n<p>%s</p>\n<pre>skyfit %s\n\n' "$(escaped <<<"$title")" "$(escaped <<<"$seen")" "$(escaped <<<"$*")"
-    "$skyfit" "$@" | escaped
-    printf '</pre></section>\n'
-  } >>"$page"
-}
-
-cat >"$page" <<'HTML'
-<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>skyfit: the figures of its sources</title>
-<style>
-:root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 0 auto; padding: 1.5rem 1rem 4rem; }
-h2 { margin-top: 3rem; border-bottom: 1px solid gray; }
-.row { display: flex; flex-wrap: wrap; gap: 0.6rem; }
-figure { margin: 0; }
-figure img { max-width: 100%; display: block; }
-figcaption { font-size: 0.85rem; opacity: 0.75; }
-pre { overflow: auto; font-size: 0.8rem; }
-</style>
-</head>
-<body>
-<h1>The figures of the sources</h1>
-<p>Each picture is made by the command under it, from the model of the source and from skyfit's <code>reference</code>
-(spherical, polarised, all orders of scattering) in the same atmosphere. <code>./run gallery</code> makes the page anew. What
-the sources do not state (sun, place, exposure) is chosen here. The last section names what cannot be shown.</p>
-HTML
-
+begin_page
 small=(--size 320x180)
 strip=(--size 200x150)
 
@@ -135,13 +35,7 @@ materials() { # NORMAL-OF-GRASS NORMAL-OF-STONE
   printf '{"skyfit_materials": 1,\n "soil": {"color": "grass.png"%s, "near_m": 2, "far_m": 60},\n "rock": {"color": "stone.png"%s, "near_m": 8, "far_m": 120}}\n' \
     "$1" "$2" >"$ground/materials.json"
 }
-# textured NAME ARGUMENTS: a picture with them; the folder is called "ground" under the figure.
-textured() {
-  local name=$1
-  shift
-  picture "$name" --textures "$ground" "$@"
-  commands=${commands//$ground/ground}
-}
+textured() { picture "$1" --textures "$ground" "${@:2}"; } # NAME ARGUMENTS: a picture with them
 materials ', "normal": "grass-normal.png"' ', "normal": "stone-normal.png"'
 begin
 textured s11-4-13-far "${s11[@]}" --model bruneton --view valley --sun-zenith-deg 60 "${small[@]}"
@@ -172,7 +66,7 @@ draw_times() {
     END { for (i = 0; i < 8; ++i)
             if (i % 4) printf "%-8s %5d %8s %11d %8d %10.1f\n", view, 30 + 30 * (i % 4), i < 4 ? "on" : "off", triangles[i], blocks[i], ms[i] }'
 }
-timed=("${s11[@]}" --model bruneton --strip lod-constant=58,60,90,120 --rows "culling=on,off" --stats "${small[@]}")
+timed=("${s11[@]}" --model bruneton --strip "lod-constant=58,60,90,120" --rows "culling=on,off" --stats "${small[@]}")
 begin
 table="view         C  culling   triangles   blocks    draw ms"$'\n'
 for view in valley 10km orbit; do
@@ -180,7 +74,21 @@ for view in valley 10km orbit; do
   commands+="skyfit render ${timed[*]} --view $view --out times.png"$'\n'
 done
 figure "4-25: time over the constant of division, with and without culling" \
-  "Culling gains most near the ground, 5 to 10 times, and least from orbit. The time is that of the pass that draws the ground, by the software renderer, the least of three runs."
+  "Without culling, 21 to 26 times as many triangles are drawn in the valley, 7 to 8 times from 10 km and from orbit. The time is that of the pass that draws the ground, by the software renderer, the least of three runs; other work of the machine adds to it."
+
+begin
+for view in valley 10km; do
+  panels "s11-4-40-$view" "albedo in-scatter reflected picture" "${s11[@]}" --model bruneton --view "$view" --size 240x135
+done
+figure "4-40: the parts of a picture" \
+  "Light of the air (in-scatter) and light of the ground as it arrives at the eye (reflected) add up to the picture, before the tone curve. Albedo is the share of sunlight that the ground reflects." \
+  "valley: albedo" "in-scatter" "reflected" "picture" "10 km: albedo" "in-scatter" "reflected" "picture"
+
+begin
+for tone in clip exponential; do
+  picture "s11-4-41-$tone" "${s11[@]}" --model bruneton --view ground --sun-zenith-deg 78 --azimuth-deg 20 --tone "$tone" "${small[@]}"
+done
+figure "4-41: clipped and mapped" "Clipped, the sky about the sun is one white patch down to the horizon. The tone curve keeps its colours." "--tone clip" "--tone exponential"
 
 begin
 picture s11-4-44 "${s11[@]}" --model bruneton --view ground --rows altitude-m=6000e3,400e3,30e3,2e3 --rows pitch-deg=-56,-17,-4,2 \
@@ -218,6 +126,31 @@ done
 figure "4-45: orders of scattering" "Single scattering alone is too dark; all orders are thicker and bluer." \
   "reference, single scattering" "two orders" "all orders"
 
+begin
+cat >"$scratch/body.obj" <<'OBJ'
+v 60000 0 0
+v -60000 0 0
+v 0 60000 0
+v 0 -60000 0
+v 0 0 60000
+v 0 0 -60000
+f 1 3 5
+f 3 2 5
+f 2 4 5
+f 4 1 5
+f 3 1 6
+f 2 3 6
+f 4 2 6
+f 1 4 6
+OBJ
+panels s11-4-50 "picture in-scatter" "${s11[@]}" --model bruneton --latitude-deg 0 --longitude-deg 0 --altitude-m 400e3 --heading-deg 90 \
+  --pitch-deg -18 --field-of-view-deg 10 --sun-zenith-deg 60 --sun-azimuth-deg 0 \
+  --mesh "$scratch/body.obj@0.8,16.5,150e3" --mesh "$scratch/body.obj@-0.8,16.5,60e3" "${small[@]}"
+commands+=$'# body.obj\n'$(<"$scratch/body.obj")$'\n'
+figure "4-50: objects outside the air and half inside, seen from space" \
+  "Both octahedra are 120 km high. The lower one stands with its lower half in the air, which is 60 km high: it hides the air behind it, and has only the light of the air before it." \
+  "the picture" "in-scatter"
+
 # Without and with his repairs.
 begin
 picture s11-5-1 "${s11[@]}" --view 10km --altitude-m 3000 --sun-zenith-deg 70 --field-of-view-deg 10 --pitch-deg -3 \
@@ -228,8 +161,8 @@ figure "5-1: transmittance from a table, and repaired" \
 
 begin
 horizon=("${s11[@]}" --view sunset --sun-zenith-deg 85 --field-of-view-deg 12 --view-zenith-deg 92 --azimuth-deg 40 --exposure-ev 9 "${small[@]}")
-panel s11-5-2-before in-scatter --model bruneton:half-inscatter "${horizon[@]}"
-panel s11-5-2-after in-scatter --model bruneton "${horizon[@]}"
+panels s11-5-2-before in-scatter --model bruneton:half-inscatter "${horizon[@]}"
+panels s11-5-2-after in-scatter --model bruneton "${horizon[@]}"
 figure "5-2: in-scattered light beside the horizon, and repaired" \
   "The light before the ground, nine stops brighter. By radii in single precision a look-up does not know on which side of the horizon it is, and dark patches come. bruneton counts heights from the ground, he takes two samples beside the horizon." \
   "as published, without repair" "bruneton"
@@ -272,7 +205,9 @@ figure "20: without and with ozone" "Ozone makes the twilight bluer." "bodare: 0
 
 begin
 both bs14-21 bodare "${bs[@]}" --view sunset --sun-zenith-deg 80 --second-sun 70,25,0.5 "${small[@]}"
-figure "21: two suns" "Each adds its light with its own direction." "bodare" "reference"
+both bs14-21-3000K bodare "${bs[@]}" --view sunset --sun-zenith-deg 80 --second-sun 70,25,0.5 --second-sun-temperature-k 3000 "${small[@]}"
+figure "21: two suns" "Each adds its light with its own direction, and its own colour." \
+  "bodare" "reference" "bodare, the second sun of 3000 K" "reference, the second sun of 3000 K"
 
 begin
 picture bs14-22 "${bs[@]}" --view sunset --sun-zenith-deg 75 --strip rayleigh.scattering=1.279e-6..1.279e-4:3:geometric \
@@ -290,7 +225,7 @@ figure "13: clouds under a low sun" "They turn red: the sun's light is what the 
 
 begin
 picture bs14-28 "${bs[@]}" --view valley --strip mie.scattering=2e-5..1e-3:3:geometric --rows model=bodare,reference "${strip[@]}"
-figure "28: fog" "Foggy weather by parameters alone." "one exposure"
+figure "28: fog" "Foggy weather by parameters alone. In the thickest, bodare is darker than the reference, most where little light comes straight from the sun." "one exposure"
 
 begin
 both bs14-29 bodare "${bs[@]}" --view limb "${small[@]}"
@@ -303,11 +238,28 @@ figure "11: aerosol with a table of its own, and from that of air" "No differenc
   "bodare" "bodare:mie-from-rayleigh"
 
 begin
-panel bs14-23-volume in-scatter --model bodare "${bs[@]}" --view 10km --exposure 3e-4 "${small[@]}"
-panel bs14-23-pixel in-scatter --model bodare "${bs[@]}" --view 10km --aerial pixel --exposure 3e-4 "${small[@]}"
-panel bs14-23-reference in-scatter "${bs[@]}" --view 10km --exposure 3e-4 "${small[@]}"
+panels bs14-23-volume in-scatter --model bodare "${bs[@]}" --view 10km --exposure 3e-4 "${small[@]}"
+panels bs14-23-pixel in-scatter --model bodare "${bs[@]}" --view 10km --aerial pixel --exposure 3e-4 "${small[@]}"
+panels bs14-23-reference in-scatter "${bs[@]}" --view 10km --exposure 3e-4 "${small[@]}"
 figure "23: light of the air alone, from the volume and step by step" "No seam at the horizon. His right picture has 4 samples of single scattering; here both have 16 and the gathered light." \
   "bodare, the volume" "bodare, for each pixel" "reference"
+
+begin
+without_ozone=$scratch/without-ozone.json
+"$skyfit" presets bodare-2014 | sed 's/"column_du": 454/"column_du": 0/' >"$without_ozone"
+grep -q '"column_du": 0' "$without_ozone"
+commands+=$'skyfit presets bodare-2014 | sed \'s/"column_du": 454/"column_du": 0/\' >without-ozone.json\n'
+mountains=(--latitude-deg 43.6 --longitude-deg -27.1 --above-ground-m 300 --heading-deg 60 --pitch-deg 11 --sun-zenith-deg 72
+  --sun-azimuth-deg 48 --exposure 1.3e-4 "${small[@]}")
+panels bs14-27-1 in-scatter --preset "$without_ozone" --orders 1 "${mountains[@]}"
+panels bs14-27-2 in-scatter "${bs[@]}" --orders 1 "${mountains[@]}"
+panels bs14-27-3 in-scatter --model bodare "${bs[@]}" "${mountains[@]}"
+picture bs14-27-4 --model bodare "${bs[@]}" --atmosphere off --glare none "${mountains[@]}"
+picture bs14-27-5 --model bodare "${bs[@]}" --glare none "${mountains[@]}"
+picture bs14-27-6 --model bodare "${bs[@]}" --clouds 0.4,6000 "${mountains[@]}"
+figure "27: a frame in six steps" "Each step adds its part. Without ozone the light is yellower; all orders make it bluer and brighter." \
+  "light of the air, scattered once, without ozone (reference)" "with ozone (reference)" "all orders (bodare)" \
+  "the ground without air" "the ground in the air" "clouds, and the glare of the sun"
 
 # --- Nielsen 2003 -----------------------------------------------------------------------------------------------------
 source_of n03 "Nielsen 2003: closed form with mean densities"
@@ -315,6 +267,12 @@ n03=(--preset nielsen-2003)
 begin
 plotted n03-5-2 --figure mean-density
 figure "5.2: the mean of the densities and the density at the mean height" "The latter is nearer to the integral." "ground at 1500 m"
+begin
+picture n03-7-1 "${n03[@]}" --view ground --azimuth-deg 90 --sun-zenith-deg 80 --pitch-deg 55 --field-of-view-deg 100 \
+  --strip model=hoffman-preetham,nielsen,reference "${small[@]}"
+figure "3.8 and 7.1: the sky at 90 deg from a low sun" \
+  "By Rayleigh's phase function the sky of hoffman-preetham is too dark in the middle (3.8). His own phase function takes the dark part away (7.1), more than many scatterings in the reference do." \
+  "one exposure"
 begin
 captions=()
 for altitude in 2 16e3 30e3; do
@@ -325,9 +283,21 @@ figure "7.3: the sky over height" "The zenith darkens with height, the horizon s
 text "7.3: the luminance" "90 deg from the sun, by his model." \
   sky "${n03[@]}" --model nielsen --sun-zenith-deg 40 --view-zenith-deg 0,30,60,80,89 --azimuth-deg 90 --altitude-m 0,16000,30000
 begin
+picture n03-7-4 "${n03[@]}" --view ground --sun-zenith-deg 60 --pitch-deg 22 --glare none --strip mie.scattering=3.968e-6,5.555e-5 \
+  --rows model=nielsen,reference --metering each "${small[@]}"
+figure "7.4: the sky toward the sun" \
+  "The sky is brighter toward the sun: little in his clearest air, strongly in his haziest. His rise is steeper: his aerosol scatters more forward the hazier, by a formula not known here, where it keeps the g of 0.444." \
+  "each its own exposure; the sun without glare"
+begin
 both n03-7-5 nielsen:sun-through-sky "${n03[@]}" --view sunset --sun-zenith-deg 88 "${small[@]}"
 figure "7.5: sunset" "Bright round the sun. His text lets the sun's light fall, but does not say how: here it is what his sky lets through, one colour for all of the sky, which has no red along the horizon of its own." \
   "nielsen:sun-through-sky" "reference"
+begin
+picture n03-7-6 "${n03[@]}" --view 10km --altitude-m 3500 --sun-zenith-deg 50 --field-of-view-deg 20 --view-zenith-deg 92 \
+  --strip model=nielsen,reference "${small[@]}"
+figure "7.6: mountains by day" \
+  "Shadows of near ranges are blue, the farthest peaks yellow to white. A white band lies above them: below the horizontal, his sky stays as it is there." \
+  "one exposure"
 begin
 for model in nielsen nielsen:mean-height; do
   picture "n03-7-7-${model//:/-}" --model "$model" "${n03[@]}" --view 10km --strip mie.scattering=3.968e-6..5.555e-5:3 "${strip[@]}"
@@ -396,12 +366,12 @@ figure "4g, 4h: Mars without dust, from space and in a valley" "Another colour b
 cat >>"$page" <<'HTML'
 <h2 id="missing">What is not shown</h2>
 <ul>
-<li>Sperlhofer: the noise of the terrain (4-11, 4-12), the parts of a frame as panels (4-40; <code>--panels</code> draws them), clipped against mapped (4-41;
-<code>--tone clip</code>), and an object half in the air (4-50).</li>
-<li>Bodare and Sandberg: the update over frames as frames (12; <code>--update-frames</code> draws them), the seam of the difference of
-two rays (16, 18), which no frame of <code>bodare</code> has, the build-up (27). Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>
-<li>Nielsen: his other plots (2.5, 5.1, 5.3, 5.4), the sky toward the sun (7.4), mountains by day (7.6), the edge of the world (7.14) and
-clipping (7.15).</li>
+<li>Sperlhofer: the noise of the terrain (4-11, 4-12) and the mask of what is clipped (4-41).</li>
+<li>Bodare and Sandberg: the update over frames as frames (12; <code>--update-frames</code> draws them); the seam of the difference of
+two rays (16, 18): <code>bruneton:half-inscatter</code> takes this difference, but has no line at the horizon of this atmosphere.
+Figure 25 is in the notebook <code>03_models_side_by_side</code>.</li>
+<li>Nielsen: his other plots (2.5, 5.1, 5.3, 5.4), the edge of the world (7.14), which a whole planet does not have, and clipping
+(7.15).</li>
 <li>All: times on the machines of their day.</li>
 </ul>
 </body>
