@@ -181,6 +181,9 @@ void run_compare(const CompareOptions& options, const FigureOptions& page,
   if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
   print(options.json ? json_text(json) : text);
   figures.expect_all(options.out);
+  if (std::ranges::none_of(rows, [](const auto& row) { return shown(row).has_value(); }))
+    throw std::runtime_error(
+        fmt::format("{}: none of the models can answer for these suns", reference.name));
 }
 
 }  // namespace

@@ -326,8 +326,10 @@ constexpr Pair kExcludes[] = {
 
 void check_combinations(const CLI::App& command) {
   const auto given = [&](const char* option) { return command.count(option) > 0; };
-  const auto fail = [&](const char* option, std::string_view expected) {
-    throw UsageError(option, command.get_option(option)->results().front(), expected);
+  const auto fail = [&](const char* option, const std::string& expected) {
+    const CLI::Option& typed = *command.get_option(option);
+    if (typed.get_expected_max() == 0) throw CLI::ValidationError(option, expected);
+    throw UsageError(option, typed.results().front(), expected);
   };
   for (const auto& [option, other] : kNeeds)
     if (given(option) && !given(other)) fail(option, fmt::format("expected with {}", other));

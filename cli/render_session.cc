@@ -26,11 +26,8 @@ std::vector<std::optional<HeightAxis>> heights_of(
     const std::vector<TimelineStep>& steps, int heights,
     const std::function<Atmosphere<double>(const Preset&)>& drawn) {
   std::vector<Shells> shells;
-  for (const TimelineStep& step : steps) {
-    Atmosphere<double> atmosphere = drawn(step.preset);
-    std::ranges::sort(atmosphere.constituents, {}, &Constituent<double>::name);
-    shells.push_back(shells_of(atmosphere, Keep::kAll));
-  }
+  for (const TimelineStep& step : steps)
+    shells.push_back(shells_of(drawn(step.preset), Keep::kAll));
   const std::vector<HeightAxis> axes = height_axes(shells, heights);
   return {axes.begin(), axes.end()};
 }

@@ -134,6 +134,9 @@ double plugin_number(pugi::xml_node emitter, const char* name, double if_none, d
                      double highest, std::string_view source) {
   const pugi::xml_node node = emitter.find_child_by_attribute("name", name);
   if (!node) return if_none;
+  for (pugi::xml_node other = node.next_sibling(); other; other = other.next_sibling())
+    if (std::string_view(other.attribute("name").value()) == name)
+      throw std::invalid_argument(fmt::format("{}: sunsky: {}: expected once", source, name));
   const std::string text = node.attribute("value").value();
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -216,8 +219,12 @@ std::optional<Atmosphere<double>> read_mitsuba_sunsky(std::string_view text,
                                                       std::vector<std::string>& notes) {
   pugi::xml_document document;
   if (!document.load_buffer(text.data(), text.size())) return {};
-  const pugi::xml_node sky = document.select_node("//emitter[@type='sunsky']").node();
-  if (!sky) return {};
+  const pugi::xpath_node_set skies = document.select_nodes("//emitter[@type='sunsky']");
+  if (skies.empty()) return {};
+  if (skies.size() > 1)
+    throw std::invalid_argument(
+        fmt::format("{}: {} emitters of type sunsky: expected one", source, skies.size()));
+  const pugi::xml_node sky = skies.first().node();
   constexpr double kMostScale = 1e9;
   const double turbidity = plugin_number(sky, "turbidity", 3, 1, kMostTurbidity, source),
                scale = plugin_number(sky, "sky_scale", 1, 0, kMostScale, source);

@@ -51,6 +51,18 @@ void require_comparable(const Atmosphere<double>& a, const Atmosphere<double>& b
         same_table(x.phase.table, y.phase.table) && x.phase.by_wavelength == y.phase.by_wavelength,
         x.name + ".phase");
   }
+  const PhaseClasses phases = phase_classes(a), others = phase_classes(b);
+  const auto at_b = [&](std::size_t i) {
+    return b.find(a.constituents[i].name) - b.constituents.data();
+  };
+  for (std::size_t i = 0; i < a.constituents.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool same = phases.of_constituent[i] == phases.of_constituent[j],
+                 as_same = others.of_constituent[at_b(i)] == others.of_constituent[at_b(j)];
+      require_same(same == as_same, fmt::format("whether {} and {} have one phase function",
+                                                a.constituents[j].name, a.constituents[i].name));
+    }
+  }
   require_same(a.star == b.star, "star");
   require_same(a.sea == b.sea, "ground.sea");
   require_same(same_table(a.ground_spectrum, b.ground_spectrum), "ground.spectrum");
@@ -112,6 +124,8 @@ AtmosphereTables interpolated_tables(const AtmosphereTables& a, const Atmosphere
                                      double share) {
   require_same(a.color.nodes == b.color.nodes, "wavelengths of tables");
   require_same(a.sky_rays.mapping == b.sky_rays.mapping, "sky model of tables");
+  require_same(a.phases.of_constituent == b.phases.of_constituent,
+               "order of the constituents of tables");
   Atmosphere<double> atmosphere = interpolated_atmosphere(a.atmosphere, b.atmosphere, share);
   PhaseClasses phases = phase_classes(atmosphere);
   return {std::move(atmosphere),

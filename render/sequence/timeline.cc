@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/atmosphere/derived.h"
 #include "model/atmosphere/parameters.h"
 #include "model/tables/table_blend.h"
 
@@ -16,17 +17,47 @@ namespace {
 
 constexpr double kLargestStep = 1.25;
 constexpr int kMostSteps = 12;  // between two given ones
+constexpr double kGreen = 550;  // nm
+
+// The amount below which light is linear in it, of a constituent that has some in either
+// atmosphere.
+double thin_amount(const Atmosphere<double>& a, const Atmosphere<double>& b,
+                   const Constituent<double>& c) {
+  constexpr double kThin = 0.05;  // vertical optical depth
+  const Constituent<double>& other = b.at(c.name);
+  const double depth = c.amount > 0 ? vertical_optical_depth(a, c, {kGreen, 0})
+                                    : vertical_optical_depth(b, other, {kGreen, 0});
+  return std::max(c.amount, other.amount) * std::min(1.0, kThin / depth);
+}
 
 // Of the parameter that changes most: its end over its beginning.
 double largest_ratio(const Atmosphere<double>& a, const Atmosphere<double>& b) {
   double largest = 1;
+  const auto widen = [&](double from, double to) {
+    if (std::abs(std::log(to / from)) > std::abs(std::log(largest))) largest = to / from;
+  };
   for (const Parameter& parameter : parameters_of(a)) {
     if (!has_parameter(b, parameter)) continue;
     const double from = get_parameter(a, parameter), to = get_parameter(b, parameter);
-    if (!(from > 0 && to > 0)) continue;  // light is linear in what may be 0
-    if (std::abs(std::log(to / from)) > std::abs(std::log(largest))) largest = to / from;
+    if (from > 0 && to > 0) widen(from, to);  // light is linear in what else may be 0
+  }
+  for (const Constituent<double>& c : a.constituents) {
+    const double from = c.amount, to = b.at(c.name).amount;
+    if ((from > 0) == (to > 0)) continue;
+    const double thin = thin_amount(a, b, c);
+    widen(from + thin, to + thin);
   }
   return largest;
+}
+
+// Constituents in the order of another atmosphere's, by which tables number phase functions.
+TimelineStep in_order_of(const Atmosphere<double>& first, TimelineStep step) {
+  std::ranges::stable_sort(step.preset.atmosphere.constituents, {}, [&](const auto& c) {
+    const Constituent<double>* const found = first.find(c.name);
+    return found != nullptr ? found - first.constituents.data()
+                            : static_cast<std::ptrdiff_t>(first.constituents.size());
+  });
+  return step;
 }
 
 // The steps after a, up to b. The shares are such that the ratio of the parameter that changes most
@@ -62,8 +93,10 @@ Preset preset_at(const std::vector<TimelineStep>& steps, double time_s) {
   return preset_between(steps[moment.before].preset, steps[moment.after].preset, moment.share);
 }
 
-std::vector<TimelineStep> refined(const std::vector<TimelineStep>& steps) {
-  std::vector<TimelineStep> result = {steps.at(0)};
+std::vector<TimelineStep> refined(std::vector<TimelineStep> steps) {
+  const Atmosphere<double> first = steps.at(0).preset.atmosphere;
+  for (TimelineStep& step : steps) step = in_order_of(first, std::move(step));
+  std::vector<TimelineStep> result = {steps[0]};
   for (std::size_t i = 1; i < steps.size(); ++i) {
     try {
       interpolated_atmosphere(steps[i - 1].preset.atmosphere, steps[i].preset.atmosphere, 0.5);

@@ -248,9 +248,9 @@ TEST_F(BadInputTest, FitOptions) {
   refuse({"--prior", "ground.albedo=0.1:-1"}, {"--prior", "sigma > 0"});
   refuse({"--threads", "0"}, {"--threads", "0"});
   // An option given without a value, as by an unset variable, is not one that was left out.
-  refuse({"--free", ""}, {"--free \"\"", "names of parameters"});
+  refuse({"--free", ""}, {"--free \"\"", "expected NAME,NAME"});
   refuse({"--free", "ground.albedo,"}, {"--free", "names of parameters"});
-  refuse({"--preset", ""}, {"preset \"\"", "earth-clear"});
+  refuse({"--preset", ""}, {"--preset \"\"", "expected FILE|NAME"});
 }
 
 TEST_F(BadInputTest, UnwritableOutputs) {
@@ -304,7 +304,7 @@ TEST_F(BadInputTest, OutputsNamedTwice) {
 
 TEST_F(BadInputTest, ImagesOfNoOrAbsurdSize) {
   for (const char* size :
-       {"0x720", "1280x0", "1280", "-1x-1", "1000000x1000000", "16384x16384", "bigxsmall", ""}) {
+       {"0x720", "1280x0", "1280", "-1x-1", "1000000x1000000", "16384x16384", "bigxsmall"}) {
     expect_refusal({"render", "--preset", "earth-clear", "--size", size, "--out", "frame.png"},
                    {"--size", size, "expected WIDTHxHEIGHT"});
   }

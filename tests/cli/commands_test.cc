@@ -147,6 +147,16 @@ TEST_F(CommandsTest, CompareLeavesTablesAndFigures) {
 }
 
 // Monte Carlo of unpolarised light is compared with scalar transfer without being asked to.
+// The air of Mars has a turbidity of 182.
+TEST_F(CommandsTest, AComparisonOfNothingFails) {
+  const Outcome outcome =
+      run({"compare", "--reference", "cie:12", "--sun-zenith-deg", "40", "--preset", "mars",
+           "--models", "hosek-wilkie,preetham", "--out", "compared"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("none of the models can answer"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "compared/comparison.txt"));  // it says why
+}
+
 TEST_F(CommandsTest, TruthIsComparedWithItsOwnTransfer) {
   const json models = json::parse(output({"compare", "--reference", "truth:earth-550nm-ground",
                                           "--models", "reference", "--json", "--out", "compared"}))

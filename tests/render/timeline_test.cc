@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "data_refs/references.h"
@@ -39,6 +40,35 @@ TEST(Timeline, StepsAreAtMostAQuarter) {
   // The coefficient goes linearly with time, however the steps lie.
   EXPECT_NEAR(steps[3].preset.atmosphere.at("mie").amount, 1e-5 + 3e-5 * steps[3].time_s / 8,
               1e-12);
+}
+
+// Tables hold logarithms, in which a cloud that comes up from nothing is not half there half-way.
+TEST(Timeline, AnAmountGrowsFromNothingInThinSteps) {
+  const auto with_cloud = [](double optical_depth) {
+    Preset cloudy = parse_preset(refs::shipped_preset_json("overcast"), "overcast");
+    cloudy.atmosphere.at("cloud").amount_type = AmountType::kOpticalDepth;
+    cloudy.atmosphere.at("cloud").amount = optical_depth;
+    return cloudy;
+  };
+  for (const bool comes : {true, false}) {
+    std::vector<TimelineStep> steps =
+        refined({{0, with_cloud(comes ? 0 : 5)}, {8, with_cloud(comes ? 5 : 0)}});
+    if (!comes) std::ranges::reverse(steps);
+    const auto depth = [&](std::size_t i) { return steps[i].preset.atmosphere.at("cloud").amount; };
+    EXPECT_EQ(depth(0), 0);
+    EXPECT_LT(depth(1), 0.05);
+    for (std::size_t i = 2; i < steps.size(); ++i) EXPECT_LT(depth(i) / depth(i - 1), 2.6);
+  }
+}
+
+TEST(Timeline, ConstituentsHaveTheOrderOfTheFirst) {
+  Preset other = preset(2e-5);
+  std::ranges::reverse(other.atmosphere.constituents);
+  const std::vector<TimelineStep> steps = refined({{0, preset(1e-5)}, {1, other}});
+  const auto& last = steps.back().preset.atmosphere.constituents;
+  for (std::size_t i = 0; i < last.size(); ++i)
+    EXPECT_EQ(last[i].name, steps[0].preset.atmosphere.constituents[i].name);
+  EXPECT_EQ(steps.back().preset.atmosphere.at("mie").amount, 2e-5);
 }
 
 TEST(Timeline, MomentsLieBetweenSteps) {
