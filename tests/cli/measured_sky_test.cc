@@ -17,12 +17,6 @@ const std::string kExamples = SKYFIT_EXAMPLES;
 
 class MeasuredSkyTest : public ProgramTest {
  protected:
-  std::string output(const std::vector<std::string>& arguments) const {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(outcome.err, "");
-    return outcome.out;
-  }
   json summary(const std::string& file) const {
     return json::parse(output({"check", "--json", file}));
   }

@@ -61,6 +61,13 @@ Outcome ProgramTest::run(const std::vector<std::string>& arguments,
           text_of(err_file)};
 }
 
+std::string ProgramTest::output(const std::vector<std::string>& arguments) const {
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  return outcome.out;
+}
+
 void ProgramTest::expect_refusal(const std::vector<std::string>& arguments,
                                  const std::vector<std::string>& texts) const {
   const std::set<std::string> before = files();

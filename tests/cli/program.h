@@ -27,6 +27,9 @@ class ProgramTest : public ::testing::Test {
               const std::vector<std::string>& environment = {}, const std::string& out = {},
               const std::string& in = "/dev/null") const;
 
+  // Runs and expects success without a word on stderr; returns stdout.
+  std::string output(const std::vector<std::string>& arguments) const;
+
   // Asserts that the program refuses: one line on stderr that contains every text, a status that is
   // not 0, nothing on stdout, and no file more or less than before.
   void expect_refusal(const std::vector<std::string>& arguments,
