@@ -81,6 +81,11 @@ UsageError::UsageError(std::string_view option, std::string_view text, std::stri
       option_(option),
       expected_(expected) {}
 
+UsageError::UsageError(std::string_view option, std::string_view expected)
+    : std::invalid_argument(fmt::format("{}: {}", option, expected)),
+      option_(option),
+      expected_(expected) {}
+
 double parse_number(std::string_view option, std::string_view text) {
   const auto value = finite_number(text);
   if (!value) throw UsageError(option, text, "expected a finite number");

@@ -21,6 +21,7 @@ namespace skyfit::cli {
 class UsageError : public std::invalid_argument {
  public:
   UsageError(std::string_view option, std::string_view text, std::string_view expected);
+  UsageError(std::string_view option, std::string_view expected);  // of one without a value
 
   const std::string& option() const { return option_; }
   const std::string& expected() const { return expected_; }

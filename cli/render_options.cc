@@ -328,7 +328,7 @@ void check_combinations(const CLI::App& command) {
   const auto given = [&](const char* option) { return command.count(option) > 0; };
   const auto fail = [&](const char* option, const std::string& expected) {
     const CLI::Option& typed = *command.get_option(option);
-    if (typed.get_expected_max() == 0) throw CLI::ValidationError(option, expected);
+    if (typed.get_expected_max() == 0) throw UsageError(option, expected);
     throw UsageError(option, typed.results().front(), expected);
   };
   for (const auto& [option, other] : kNeeds)
