@@ -68,7 +68,7 @@ SkyGrid parse_grid(const SkyOptions& options) {
   grid.sun_zenith_deg =
       parse_list_within("--sun-zenith-deg", options.sun_zenith, 0, 180, "an angle in degrees");
   if (options.view_zenith.empty() && !options.irradiance) {
-    throw UsageError("--view-zenith-deg", "", "expected a list of angles in degrees");
+    throw UsageError("--view-zenith-deg", "expected a list of angles in degrees");
   }
   grid.view_zenith_deg = {0.0};
   if (!options.view_zenith.empty()) {

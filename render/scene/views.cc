@@ -70,7 +70,8 @@ bool within(double value, double low, double high) { return value >= low && valu
 
 // A zenith angle, and the azimuth that belongs to it.
 void require_direction(std::string_view name, double zenith, double azimuth) {
-  require(within(zenith, 0, std::numbers::pi), fmt::format("{}.zenith", name), zenith, "0 to pi");
+  require(within(zenith, 0, std::numbers::pi), fmt::format("{}.zenith", name), zenith,
+          "0 to 180 degrees in radians");
   require(std::isfinite(azimuth), fmt::format("{}.azimuth", name), azimuth, "finite");
 }
 
