@@ -20,9 +20,9 @@ struct OwnMaterials {
   OwnMaterial soil, rock;
 };
 
-// None of a folder that has no such file. With a map of the ground's colours, a material may have no
-// colour. Throws std::invalid_argument or std::runtime_error in one line that names the file, the
-// line and the field; the pictures themselves are read with the ground.
+// None of a folder that has no such file. With a map of the ground's colours, a material may have
+// no colour. Throws std::invalid_argument or std::runtime_error in one line that names the file,
+// the line and the field; the pictures themselves are read with the ground.
 OwnMaterials read_materials(const std::filesystem::path& folder, NamedFiles allowed,
                             const std::filesystem::path& color_map = {});
 

@@ -144,8 +144,9 @@ TEST_P(EveryMaterial, ThatIsAPipeIsRefusedInOneLine) {
     load_texture(GetParam(), directory.path());
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), file.string() + ": cannot be read (it is a pipe or a device), expected "
-                                            "a texture of the ground (PNG)");
+    EXPECT_EQ(error.what(), file.string() +
+                                ": cannot be read (it is a pipe or a device), expected "
+                                "a texture of the ground (PNG)");
   }
 }
 
