@@ -229,13 +229,17 @@ TEST(MitsubaSunsky, RefusesTwilightAndNumbersOutside) {
   for (const char* wrong :
        {"<float name='turbidity' value='11'/>", "<float name='turbidity' value=''/>",
         "<rgb name='albedo' value='0.1 0.2 0.3'/>", "<spectrum name='albedo' value='nan'/>",
-        "<float name='sky_scale' value='-1'/>"})
+        "<float name='sky_scale' value='-1'/>",
+        "<float name='turbidity' value='3'/><float name='turbidity' value='4'/>"})
     EXPECT_THAT([&] { read(wrong); },
                 ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr("sky.xml: sunsky: ")))
         << wrong;
   EXPECT_THAT([&] { read("<float name='turbidity' value='11'/>"); },
               ::testing::ThrowsMessage<std::invalid_argument>(
                   HasSubstr("turbidity = 11: expected a number from 1 to 10")));
+  EXPECT_THAT([&] { read("</emitter><emitter type='sunsky'>"); },
+              ::testing::ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("sky.xml: 2 emitters of type sunsky: expected one")));
   std::vector<std::string> notes;
   EXPECT_FALSE(program_named("mitsuba-sunsky").read("<scene><emitter/></scene>", "s.xml", notes));
   EXPECT_FALSE(program_named("mitsuba-sunsky").read("{\"a\": 1}", "s.json", notes));
