@@ -20,9 +20,10 @@ struct TimelineStep {
 
 // Steps between the given ones where a parameter changes by more than a quarter, at most 12: tables
 // between two steps are then within 1 % of those of the atmosphere there; of dense layers that
-// move, grow or pass each other within some 10 % in and beside them. An amount that is 0 at one end
-// changes from an optical depth of 0.05 on. Ascending in time, constituents in the order of the
-// first step's. Throws what interpolated_atmosphere() throws, with the times of the two.
+// move, grow or pass each other within some 10 % in and beside them, 30 toward a low sun. An amount
+// that is 0 at one end changes from an optical depth of 0.05 on. Ascending in time, constituents in
+// the order of the first step's. Throws what interpolated_atmosphere() throws, with the times of
+// the two.
 std::vector<TimelineStep> refined(std::vector<TimelineStep> steps);
 
 // The steps before and after a time, and the share of the way; the same step twice where nothing
