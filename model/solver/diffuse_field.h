@@ -54,9 +54,13 @@ struct DiffuseOptions {
   // Couples the suns in as many steps as a deep twilight takes, whose light all comes from far
   // places; in two where that does not converge.
   bool deep_twilight = false;
-  bool polarised = true;        // with P of the light that air polarises
-  int levels = kDefaultLevels;  // of the grid, without those that layers of the atmosphere add
+  bool polarised = true;  // with P of the light that air polarises
+  int levels;             // of the grid, without those that layers of the atmosphere add
 };
+
+// Levels of a field that knows deep twilight, where one of the day has `levels`: light of one layer
+// comes from places under suns that stand degrees apart.
+constexpr int twilight_levels(int levels) { return levels * 10 / 7; }
 
 // The first sun of the grid that has light from neighbouring places under their own sun. On a
 // planet whose atmosphere is thin against its radius, as the Earth's, that matters for low suns

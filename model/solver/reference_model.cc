@@ -19,36 +19,13 @@
 #include "model/shared/shared.h"
 #include "model/solver/single_scattering.h"
 #include "model/solver/sky_solution.h"
+#include "model/solver/view_rays.h"
 
 namespace skyfit {
 namespace {
 
 void check_option(bool good, std::string_view name, double value, std::string_view expected) {
   check_model_value("reference", good, name, value, expected);
-}
-
-// The distinct view rays of a list of points, and which ray each point takes.
-struct ViewRays {
-  std::vector<ViewPath> paths;
-  std::vector<int> path_of_point;
-};
-ViewRays distinct_view_rays(const Shells& shells, const std::vector<double>& heights,
-                            std::span<const SkyPoint> points) {
-  ViewRays rays;
-  std::map<std::pair<double, double>, int> known;
-  std::vector<const SkyPoint*> first;
-  for (const SkyPoint& p : points) {
-    const auto [at, added] =
-        known.try_emplace({p.altitude_m, p.view_zenith}, static_cast<int>(first.size()));
-    if (added) first.push_back(&p);
-    rays.path_of_point.push_back(at->second);
-  }
-  rays.paths.resize(first.size());
-  tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t i) {
-    rays.paths[i] =
-        view_path(shells, heights, first[i]->altitude_m, std::cos(first[i]->view_zenith));
-  });
-  return rays;
 }
 
 template <int N>
@@ -123,33 +100,16 @@ ByStokes<Dual<N>> single_scattering_of(const Shells& shells, const std::vector<O
   return light;
 }
 
-// A ray along which the sun goes down further than this takes the fields of deep twilight. They are
-// solved apart from those of the other rays, so that a list of points gives what each gives alone.
-const double kDeepTwilight = std::cos(94 * kRadiansPerDegree);
-enum Fields : std::size_t { kDay, kTwilight };
-Fields fields_of(const SunRange& range) { return range.lowest < kDeepTwilight ? kTwilight : kDay; }
-
+// Light scattered more often, added to light[point][wavelength][slice].
 template <int N>
-struct Solutions {
-  std::array<std::optional<SkySolution<N>>, 2> of;  // by Fields; those that a point needs
-  std::vector<Fields> of_point;
-  const SkySolution<N>& at(std::size_t point) const { return *of[of_point[point]]; }
-};
-
-// Light scattered more often, added to light[point][wavelength][slice], of the points of one
-// solution.
-template <int N>
-void add_multiple_scattering(const Solutions<N>& solutions, Fields fields, const ViewRays& rays,
+void add_multiple_scattering(const SkySolution<N>& solution, const ViewRays& rays,
                              const std::vector<SunAlongRay>& suns, std::size_t slices_per_point,
                              Stokes which, std::vector<double>& light) {
   std::vector<PathWithSuns> bundles;
   for (const ViewPath& path : rays.paths) bundles.push_back({&path, {}});
-  for (std::size_t i = 0; i < suns.size(); ++i) {
-    if (solutions.of_point[i] == fields)
-      bundles[rays.path_of_point[i]].suns.push_back({&suns[i], &light[i * slices_per_point]});
-  }
-  std::erase_if(bundles, [](const PathWithSuns& bundle) { return bundle.suns.empty(); });
-  const MultipleScattering<N> scattering = solutions.of[fields]->multiple_scattering();
+  for (std::size_t i = 0; i < suns.size(); ++i)
+    bundles[rays.path_of_point[i]].suns.push_back({&suns[i], &light[i * slices_per_point]});
+  const MultipleScattering<N> scattering = solution.multiple_scattering();
   constexpr std::size_t kAtOnce = MultipleScattering<N>::kPathsAtOnce;
   tbb::parallel_for(std::size_t{0}, (bundles.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t i) {
     scattering.add(
@@ -197,6 +157,69 @@ SkyValues sum_of(const std::vector<Dual<N>>& single, const std::vector<double>& 
   return values;
 }
 
+// What is asked of the model.
+template <int N>
+struct Question {
+  const Shells& shells;
+  const std::vector<Optics<N>>& optics;
+  std::size_t derivatives;
+  const ReferenceOptions& options;
+  std::span<const Stokes> wanted;
+};
+
+// The wanted Stokes parameters of points that take the same fields, in their order.
+template <int N>
+std::vector<SkyValues> solve_points(const Question<N>& question, std::span<const SkyPoint> points,
+                                    bool deep_twilight, const LightTurns* turns) {
+  const auto& [shells, optics, derivatives, options, wanted] = question;
+  const int levels_given = deep_twilight ? twilight_levels(options.levels) : options.levels;
+  const LevelGrid levels(shells, levels_given);
+  const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
+  const SunsAlongRays suns = suns_along_rays(shells, rays, points, turns);
+  const bool first = options.order <= 1, further = options.order != 1;
+  ByStokes<Dual<N>> single;
+  for (const Stokes which : wanted) single[which].resize(points.size() * optics.size());
+  std::optional<SkySolution<N>> solution;
+  tbb::parallel_invoke(
+      [&] {
+        solution.emplace(shells, levels, optics, derivatives, suns.needed, options, deep_twilight);
+      },
+      [&] {
+        if (first) single = single_scattering_of(shells, optics, rays, suns.along, wanted);
+      });
+  std::vector<Dual<N>>& intensity = single[Stokes::kI];
+  for (std::size_t cell = 0; cell < intensity.size(); ++cell) {
+    const std::size_t point = cell / optics.size(), wave = cell % optics.size();
+    const ViewPath& path = rays.paths[rays.path_of_point[point]];
+    if (path.nodes.empty()) continue;
+    intensity[cell] +=
+        solution->ground(path, suns.along[point], static_cast<int>(wave), first, further);
+  }
+  const std::size_t slices = 1 + derivatives;
+  std::vector<SkyValues> result;
+  for (const Stokes which : wanted) {
+    std::vector<double> multiple(points.size() * optics.size() * slices, 0.0);
+    add_multiple_scattering(*solution, rays, suns.along, optics.size() * slices, which, multiple);
+    result.push_back(sum_of(single[which], multiple, static_cast<int>(points.size()), optics.size(),
+                            derivatives, further));
+  }
+  return result;
+}
+
+// Puts the values of some points, `places` among all of them, where they belong.
+void scatter(const SkyValues& some, std::span<const std::size_t> places, SkyValues& all) {
+  const auto waves = static_cast<std::size_t>(all.wavelengths);
+  const std::size_t cells = all.value.size();
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t w = 0; w < waves; ++w) {
+      const std::size_t from = k * waves + w, to = places[k] * waves + w;
+      all.value[to] = some.value[from];
+      for (std::size_t p = 0; p * cells < all.derivative.size(); ++p)
+        all.derivative[p * cells + to] = some.derivative[p * some.value.size() + from];
+    }
+  }
+}
+
 // The wanted Stokes parameters, in their order.
 template <int N>
 std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
@@ -215,62 +238,28 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
     points = refracted;
   }
   const LightTurns* const turns = refraction ? &*refraction : nullptr;
-  const LevelGrid levels(shells, options.levels);
-  const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
-  std::vector<SunAlongRay> suns;
-  suns.reserve(points.size());
-  std::array<std::vector<SunRange>, 2> needed;
-  Solutions<N> solutions{{}, std::vector<Fields>(points.size(), kDay)};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const ViewPath& path = rays.paths[rays.path_of_point[i]];
-    suns.emplace_back(shells.bottom_radius, path.ray, points[i], turns);
-    if (path.sun_points.empty()) continue;
-    SunRange range{1, -1};
-    for (const RayPoint& p : path.sun_points) {
-      const double mu_s = suns.back().mu_s(p);
-      range = {std::min(range.lowest, mu_s), std::max(range.highest, mu_s)};
-    }
-    solutions.of_point[i] = fields_of(range);
-    needed[solutions.of_point[i]].push_back(range);
-  }
   std::vector<Optics<N>> optics;
   const auto seeded_atmosphere = seeded<N>(atmosphere, derivatives);
   for (const WavelengthNode& node : wavelengths)
     optics.push_back(optics_at(shells, seeded_atmosphere, node, options.moments,
                                wanted.size() > 1 ? Wanted::kStokes : Wanted::kRadiance));
-
-  const bool first = options.order <= 1, further = options.order != 1;
-  ByStokes<Dual<N>> single;
-  for (const Stokes which : wanted) single[which].resize(points.size() * optics.size());
-  const auto solve_fields = [&](Fields fields) {
-    if (!needed[fields].empty())
-      solutions.of[fields].emplace(shells, levels, optics, derivatives.size(), needed[fields],
-                                   options, fields == kTwilight);
-  };
-  tbb::parallel_invoke([&] { solve_fields(kDay); }, [&] { solve_fields(kTwilight); },
-                       [&] {
-                         if (first)
-                           single = single_scattering_of(shells, optics, rays, suns, wanted);
-                       });
-  std::vector<Dual<N>>& intensity = single[Stokes::kI];
-  for (std::size_t cell = 0; cell < intensity.size(); ++cell) {
-    const std::size_t point = cell / optics.size(), wave = cell % optics.size();
-    const ViewPath& path = rays.paths[rays.path_of_point[point]];
-    if (path.nodes.empty()) continue;
-    intensity[cell] +=
-        solutions.at(point).ground(path, suns[point], static_cast<int>(wave), first, further);
-  }
-  const std::size_t slices = 1 + derivatives.size();
-  std::vector<SkyValues> result;
-  for (const Stokes which : wanted) {
-    std::vector<double> multiple(points.size() * optics.size() * slices, 0.0);
-    for (const Fields fields : {kDay, kTwilight}) {
-      if (solutions.of[fields])
-        add_multiple_scattering(solutions, fields, rays, suns, optics.size() * slices, which,
-                                multiple);
+  const Question<N> question{shells, optics, derivatives.size(), options, wanted};
+  const std::size_t cells = points.size() * optics.size();
+  std::vector<SkyValues> result(wanted.size(),
+                                {static_cast<int>(points.size()), static_cast<int>(optics.size()),
+                                 static_cast<int>(derivatives.size()), std::vector<double>(cells),
+                                 std::vector<double>(cells * derivatives.size())});
+  for (const bool deep : {false, true}) {
+    std::vector<std::size_t> places;
+    std::vector<SkyPoint> some;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (is_deep_twilight(shells, points[i], turns) != deep) continue;
+      places.push_back(i);
+      some.push_back(points[i]);
     }
-    result.push_back(sum_of(single[which], multiple, static_cast<int>(points.size()), optics.size(),
-                            derivatives.size(), further));
+    if (some.empty()) continue;
+    const std::vector<SkyValues> values = solve_points(question, some, deep, turns);
+    for (std::size_t k = 0; k < result.size(); ++k) scatter(values[k], places, result[k]);
   }
   expect_no_negative(result.front(), wavelengths, points);
   return result;

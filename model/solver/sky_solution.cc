@@ -31,12 +31,14 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
     solved_[i] = static_cast<int>(suns.size());
     suns.push_back(grid_.mu(i));
   }
-  const Streams streams(shells_.bottom_radius, levels_.heights(), options.streams);
+  const Streams streams(shells_.bottom_radius, levels_.heights(), options.streams,
+                        deep_twilight ? LimbRays::kOfTwilight : LimbRays::kOfDay);
   fields_ = solve_diffuse_fields<N>(
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
       sun_coupling(grid_, shells_, solved_, streams, first),
       {options.moments, options.tolerance, std::max(options.order - 1, 0), deep_twilight,
-       options.transfer == Transfer::kVector, options.levels});
+       options.transfer == Transfer::kVector,
+       deep_twilight ? twilight_levels(options.levels) : options.levels});
 }
 
 // docs/theory (8.6).

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "model/numerics/gauss.h"
 
@@ -11,9 +12,15 @@ namespace skyfit {
 namespace {
 
 // Where limb rays begin: at the levels nearest to these cube roots of the height over the top's.
-// Three times as many change the multiple
-// scattering seen from 0 .. 20 km and along the limb by less than 1 %.
-constexpr double kLimbLevels[] = {0.2, 0.35, 0.47, 0.6, 0.7, 0.8, 0.9};
+// Three times as many rays of the day change the multiple scattering seen from 0 .. 20 km and along
+// the limb by less than 1 %.
+std::span<const double> limb_levels(LimbRays rays) {
+  static constexpr double kOfDay[] = {0.2, 0.35, 0.47, 0.6, 0.7, 0.8, 0.9};
+  static constexpr double kOfTwilight[] = {0.2,  0.35, 0.42, 0.46, 0.5, 0.54, 0.58,
+                                           0.62, 0.66, 0.7,  0.75, 0.8, 0.85, 0.9};
+  if (rays == LimbRays::kOfDay) return kOfDay;
+  return kOfTwilight;
+}
 
 // P_l(mu), l = 0 .. count - 1.
 Eigen::VectorXd legendre(double mu, int count) {
@@ -31,10 +38,11 @@ Eigen::VectorXd legendre(double mu, int count) {
 }  // namespace
 
 // docs/theory (3.4) to (3.6).
-Streams::Streams(double bottom_radius, const std::vector<double>& heights, int ground_rays) {
+Streams::Streams(double bottom_radius, const std::vector<double>& heights, int ground_rays,
+                 LimbRays limb_rays) {
   const int levels = static_cast<int>(heights.size());
   std::vector<int> touched;
-  for (const double share : kLimbLevels) {
+  for (const double share : limb_levels(limb_rays)) {
     const auto apart = [&](double h) { return std::abs(std::cbrt(h / heights.back()) - share); };
     const int level =
         static_cast<int>(std::ranges::min_element(heights, {}, apart) - heights.begin());

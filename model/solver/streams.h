@@ -9,10 +9,15 @@
 
 namespace skyfit {
 
+// How many rays go along the limb. In deep twilight all light comes along the horizon, most of it
+// through the narrow band of heights that the sun still lights.
+enum class LimbRays { kOfDay, kOfTwilight };
+
 class Streams {
  public:
   // `ground_rays` per hemisphere; heights ascend from 0.
-  Streams(double bottom_radius, const std::vector<double>& heights, int ground_rays);
+  Streams(double bottom_radius, const std::vector<double>& heights, int ground_rays,
+          LimbRays limb_rays);
 
   int levels() const { return static_cast<int>(count_.size()); }
   // Rays at a level, in the order in which they come into being from the ground upward.

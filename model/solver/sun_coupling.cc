@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "model/numerics/angles.h"
@@ -65,7 +64,7 @@ Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t 
 
 void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalCoupling& c) {
   constexpr double kDusk = 92 * kRadiansPerDegree;  // above it, first order does as well
-  constexpr double kSmall = 1e-3;                   // of a sun's light, as twilight decays
+  constexpr double kSmall = 3e-4;                   // of a sun's light, as twilight decays
   const std::size_t suns = c.suns.size();
   c.shifted.assign(suns, false);
   std::vector<double> decay(suns);
@@ -122,7 +121,7 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
 
 HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
                                 const std::vector<int>& solved, const Streams& streams, int first) {
-  const double kThick = getenv("ALL") ? 1 : 0.05;
+  constexpr double kThick = 0.05;
   HorizontalCoupling c;
   c.converges = top_over_radius(shells) < kThick;
   for (int i = 0; i < grid.size(); ++i) {

@@ -37,30 +37,24 @@ std::vector<double> without_near_pairs(const std::vector<double>& s, double lowe
   return kept;
 }
 
-void set_sun_points(const Shells& shells, ViewPath& path) {
+}  // namespace
+
+PartOfRay part_with_own_suns(const Shells& shells, const ViewRay& ray) {
   constexpr double kShare = 0.45;
-  const ViewRay& ray = path.ray;
   const double lowest = ray.tangent_s > 0 ? ray.tangent_height : ray.entry_height;
   const double highest = lowest + kShare * shells.top;
-  double begin = 0, end = ray.length;
+  PartOfRay part{0, ray.length};
   Shared<double> shared;
   if (ray.tangent_s > 0 && ray.entry_height > highest) {
-    begin = shared.distance_to_inner_sphere(shells.bottom_radius, ray.entry_height, ray.entry_mu,
-                                            highest);
+    part.begin = shared.distance_to_inner_sphere(shells.bottom_radius, ray.entry_height,
+                                                 ray.entry_mu, highest);
   }
   if (!ray.hits_ground && highest < shells.top) {
-    end = shared.distance_to_outer_sphere(shells.bottom_radius, ray.entry_height, ray.entry_mu,
-                                          highest);
+    part.end = shared.distance_to_outer_sphere(shells.bottom_radius, ray.entry_height, ray.entry_mu,
+                                               highest);
   }
-  for (const RayPoint& node : path.nodes) {
-    path.sun_points.push_back(
-        node.s >= begin && node.s <= end
-            ? node
-            : ray_point(ray, shells.bottom_radius, std::clamp(node.s, begin, end)));
-  }
+  return part;
 }
-
-}  // namespace
 
 ViewPath view_path(const Shells& shells, const std::vector<double>& heights, double altitude,
                    double mu) {
@@ -76,7 +70,13 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
   const std::vector<double> s = without_near_pairs(
       shell_crossings(path.ray, shells.bottom_radius, heights), path.ray.tangent_s);
   for (const double x : s) path.nodes.push_back(ray_point(path.ray, shells.bottom_radius, x));
-  set_sun_points(shells, path);
+  const PartOfRay part = part_with_own_suns(shells, path.ray);
+  for (const RayPoint& node : path.nodes) {
+    path.sun_points.push_back(
+        node.s >= part.begin && node.s <= part.end
+            ? node
+            : ray_point(path.ray, shells.bottom_radius, std::clamp(node.s, part.begin, part.end)));
+  }
   const std::vector<double> breaks = with_piece_breaks(with_profile_breaks(shells, path.ray, s));
   for (const QuadratureNode& q : composite_gauss(breaks, 3)) {
     ViewPath::Sample sample{ray_point(path.ray, shells.bottom_radius, q.s), q.weight, {}};

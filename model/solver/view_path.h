@@ -9,12 +9,19 @@
 
 namespace skyfit {
 
+// Places along a ray, metres from its entry.
+struct PartOfRay {
+  double begin, end;
+};
+// Where the source of a ray is taken under the sun of each place: not higher than 0.45 of the
+// atmosphere above the ray's lowest point. What is left there (0.4 % of the Earth's air) is too
+// little to ask for suns of its own.
+PartOfRay part_with_own_suns(const Shells& shells, const ViewRay& ray);
+
 struct ViewPath {
   ViewRay ray;
   std::vector<RayPoint> nodes;  // ascending in s; empty when the ray misses the atmosphere
-  // Where the sun of each node's source is taken: the node itself, but not higher than 0.45 of the
-  // atmosphere above the ray's lowest point. What is left there (0.4 % of the Earth's air) is too
-  // little to ask for suns of its own.
+  // Where the sun of each node's source is taken: the node itself, or the end of that part.
   std::vector<RayPoint> sun_points;
   struct Sample {
     RayPoint point;

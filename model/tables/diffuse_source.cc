@@ -59,7 +59,7 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
     : moments_(options.moments),
       blocks_(blocks_of(options.moments)),
       suns_(shells),
-      levels_(shells, options.levels) {
+      levels_(shells, twilight_levels(options.levels)) {
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
     const int blocks = scatterer.moments.size() <= kPowers ? 1 : blocks_;
@@ -70,7 +70,8 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   for (int i = 0; i < suns_.size(); ++i) sun_mu.push_back(suns_.mu(i));
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
-  const Streams streams(shells.bottom_radius, levels_.heights(), options.streams);
+  const Streams streams(shells.bottom_radius, levels_.heights(), options.streams,
+                        LimbRays::kOfTwilight);
   const HorizontalCoupling coupling =
       sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells));
   const auto fields_of = [&](int order) {
@@ -78,7 +79,8 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
                                    {.moments = options.moments,
                                     .order = order,
                                     .deep_twilight = true,
-                                    .polarised = light.transfer == Transfer::kVector});
+                                    .polarised = light.transfer == Transfer::kVector,
+                                    .levels = twilight_levels(options.levels)});
   };
   std::vector<DiffuseField> fields = fields_of(light.orders == 0 ? 0 : 1);
   for (int order = 2; order < light.orders; ++order) add(fields_of(order), fields);

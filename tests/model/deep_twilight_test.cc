@@ -150,14 +150,14 @@ TEST_P(DeepTwilightTruth, IsMetAsStated) {
 
 INSTANTIATE_TEST_SUITE_P(
     , DeepTwilightTruth,
-    testing::Values(Stated{"twilight-clear", 0.1,
-                           [](double sun) { return sun < 95   ? 0.005
-                                                   : sun < 99 ? 0.08
-                                                              : 0.1; }},
-                    Stated{"mars", 0.17,
-                           [](double sun) {
-                             return sun < 95 ? 0.05 : sun < 99 ? 0.09 : sun < 101 ? 0.15 : 0.22;
-                           }}),
+    testing::Values(Stated{"twilight-clear", 0.03,
+                           [](double sun) { return sun < 95   ? 0.001
+                                                   : sun < 98 ? 0.01
+                                                              : 0.03; }},
+                    Stated{"mars", 0.08,
+                           [](double sun) { return sun < 99    ? 0.035
+                                                   : sun < 101 ? 0.06
+                                                               : 0.09; }}),
     [](const auto& test) { return test.param.of == "mars" ? "DustOnMars" : "ClearAirOnEarth"; });
 
 }  // namespace
