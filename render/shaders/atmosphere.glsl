@@ -33,33 +33,33 @@ const int kClasses = CLASSES;  // of phase functions but the Rayleigh-like one, 
 // and the factor on the Mie coefficient; by the others the scale heights; by Preetham the turbidity and the radiances per cd/m^2
 // of X, Y and Z.
 #if defined(NIELSEN)
-#define CLOSED_FORM_CONSTANTS(HOW) HOW vec4 air_beta; HOW vec4 aerosol_beta; HOW vec2 nielsen_haze;
+#define CLOSED_FORM_CONSTANTS(EACH) EACH(vec4, air_beta) EACH(vec4, aerosol_beta) EACH(vec2, nielsen_haze)
 #elif defined(PREETHAM)
-#define CLOSED_FORM_CONSTANTS(HOW)                                       \
-  HOW vec4 air_beta; HOW vec4 aerosol_beta; HOW vec2 scale_heights_m;   \
-  HOW float turbidity; HOW vec4 radiance_from_xyz[3];
+#define CLOSED_FORM_CONSTANTS(EACH)                                              \
+  EACH(vec4, air_beta) EACH(vec4, aerosol_beta) EACH(vec2, scale_heights_m)     \
+  EACH(float, turbidity) EACH(vec4[3], radiance_from_xyz)
 #elif defined(CLOSED_FORM)
-#define CLOSED_FORM_CONSTANTS(HOW) HOW vec4 air_beta; HOW vec4 aerosol_beta; HOW vec2 scale_heights_m;
+#define CLOSED_FORM_CONSTANTS(EACH) EACH(vec4, air_beta) EACH(vec4, aerosol_beta) EACH(vec2, scale_heights_m)
 #else
-#define CLOSED_FORM_CONSTANTS(HOW)
+#define CLOSED_FORM_CONSTANTS(EACH)
 #endif
 
 // What the texels of the scattering tables stand for where they are ENCODED (model/tables/table_precision.h): texel_scale times
 // the texel plus texel_offset; of rayleigh_like_table, of single_table, and of the two of sky_rays.glsl.
 #ifdef ENCODED
-#define ENCODING_CONSTANTS(HOW) HOW vec4 texel_scale; HOW vec4 texel_offset;
+#define ENCODING_CONSTANTS(EACH) EACH(vec4, texel_scale) EACH(vec4, texel_offset)
 #else
-#define ENCODING_CONSTANTS(HOW)
+#define ENCODING_CONSTANTS(EACH)
 #endif
 
 // The Rayleigh-like class's depolarisation; g, g1, g2 and weight of phase functions that are not tabulated (of another
 // Rayleigh phase function its depolarisation).
-#define ATMOSPHERE_CONSTANTS(HOW)       \
-  HOW float depolarisation;             \
-  HOW vec4 phase_parameters[CLASSES];   \
-  HOW vec4 ground_albedo;               \
-  ENCODING_CONSTANTS(HOW)               \
-  CLOSED_FORM_CONSTANTS(HOW)
+#define ATMOSPHERE_CONSTANTS(EACH)         \
+  EACH(float, depolarisation)              \
+  EACH(vec4[CLASSES], phase_parameters)    \
+  EACH(vec4, ground_albedo)                \
+  ENCODING_CONSTANTS(EACH)                 \
+  CLOSED_FORM_CONSTANTS(EACH)
 #ifdef LIBRARY  // for other people's renderers: of one atmosphere, without uniforms
 const float depolarisation = float(DEPOLARISATION);
 const vec4 phase_parameters[CLASSES] = LIST(vec4, CLASSES, PHASE_PARAMETERS);

@@ -11,14 +11,14 @@ layout(binding = 18) uniform sampler3D grains;
 layout(binding = 19) uniform sampler3D crags;
 
 // Phases are texture coordinates of the camera, 0..1; the mean of the grains' texture is its last mipmap.
-#define MATERIAL_CONSTANTS(HOW) \
-  HOW vec3 grain_phase;         \
-  HOW float grains_per_km;      \
-  HOW vec3 crag_phase;          \
-  HOW float crags_per_km;       \
-  HOW vec3 far_crag_phase;      \
-  HOW float far_crags_per_km;   \
-  HOW vec4 grain_mean;
+#define MATERIAL_CONSTANTS(EACH) \
+  EACH(vec3, grain_phase)        \
+  EACH(float, grains_per_km)     \
+  EACH(vec3, crag_phase)         \
+  EACH(float, crags_per_km)      \
+  EACH(vec3, far_crag_phase)     \
+  EACH(float, far_crags_per_km)  \
+  EACH(vec4, grain_mean)
 CONSTANTS(5, Materials, MATERIAL_CONSTANTS)
 
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.

@@ -24,24 +24,24 @@ float disc_solid_angle(int i) {
 
 // Of each sun where and how its disc is refracted, render/gl/atmosphere/disc_bending.h.
 #ifdef REFRACTION
-#define BENDING_CONSTANTS(HOW) HOW vec4 bending[2 * kSuns];
+#define BENDING_CONSTANTS(EACH) EACH(vec4[2 * kSuns], bending)
 #else
-#define BENDING_CONSTANTS(HOW)
+#define BENDING_CONSTANTS(EACH)
 #endif
 
 // Of a frame. Half the field of view; the camera's height; a pixel's angle, rad; the farthest distance of the volume; the variance of the sea's slopes; of each
 // sun the unit vector in the camera frame and the illuminance as a share of the first one's.
-#define VIEW_CONSTANTS(HOW)  \
-  HOW mat3 site_from_view;   \
-  HOW mat3 planet_from_site; \
-  HOW vec2 tangent;          \
-  HOW float camera_km;       \
-  HOW float near_km;         \
-  HOW float pixel_angle;     \
-  HOW float volume_km;       \
-  HOW float slope_variance;  \
-  HOW vec4 suns[kSuns];      \
-  BENDING_CONSTANTS(HOW)
+#define VIEW_CONSTANTS(EACH)     \
+  EACH(mat3, site_from_view)     \
+  EACH(mat3, planet_from_site)   \
+  EACH(vec2, tangent)            \
+  EACH(float, camera_km)         \
+  EACH(float, near_km)           \
+  EACH(float, pixel_angle)       \
+  EACH(float, volume_km)         \
+  EACH(float, slope_variance)    \
+  EACH(vec4[kSuns], suns)        \
+  BENDING_CONSTANTS(EACH)
 CONSTANTS(1, View, VIEW_CONSTANTS)
 
 // The ray through a point of the picture, which runs from -1 to 1: of length 1 along the view's axis, so that it is linear
