@@ -10,6 +10,7 @@
 #include "model/base/input_file.h"
 #include "model/base/whole_file.h"
 #include "model/version.h"
+#include "render/features/render_features.h"
 
 namespace skyfit::cli {
 namespace {
@@ -84,30 +85,9 @@ ordered_json json_of(const FrameOptions& frame) {
   ordered_json json = {{"size", {frame.width, frame.height}},
                        {"samples_per_side", frame.samples_per_side},
                        {"samples_per_quad", frame.samples_per_quad},
-                       {"aerial", static_cast<int>(frame.aerial)},
-                       {"shadows", frame.shadows},
-                       {"wind_m_s", frame.wind_m_s},
-                       {"refraction", frame.refraction},
-                       {"primaries", static_cast<int>(frame.primaries)},
-                       {"glare", static_cast<int>(frame.glare)},
-                       {"layers", frame.layers},
-                       {"lod_constant", frame.terrain.lod_constant.value_or(0)},
-                       {"levels", frame.terrain.levels.value_or(0)},
-                       {"cull", frame.terrain.cull},
-                       {"wireframe", frame.terrain.wireframe},
-                       {"boxes", static_cast<int>(frame.terrain.boxes)}};
-  if (const auto& sun = frame.second_sun) {
-    json["second_sun"] = {sun->zenith, sun->azimuth, sun->irradiance};
-    if (sun->spectra) {
-      const Spectrum& irradiance = sun->spectra->solar_irradiance;
-      json["second_spectrum"] = {irradiance.wavelength_nm, irradiance.value};
-    }
-  }
-  if (const auto& moon = frame.moon)
-    json["moon"] = {moon->zenith,   moon->azimuth,     moon->distance_m,
-                    moon->radius_m, moon->reflectance, moon->lights};
-  for (const CloudLayer& clouds : frame.clouds)
-    json["clouds"].push_back({clouds.altitude_m, clouds.cover, clouds.opacity});
+                       {"primaries", static_cast<int>(frame.primaries)}};
+  for (const RenderFeature& feature : render_features())
+    json[std::string(feature.name)] = feature_key(feature, frame);
   return json;
 }
 

@@ -5,13 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
 #include "cli/arguments.h"
 #include "model/base/text.h"
+#include "render/features/render_features.h"
 
 namespace skyfit::cli {
 namespace {
@@ -24,38 +24,44 @@ struct AxisOption {
   std::string_view unit;         // of a number; empty for words
   bool another_session = false;  // another model, other tables or another planet
 };
-constexpr auto kAxisOptions = std::to_array<AxisOption>({
-    {"view", "view", ""},
-    {"latitude-deg", "latitude", "deg"},
-    {"longitude-deg", "longitude", "deg"},
-    {"altitude-m", "altitude", "m"},
-    {"above-ground-m", "above ground", "m"},
-    {"heading-deg", "heading", "deg"},
-    {"azimuth-deg", "azimuth", "deg"},
-    {"pitch-deg", "pitch", "deg"},
-    {"view-zenith-deg", "view zenith", "deg"},
-    {"field-of-view-deg", "field of view", "deg"},
-    {"sun-zenith-deg", "sun zenith", "deg"},
-    {"sun-azimuth-deg", "sun azimuth", "deg"},
-    {"date", "date", ""},
-    {"time", "time", ""},
-    {"wind-m-s", "wind", "m/s"},
-    {"aerial", "aerial", ""},
-    {"lod-constant", "C", "1"},
-    {"terrain-levels", "levels", "1"},
-    {"culling", "culling", ""},
-    {"block-boxes", "boxes", ""},
-    {"exposure", "exposure", "m^2/cd"},
-    {"exposure-ev", "exposure", "EV"},
-    {"tone", "tone curve", ""},
-    {"view-transform", "view transform", ""},
-    {"glare", "glare", ""},
-    {"preset", "preset", "", true},
-    {"model", "model", "", true},
-    {"orders", "orders", "", true},
-    {"table-size", "tables", "", true},
-    {"table-precision", "tables", "", true},
-});
+std::vector<AxisOption> listed_axis_options() {
+  std::vector<AxisOption> rows = {
+      {"view", "view", ""},
+      {"latitude-deg", "latitude", "deg"},
+      {"longitude-deg", "longitude", "deg"},
+      {"altitude-m", "altitude", "m"},
+      {"above-ground-m", "above ground", "m"},
+      {"heading-deg", "heading", "deg"},
+      {"azimuth-deg", "azimuth", "deg"},
+      {"pitch-deg", "pitch", "deg"},
+      {"view-zenith-deg", "view zenith", "deg"},
+      {"field-of-view-deg", "field of view", "deg"},
+      {"sun-zenith-deg", "sun zenith", "deg"},
+      {"sun-azimuth-deg", "sun azimuth", "deg"},
+      {"date", "date", ""},
+      {"time", "time", ""},
+      {"exposure", "exposure", "m^2/cd"},
+      {"exposure-ev", "exposure", "EV"},
+      {"tone", "tone curve", ""},
+      {"view-transform", "view transform", ""},
+      {"preset", "preset", "", true},
+      {"model", "model", "", true},
+      {"orders", "orders", "", true},
+      {"table-size", "tables", "", true},
+      {"table-precision", "tables", "", true},
+  };
+  for (const RenderFeature& feature : render_features()) {
+    if (feature.caption.empty()) continue;
+    const std::string_view name = feature.options.front().name;
+    rows.push_back({name.substr(2), feature.caption, feature.limits ? feature.limits->unit : ""});
+  }
+  return rows;
+}
+
+const std::vector<AxisOption>& axis_rows() {
+  static const std::vector<AxisOption> kRows = listed_axis_options();
+  return kRows;
+}
 
 // A quantity of an axis, as it was typed.
 struct TypedQuantity {
@@ -122,8 +128,8 @@ TypedQuantity parse_quantity(const std::string& axis, const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) throw UsageError(axis, text, kForm);
   typed.quantity.name = trim(text.substr(0, equals));
-  const auto option = std::ranges::find(kAxisOptions, typed.quantity.name, &AxisOption::name);
-  if (option != kAxisOptions.end()) {
+  const auto option = std::ranges::find(axis_rows(), typed.quantity.name, &AxisOption::name);
+  if (option != axis_rows().end()) {
     typed.option = &*option;
     typed.quantity.unit = option->unit;
     typed.quantity.caption = option->caption;
@@ -269,7 +275,7 @@ void check_size(const GridRequest& grid) {
 
 std::string axis_options() {
   std::vector<std::string_view> names;
-  for (const AxisOption& option : kAxisOptions) names.push_back(option.name);
+  for (const AxisOption& option : axis_rows()) names.push_back(option.name);
   return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
@@ -301,7 +307,7 @@ GridRequest grid_request(const RenderOptions& options, const CLI::App& command) 
     }
   }
   check_size(grid);
-  check_outputs(options, grid.cells.front());
+  check_outputs(options, command, grid.cells.front());
   return grid;
 }
 

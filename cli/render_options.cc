@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/arguments.h"
+#include "cli/feature_options.h"
 #include "cli/grid_request.h"
 #include "cli/table_options.h"
 #include "model/registry.h"
@@ -108,73 +109,10 @@ void add_scene_options(CLI::App& command, RenderOptions& options) {
       .option("--mesh", options.meshes, "FILE@LAT,LON,ALT[,HEADING[,SCALE]]",
               "A Wavefront OBJ at a place (degrees, metres above sea level); may be repeated")
       ->allow_extra_args(false);
-  group.option("--moon", options.moon, "ZENITH,AZIMUTH[,DISTANCE,RADIUS]",
-               "A moon (degrees, from the sun; metres)");
-  group.flag("--moonlight", options.moonlight,
-             "The moon lights the scene, by its phase, and is drawn as a disc with it; the moon is "
-             "full opposite to the sun, as --sun-zenith-deg 130 --moon 50,180");
-  group.option("--second-sun", options.second_sun, "ZENITH,AZIMUTH,SHARE",
-               "Another sun (degrees, from the first) and its share of the first's illuminance "
-               "above the air");
-  group.option("--second-sun-temperature-k", options.second_sun_temperature, "KELVIN",
-               "The second sun has the spectrum of a black body, 1000 to 100000 K; by default that "
-               "of the first");
-  group.option("--second-sun-spectrum", options.second_sun_spectrum, "FILE",
-               "The second sun has the spectrum of a CSV with the columns wavelength_nm (360 or "
-               "less to 830 or more) and irradiance_w_m2_nm, of which only the form counts");
-  group
-      .option(
-          "--clouds", options.clouds, "COVER[,ALTITUDE[,OPACITY]]",
-          fmt::format("A sheet of clouds: fraction of the sky, altitude in metres, opacity; may "
-                      "be repeated, up to {} sheets of different altitudes, in any order",
-                      kMostCloudLayers))
-      ->allow_extra_args(false);
-  group
-      .option("--wind-m-s", options.wind, "SPEED",
-              "Wind over the sea, 12.5 m above it, 0 to 30: how rough the sea is")
-      ->capture_default_str();
   group
       .option("--atmosphere", options.atmosphere, "on|off",
               "off: the planet without its air, in the sun's light alone")
       ->capture_default_str();
-  group.flag(
-      "--refraction", options.refraction,
-      "Suns' discs stand, and are flat, as air refracts them; ground and sky stay as straight\n"
-      "rays see them");
-  group.flag(
-      "--shadows", options.shadows,
-      "Shadows of the terrain, under each sun, on the ground and in the air, and of --clouds in "
-      "the air");
-}
-
-void add_terrain_options(CLI::App& command, RenderOptions& options) {
-  Group group(command, "Blocks of the ground");
-  group.option(
-      "--lod-constant", options.lod_constant, "C",
-      fmt::format("A block of 33 x 33 vertices is divided while it is nearer than C edges of "
-                  "its triangles, {:.9g} to {:.9g}; by default as fine as the picture shows",
-                  kLeastLodConstant, kLargestLodConstant));
-  group.option(
-      "--terrain-levels", options.terrain_levels, "N",
-      fmt::format("Levels of the planet's six trees of blocks, 1 to {}; by default as many "
-                  "as show details of 0.3 m",
-                  kMostLevels));
-  group
-      .option(
-          "--culling", options.culling, "on|off",
-          "off: blocks that are outside the picture, behind the horizon or behind nearer ground "
-          "are drawn, too")
-      ->capture_default_str();
-  group.flag("--wireframe", options.wireframe, "The edges of the ground's triangles alone");
-  group
-      .option(
-          "--block-boxes", options.block_boxes, "none|level|culling",
-          "Boxes about the blocks, coloured by level (red, orange, yellow, green, cyan, violet in "
-          "turn), or drawn ones green, those outside the picture red, behind the horizon blue")
-      ->capture_default_str();
-  group.option("--overview-m", options.overview, "LENGTH",
-               "The picture is taken from so far above the camera, straight down, and shows the "
-               "blocks that the camera sees");
 }
 
 void add_picture_options(CLI::App& command, RenderOptions& options) {
@@ -183,13 +121,6 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
   group
       .option("--samples-per-side", options.samples_per_side, "INT",
               "Samples of a pixel along each side, 1 to 4")
-      ->capture_default_str();
-  group
-      .option(
-          "--aerial", options.aerial, "pixel|volume",
-          "Light of the air before the ground: by pixel, or faster from a volume of 32 x 32 x 16. "
-          "It is by pixel with meshes, a moon or a second sun, above 12 km, where the ground may "
-          "rise above the air, and under atmospheres with a dense layer, as of cloud")
       ->capture_default_str();
   group.flag("--gpu", options.gpu, "Draw through EGL, on a GPU where there is one");
   group.option("--exposure", options.exposure, "K",
@@ -207,10 +138,6 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       .option("--view-transform", options.view_transform, "hue|channels",
               "Colours of the PNG: the tone curve goes over the luminance and the hue stays, or it "
               "goes over each channel, which is clipped by itself")
-      ->capture_default_str();
-  group
-      .option("--glare", options.glare, "eye|none",
-              "Light of the sun that the eye scatters over the PNG, by the CIE's glare function")
       ->capture_default_str();
   group
       .option("--primaries", options.primaries, "rec709|rec2020|xyz",
@@ -280,15 +207,9 @@ void add_sequence_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
 }
 
-struct Pair {
-  const char *option, *other;
-};
-constexpr Pair kNeeds[] = {
+const std::vector<OptionPair> kNeeds = {
     {"--latitude-deg", "--longitude-deg"},
     {"--longitude-deg", "--latitude-deg"},
-    {"--moonlight", "--moon"},
-    {"--second-sun-temperature-k", "--second-sun"},
-    {"--second-sun-spectrum", "--second-sun"},
     {"--date", "--time"},
     {"--time", "--date"},
     {"--utc-offset-h", "--date"},
@@ -299,7 +220,7 @@ constexpr Pair kNeeds[] = {
     {"--format", "--out-dir"},
     {"--update-frames", "--out-dir"},
 };
-constexpr Pair kExcludes[] = {
+const std::vector<OptionPair> kExcludes = {
     {"--altitude-m", "--above-ground-m"},
     {"--heading-deg", "--azimuth-deg"},
     {"--pitch-deg", "--view-zenith-deg"},
@@ -307,14 +228,11 @@ constexpr Pair kExcludes[] = {
     {"--look-at", "--azimuth-deg"},
     {"--look-at", "--pitch-deg"},
     {"--look-at", "--view-zenith-deg"},
-    {"--moonlight", "--second-sun"},
-    {"--second-sun-temperature-k", "--second-sun-spectrum"},
     {"--date", "--sun-zenith-deg"},
     {"--date", "--sun-azimuth-deg"},
     {"--step-min", "--frames"},
     {"--sequence", "--time"},
     {"--sequence", "--overview-m"},
-    {"--shadows", "--overview-m"},
     {"--panels", "--out-dir"},
     {"--exposure", "--adaptation-s"},
     {"--stokes", "--scalar"},
@@ -325,16 +243,18 @@ constexpr Pair kExcludes[] = {
 }  // namespace
 
 void check_combinations(const CLI::App& command) {
-  const auto given = [&](const char* option) { return command.count(option) > 0; };
-  const auto fail = [&](const char* option, const std::string& expected) {
+  const auto given = [&](const std::string& option) { return command.count(option) > 0; };
+  const auto fail = [&](const std::string& option, const std::string& expected) {
     const CLI::Option& typed = *command.get_option(option);
     if (typed.get_expected_max() == 0) throw UsageError(option, expected);
     throw UsageError(option, typed.results().front(), expected);
   };
-  for (const auto& [option, other] : kNeeds)
-    if (given(option) && !given(other)) fail(option, fmt::format("expected with {}", other));
-  for (const auto& [option, other] : kExcludes)
-    if (given(option) && given(other)) fail(option, fmt::format("expected without {}", other));
+  for (const auto& pairs : {kNeeds, feature_needs()})
+    for (const auto& [option, other] : pairs)
+      if (given(option) && !given(other)) fail(option, fmt::format("expected with {}", other));
+  for (const auto& pairs : {kExcludes, feature_excludes()})
+    for (const auto& [option, other] : pairs)
+      if (given(option) && given(other)) fail(option, fmt::format("expected without {}", other));
 }
 
 std::string drawing_models() {
@@ -371,9 +291,6 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--out", options.out, "frame.png, frame.exr or frame.npy; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_flag(
-      "--layers", options.layers,
-      "Add to the EXR: light of the air and of the ground, transmittance, normal, albedo");
   auto* const stokes = command.add_flag(
       "--stokes", options.stokes,
       "Add to the EXR the polarisation of the sky's luminance: stokes.Q, stokes.U (cd/m^2), its "
@@ -391,8 +308,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_camera_options(command, options);
   add_sun_options(command, options);
   add_scene_options(command, options);
-  add_terrain_options(command, options);
   add_picture_options(command, options);
+  add_feature_options(command);
+  Group(command, "Blocks of the ground")
+      .option("--overview-m", options.overview, "LENGTH",
+              "The picture is taken from so far above the camera, straight down, and shows the "
+              "blocks that the camera sees");
   add_table_options(command, options);
   add_sequence_options(command, options);
 }

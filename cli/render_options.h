@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of `skyfit render`, as they are typed.
+// The options of `skyfit render`, as they are typed, but those of feature_options.h.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -26,21 +26,16 @@ struct RenderOptions {
   int frames = 0, update_frames = 0;  // 0: not typed
   // Scene
   std::string height_map, height_range = "0..9000", color_map, water_level = "0", textures;
-  std::string moon, second_sun, second_sun_temperature, second_sun_spectrum, wind = "5",
-                                                                             atmosphere = "on";
-  std::vector<std::string> meshes, dems, clouds;
-  std::string lod_constant, culling = "on", block_boxes = "none", overview;
-  int terrain_levels = 0;  // 0: not typed
-  bool wireframe = false;
+  std::string atmosphere = "on", overview;
+  std::vector<std::string> meshes, dems;
   std::string dem_surroundings = "planet", dem_edge;
   // Picture
-  std::string size = "1280x720", aerial = "volume", exposure, exposure_ev = "0", tone = "filmic";
-  std::string view_transform = "hue", glare = "eye";
+  std::string size = "1280x720", exposure, exposure_ev = "0", tone = "filmic";
+  std::string view_transform = "hue";
   std::string primaries = "rec709", table_precision = "float", table_size = "full";
   int samples_per_side = FrameOptions{}.samples_per_side;
   int orders = 0;  // 0: all
-  bool scalar = false, shadows = false, moonlight = false, refraction = false, layers = false,
-       panels = false, gpu = false, stats = false;
+  bool scalar = false, panels = false, gpu = false, stats = false;
   bool no_cache = false, stokes = false, iau = false;
   std::vector<std::string> out;
   int threads = default_threads();

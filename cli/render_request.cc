@@ -143,7 +143,8 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   return request;
 }
 
-void check_outputs(const RenderOptions& options, const RenderRequest& request) {
+void check_outputs(const RenderOptions& options, const CLI::App& command,
+                   const RenderRequest& request) {
   const auto is_exr = [](const std::string& name) { return name.ends_with(".exr"); };
   if (request.is_sequence) {
     if (!options.out.empty())
@@ -172,7 +173,7 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
       std::ranges::any_of(options.out, [](const auto& name) { return name.ends_with(".png"); });
   if (options.panels && !has_png)
     throw UsageError("--panels", "true", "expected an output that ends in .png");
-  require_exr(options.layers, "--layers", "true");
+  require_exr(command.count("--layers") > 0, "--layers", "true");
   require_exr(options.stokes, "--stokes", "true");
   if (request.frame.primaries != Primaries::kRec709 && std::ranges::none_of(names, is_linear))
     throw UsageError("--primaries", options.primaries,
@@ -181,7 +182,7 @@ void check_outputs(const RenderOptions& options, const RenderRequest& request) {
 
 RenderRequest render_request(const RenderOptions& options, const CLI::App& command) {
   RenderRequest request = frame_request(options, command);
-  check_outputs(options, request);
+  check_outputs(options, command, request);
   return request;
 }
 

@@ -47,6 +47,7 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
 RenderRequest render_request(const RenderOptions& options, const CLI::App& command);
 // That a request has files to go to, of kinds that hold what it asks for. Called once in a process:
 // it takes the standard output where a file goes there.
-void check_outputs(const RenderOptions& options, const RenderRequest& request);
+void check_outputs(const RenderOptions& options, const CLI::App& command,
+                   const RenderRequest& request);
 
 }  // namespace skyfit::cli

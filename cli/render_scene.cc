@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "cli/arguments.h"
+#include "cli/feature_options.h"
 #include "cli/inputs.h"
 #include "cli/render_arguments.h"
 #include "data_refs/spectra.h"
@@ -82,55 +83,63 @@ void parse_dems(const RenderOptions& options, const CLI::App& command, Scene& sc
         parse_number_within("--dem-edge-m", options.dem_edge, 0, 1e7, "a length in metres");
 }
 
+// Of an option that may be typed once, and was.
+std::string typed(const CLI::App& command, const std::string& option) {
+  return command.get_option(option)->results().front();
+}
+
 // Null: that of the first sun.
-std::shared_ptr<const SpectralData> parse_second_spectrum(const RenderOptions& options,
-                                                          const CLI::App& command) {
+std::shared_ptr<const SpectralData> parse_second_spectrum(const CLI::App& command) {
   Star star;
   if (command.count("--second-sun-temperature-k") > 0) {
     star.spectrum = StarSpectrum::kBlackBody;
-    star.temperature_k = parse_number("--second-sun-temperature-k", options.second_sun_temperature);
-    expect_valid("--second-sun-temperature-k", options.second_sun_temperature, star);
+    const std::string text = typed(command, "--second-sun-temperature-k");
+    star.temperature_k = parse_number("--second-sun-temperature-k", text);
+    expect_valid("--second-sun-temperature-k", text, star);
   } else if (command.count("--second-sun-spectrum") > 0) {
     star.spectrum = StarSpectrum::kTabulated;
     star.table = std::make_shared<const SpectrumTable>(
-        refs::load_table_csv(options.second_sun_spectrum, kIrradianceFormat), kIrradianceFormat);
+        refs::load_table_csv(typed(command, "--second-sun-spectrum"), kIrradianceFormat),
+        kIrradianceFormat);
   } else {
     return nullptr;
   }
   auto spectra = std::make_shared<const SpectralData>(under(refs::standard_spectral_data(), star));
   if (!(illuminance_of(*spectra) > 0))
-    throw UsageError("--second-sun-spectrum", options.second_sun_spectrum,
+    throw UsageError("--second-sun-spectrum", typed(command, "--second-sun-spectrum"),
                      "expected irradiance between 380 and 780 nm");
   return spectra;
 }
 
-void parse_sky_objects(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {
+// The features of several numbers.
+void parse_sky_objects(const CLI::App& command, FrameOptions& frame) {
   if (command.count("--moon") > 0) {
-    const auto values = parse_tuple("--moon", options.moon, 2, 4,
-                                    "ZENITH,AZIMUTH or ZENITH,AZIMUTH,DISTANCE,RADIUS");
+    const std::string text = typed(command, "--moon");
+    const auto values =
+        parse_tuple("--moon", text, 2, 4, "ZENITH,AZIMUTH or ZENITH,AZIMUTH,DISTANCE,RADIUS");
     if (values.size() == 3)
-      throw UsageError("--moon", options.moon, "expected a radius after the distance");
+      throw UsageError("--moon", text, "expected a radius after the distance");
     frame.moon = Moon{.zenith = radians(values[0]), .azimuth = radians(values[1])};
     if (values.size() == 4) {
       frame.moon->distance_m = values[2];
       frame.moon->radius_m = values[3];
     }
-    frame.moon->lights = options.moonlight;
+    frame.moon->lights = command.get_option("--moonlight")->as<bool>();
     FrameOptions alone;
     alone.moon = frame.moon;
-    expect_valid("--moon", options.moon, alone);
+    expect_valid("--moon", text, alone);
   }
   if (command.count("--second-sun") > 0) {
-    const auto values =
-        parse_tuple("--second-sun", options.second_sun, 3, 3, "ZENITH,AZIMUTH,SHARE");
+    const std::string text = typed(command, "--second-sun");
+    const auto values = parse_tuple("--second-sun", text, 3, 3, "ZENITH,AZIMUTH,SHARE");
     frame.second_sun = SecondSun{radians(values[0]), radians(values[1]), values[2],
-                                 parse_second_spectrum(options, command)};
+                                 parse_second_spectrum(command)};
     FrameOptions alone;
     alone.second_sun = frame.second_sun;
-    expect_valid("--second-sun", options.second_sun, alone);
+    expect_valid("--second-sun", text, alone);
   }
   FrameOptions sheets;
-  for (const std::string& text : options.clouds) {
+  for (const std::string& text : command.get_option("--clouds")->results()) {
     const auto values =
         parse_tuple("--clouds", text, 1, 3, "COVER, COVER,ALTITUDE or COVER,ALTITUDE,OPACITY");
     CloudLayer& clouds = sheets.clouds.emplace_back(CloudLayer{.cover = values[0]});
@@ -139,32 +148,6 @@ void parse_sky_objects(const RenderOptions& options, const CLI::App& command, Fr
     expect_valid("--clouds", text, sheets);
   }
   frame.clouds = sheets.clouds;
-}
-
-TerrainOptions parse_terrain(const RenderOptions& options, const CLI::App& command) {
-  TerrainOptions terrain;
-  if (command.count("--lod-constant") > 0)
-    terrain.lod_constant =
-        parse_number_within("--lod-constant", options.lod_constant, kLeastLodConstant,
-                            kLargestLodConstant, "edges of triangles");
-  if (command.count("--terrain-levels") > 0) {
-    if (options.terrain_levels < 1 || options.terrain_levels > kMostLevels)
-      throw UsageError("--terrain-levels", std::to_string(options.terrain_levels),
-                       fmt::format("expected 1 to {}", kMostLevels));
-    terrain.levels = options.terrain_levels;
-  }
-  if (options.culling != "on" && options.culling != "off")
-    throw UsageError("--culling", options.culling, "expected on or off");
-  terrain.cull = options.culling == "on";
-  terrain.wireframe = options.wireframe;
-  if (options.block_boxes == "level") {
-    terrain.boxes = BlockColors::kLevel;
-  } else if (options.block_boxes == "culling") {
-    terrain.boxes = BlockColors::kCulling;
-  } else if (options.block_boxes != "none") {
-    throw UsageError("--block-boxes", options.block_boxes, "expected none, level or culling");
-  }
-  return terrain;
 }
 
 }  // namespace
@@ -210,26 +193,13 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
 
 FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) {
   const ImageSize size = parse_image_size("--size", options.size);
-  FrameOptions frame;
+  FrameOptions frame = frame_with_features(command);
   frame.width = size.width;
   frame.height = size.height;
   frame.samples_per_side = options.samples_per_side;
-  frame.shadows = options.shadows;
-  frame.refraction = options.refraction;
-  frame.wind_m_s = parse_number("--wind-m-s", options.wind);
-  if (!(frame.wind_m_s >= 0 && frame.wind_m_s <= 30))
-    throw UsageError("--wind-m-s", options.wind, "expected m/s from 0 to 30");
-  frame.layers = options.layers || options.panels;
-  if (options.aerial != "pixel" && options.aerial != "volume")
-    throw UsageError("--aerial", options.aerial, "expected pixel or volume");
-  frame.aerial =
-      options.aerial == "pixel" ? AerialPerspective::kPerPixel : AerialPerspective::kVolume;
-  if (options.glare != "eye" && options.glare != "none")
-    throw UsageError("--glare", options.glare, "expected eye or none");
-  frame.glare = options.glare == "eye" ? Glare::kEye : Glare::kNone;
+  frame.layers |= options.panels;
   frame.primaries = parse_primaries(options.primaries);
-  parse_sky_objects(options, command, frame);
-  frame.terrain = parse_terrain(options, command);
+  parse_sky_objects(command, frame);
   validate(frame);
   return frame;
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "model/numerics/angles.h"
+#include "render/features/render_features.h"
 #include "render/render.h"
 
 namespace skyfit {
@@ -134,15 +135,12 @@ void validate(const FrameOptions& options) {
           "1 to 4");
   require(within(options.samples_per_quad, 1, 64), "samples_per_quad", options.samples_per_quad,
           "1 to 64");
-  const TerrainOptions& terrain = options.terrain;
-  if (terrain.lod_constant)
-    require(within(*terrain.lod_constant, kLeastLodConstant, kLargestLodConstant),
-            "terrain.lod_constant", *terrain.lod_constant,
-            fmt::format("{:.9g} to {:.9g}", kLeastLodConstant, kLargestLodConstant));
-  if (terrain.levels)
-    require(within(*terrain.levels, 1, kMostLevels), "terrain.levels", *terrain.levels,
-            fmt::format("1 to {}", kMostLevels));
-  if (terrain.eye && options.shadows)
+  for (const RenderFeature& feature : render_features()) {
+    if (!feature.limits) continue;
+    if (const auto value = feature.get(options))
+      require(feature.limits->hold(*value), feature.name, *value, feature.limits->text());
+  }
+  if (options.terrain.eye && options.shadows)
     throw std::invalid_argument("render.shadows = true: must be false with a terrain.eye");
   // That it is above the ground is known where there is a ground.
   require(within(camera.altitude_m, -1e5, 1e9), "camera.altitude_m", camera.altitude_m,
@@ -154,7 +152,6 @@ void validate(const FrameOptions& options) {
           "camera.vertical_fov", camera.vertical_fov, "1 to 150 degrees in radians");
   require(within(options.sun_zenith, 0, std::numbers::pi), "sun_zenith", options.sun_zenith,
           "0 to pi");
-  require(within(options.wind_m_s, 0, 30), "wind_m_s", options.wind_m_s, "0 to 30 m/s");
   if (options.site) {
     require_place("site", options.site->latitude, options.site->longitude);
     require(std::isfinite(options.site->sun_azimuth), "site.sun_azimuth", options.site->sun_azimuth,

@@ -26,7 +26,7 @@ layout(binding = 7) uniform usampler2D gbuffer;
 const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // in the frame's primaries and luminance, cd/m^2
 
 #ifdef SECOND_COLOR
-// From the second sun's light to light of the first that looks the same (render/gl/atmosphere/light_matrices.h).
+// From the second sun's light to light of the first that looks the same (render/glsl/light_matrices.h).
 const mat4 alike_nodes = mat4(SECOND_COLOR);
 #endif
 

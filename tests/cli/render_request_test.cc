@@ -2,12 +2,15 @@
 // What the options of `skyfit render` ask for: the sun of a day, the frames of a day, headings.
 #include "cli/render_request.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "cli/arguments.h"
 #include "cli/frame_store.h"
@@ -16,6 +19,7 @@
 #include "cli/render_session.h"
 #include "model/atmosphere/preset.h"
 #include "model/base/temporary_directory.h"
+#include "render/features/render_features.h"
 
 namespace skyfit::cli {
 namespace {
@@ -121,6 +125,40 @@ TEST(RenderRequest, SceneOptions) {
   EXPECT_EQ(r.device, GraphicsDevice::kGpu);
   EXPECT_EQ(r.tone.curve, ToneCurve::kExponential);
   EXPECT_EQ(r.tone.exposure, 1e-4);
+}
+
+// What frames are known by follows from every row of render_features(), and what the rows need or
+// exclude are options.
+TEST(RenderRequest, EveryFeatureIsAnOptionAndPartOfWhatAFrameIsKnownBy) {
+  const auto fingerprint = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--out", "x.exr"});
+    const RenderRequest r = request(arguments);
+    return Fingerprints(r, timeline_of(r.sequence)).of(shot_at(r.sequence, 0, sun_over), 0);
+  };
+  const std::map<std::string, std::string> tuples = {
+      {"clouds", "0.4"}, {"second_sun", "60,40,0.3"}, {"moon", "60,40"}};
+  CLI::App app;
+  RenderOptions options;
+  add_render_options(app, options);
+  std::set<std::string> known = {fingerprint({})};
+  for (const RenderFeature& feature : render_features()) {
+    for (const FeatureOption& option : feature.options) {
+      for (const auto& others : {option.needs, option.excludes})
+        for (const std::string& other : others) EXPECT_NO_THROW(app.get_option(other)) << other;
+    }
+    std::string typed = feature.options.front().name;
+    if (feature.numbers != nullptr) {
+      typed += "=" + tuples.at(std::string(feature.name));
+    } else if (feature.limits) {
+      typed += fmt::format("={}", feature.limits->lower);
+    } else if (!feature.words.empty()) {
+      const std::string usual = app.get_option(typed)->get_default_str();
+      const auto other = std::ranges::find_if(
+          feature.words, [&](const FeatureWord& word) { return word.word != usual; });
+      typed += "=" + std::string(other->word);
+    }
+    EXPECT_TRUE(known.insert(fingerprint({typed})).second) << typed;
+  }
 }
 
 TEST(RenderRequest, SecondLights) {

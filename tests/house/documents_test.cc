@@ -15,6 +15,7 @@
 #include "model/registry.h"
 #include "model/tables/table_precision.h"
 #include "render/engine/table_files.h"
+#include "render/features/render_features.h"
 #include "render/panels.h"
 #include "render/plot/measured_figures.h"
 #include "render/sky_map/projection.h"
@@ -63,6 +64,18 @@ TEST(Documents, NameEveryPanelOfFrames) {
   const std::string text = document("docs/rendering.md");
   for (const PanelEntry& panel : frame_panels())
     expect_in(text, fmt::format("| `frame.{}.png` | {} |", panel.name, panel.meaning));
+}
+
+TEST(Documents, NameEveryFeatureOfFrames) {
+  const std::string text = document("docs/rendering.md") + document("docs/lights.md");
+  for (const RenderFeature& feature : render_features()) {
+    for (const FeatureOption& option : feature.options) {
+      std::string typed = option.type.empty() ? option.name : option.name + " " + option.type;
+      for (std::size_t at = 0; (at = typed.find('|', at)) != std::string::npos; at += 2)
+        typed.insert(at, "\\");  // within a cell of a table
+      expect_in(text, fmt::format("| `{}` | {} |", typed, option.meaning));
+    }
+  }
 }
 
 TEST(Documents, NameEveryVariantOfModels) {

@@ -12,11 +12,11 @@
 
 #include "model/shared/sea.h"
 #include "render/gl/atmosphere/disc_bending.h"
-#include "render/gl/atmosphere/light_matrices.h"
 #include "render/gl/context/shader.h"
 #include "render/gl/context/uniform_block.h"
 #include "render/gl/context/uniforms.h"
 #include "render/gl/passes/frame_setup.h"
+#include "render/glsl/light_matrices.h"
 #include "render/scene/second_light.h"
 
 namespace skyfit {
@@ -151,19 +151,10 @@ GLuint AtmospherePass::program(const std::string& path, const Defined& defined) 
       .first->second.id();
 }
 
-AtmospherePass::Defined AtmospherePass::defined_by(const FrameOptions& options) const {
+AtmospherePass::Defined AtmospherePass::defined_by(const FeatureShader& shader) const {
   Defined defined = atmosphere_defines(tables_, codes_);
-  if (const auto second = second_light(options)) {
-    defined.push_back("SECOND_SUN");
-    if (second->has_own_color()) {
-      const std::array<double, 16> alike = alike_nodes(tables_.color, second->rule(tables_.color));
-      defined.push_back(fmt::format("SECOND_COLOR {:.9g}", fmt::join(alike, ", ")));
-    }
-    if (second->moon_radius)
-      defined.push_back(fmt::format("MOON_RADIUS {:.9g}", *second->moon_radius));
-  }
-  if (options.refraction) defined.push_back("REFRACTION");
-  if (!has_sky_view(options)) defined.push_back("FROM_ABOVE");
+  std::ranges::move(feature_defines(shader), std::back_inserter(defined));
+  if (!has_sky_view(shader.options)) defined.push_back("FROM_ABOVE");
   return defined;
 }
 
@@ -216,7 +207,7 @@ void AtmospherePass::draw_triangle(GLuint program) const {
 }
 
 void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
-  const GLuint id = program(kSkyView, defined_by(view.options));
+  const GLuint id = program(kSkyView, defined_by({view.options, tables_.color}));
   bind_blocks(id, view);
   glBindTextureUnit(kScatteringUnit, scattering_coefficients_.id());
   draw_triangle(id);
@@ -225,7 +216,7 @@ void AtmospherePass::draw_sky_view(const AtmosphereView& view) {
 void AtmospherePass::fill_volume(const AtmosphereView& view) {
   const int classes = static_cast<int>(tables_.phases.others.size());
   if (!volume_ || volume_->classes() != classes) volume_.emplace(classes);
-  Defined defined = defined_by(view.options);
+  Defined defined = defined_by({view.options, tables_.color});
   // It subtracts neighbouring points of the tables.
   if (device_ == GraphicsDevice::kGpu) defined.push_back("EXACT_FILTER");
   const GLuint id = program(kFillVolume, defined);
@@ -237,7 +228,10 @@ void AtmospherePass::fill_volume(const AtmosphereView& view) {
 
 GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
                                const AtmosphereView& view) {
-  Defined defined = defined_by(view.options);
+  Defined defined = defined_by({.options = view.options,
+                                .color = tables_.color,
+                                .reads_volume = view.volume(tables_),
+                                .has_shadow_maps = !view.shadows.empty()});
   defined.push_back(fmt::format(
       "LIGHT_FROM_NODES {:.9g}",
       fmt::join(light_from_nodes(tables_.color, color_space(view.options.primaries)), ", ")));
@@ -247,16 +241,10 @@ GLuint AtmospherePass::variant(const std::string& path, const Defined& what,
   const bool own_paths = tables_.sky_rays.bruneton.in_scatter == BrunetonInScatter::kInHalfFloats;
   if ((!surface || own_paths) && view.sky_rays(tables_))
     defined.push_back(fmt::format("SKY_RAYS {}", static_cast<int>(tables_.sky_rays.mapping)));
-  if (view.volume(tables_)) defined.push_back("VOLUME");
   if (surface) std::ranges::copy(view.own_textures.defines(), std::back_inserter(defined));
   if (surface && tables_.atmosphere.sea) defined.push_back("SEA");
-  if (view.options.layers) defined.push_back("LAYERS");
   if (std::ranges::find(what, kDisc) != what.end())
     defined.push_back(fmt::format("DISC_LOCATION {}", disc_location(view.options)));
-  if (!view.options.clouds.empty())
-    defined.push_back(fmt::format("CLOUDS {}", view.options.clouds.size()));
-  if (view.options.shadows && !view.options.clouds.empty()) defined.emplace_back("CLOUD_SHADOWS");
-  if (!view.shadows.empty()) defined.push_back("SHADOWS");
   return program(path, defined);
 }
 

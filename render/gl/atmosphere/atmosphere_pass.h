@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "model/atmosphere/refraction.h"
+#include "render/features/render_features.h"
 #include "render/gl/atmosphere/aerial_volume.h"
 #include "render/gl/atmosphere/atmosphere_tables.h"
 #include "render/gl/atmosphere/clouds.h"
@@ -101,7 +102,7 @@ class AtmospherePass {
  private:
   using Defined = std::vector<std::string>;
   GLuint program(const std::string& path, const Defined& defined);
-  Defined defined_by(const FrameOptions& options) const;
+  Defined defined_by(const FeatureShader& shader) const;
   GLuint variant(const std::string& path, const Defined& what, const AtmosphereView& view);
   void bind_blocks(GLuint program, const AtmosphereView& view);
   // What both ways read; `sky` and `grainy` are programs of theirs that have all the uniform

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/gl/atmosphere/light_matrices.h"
+#include "render/glsl/light_matrices.h"
 
 #include <cstddef>
 #include <glm/glm.hpp>
