@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 
 #include "data_refs/spectra.h"
 #include "model/photometry/photometry.h"
@@ -91,14 +92,25 @@ TEST(RenderFeatures, ShadersAreCompiledForThoseThatAreOn) {
 
 // A name that no shader asks for would be a feature that does nothing.
 TEST(RenderFeatures, ShadersKnowEveryNameThatIsDefined) {
-  FrameOptions options;
-  options.shadows = options.refraction = options.layers = true;
-  options.clouds = {CloudLayer{}};
-  options.moon = Moon{.lights = true};
-  const std::vector<std::string> defined = names({options, color(), true, true});
-  EXPECT_THAT(defined,
-              testing::IsSupersetOf({"SHADOWS", "CLOUD_SHADOWS", "CLOUDS", "REFRACTION", "LAYERS",
-                                     "SECOND_SUN", "SECOND_COLOR", "MOON_RADIUS", "VOLUME"}));
+  std::set<std::string> defined;
+  const auto add = [&](const FrameOptions& options) {
+    for (const std::string& name : names({options, color(), true, true})) defined.insert(name);
+  };
+  for (const RenderFeature& feature : render_features()) {
+    if (feature.set == nullptr) continue;
+    for (const double value : values_of(feature)) {
+      FrameOptions options;
+      feature.set(options, value);
+      add(options);
+    }
+  }
+  FrameOptions several;
+  several.shadows = true;
+  several.clouds = {CloudLayer{}};
+  several.moon = Moon{.lights = true};
+  add(several);
+  EXPECT_THAT(defined, testing::IsSupersetOf({"CLOUD_SHADOWS", "CLOUDS", "SECOND_SUN",
+                                              "SECOND_COLOR", "MOON_RADIUS"}));
   for (const std::string& name : defined) {
     const std::regex asked(R"(#if(def|\b.*\bdefined).*\b)" + name + R"(\b)");
     EXPECT_TRUE(std::ranges::any_of(embedded_shaders(), [&](const ShaderSource& shader) {
