@@ -7,6 +7,7 @@
 #include <string>
 
 #include "data_refs/aeronet_table.h"
+#include "data_refs/csv.h"
 #include "data_refs/photometer_scans.h"
 
 namespace skyfit::refs {
@@ -14,7 +15,7 @@ namespace {
 
 PhotometerLine read_line(const AeronetTable& table, const AeronetLine& line,
                          std::string_view source) {
-  table.expect_fields(line);
+  table.expect_fields(line, table.angles().back().column + 1);
   const std::string place = fmt::format("{}:{}", source, line.number);
   const std::string type = table.scan_type(line);
   const bool is_almucantar = type.starts_with("almucantar");
@@ -31,7 +32,7 @@ PhotometerLine read_line(const AeronetTable& table, const AeronetLine& line,
                       table.facts(line),
                       {}};
   for (const AeronetAngle& angle : table.angles())
-    read.radiances.emplace_back(angle.deg, table.radiance(line, angle));
+    read.readings.push_back(reading_along(read.path, angle.deg, table.number(line, angle.column)));
   return read;
 }
 
@@ -42,6 +43,10 @@ bool is_aeronet_csv(std::string_view text) { return AeronetTable::is_in(text); }
 Reference parse_aeronet_csv(std::string_view text, std::string_view source,
                             const ImportOptions& options) {
   const AeronetTable table(text, source);
+  if (table.angles().empty()) {
+    fail_at(source, table.header_line(),
+            "expected columns of radiances, named by their angle from the sun");
+  }
   MeasuredSky sky = photometer_sky(source, options);
   PhotometerScans scans(options, sky);
   LeftOut left_out("line");

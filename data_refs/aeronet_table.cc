@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <regex>
 #include <sstream>
 
 #include "data_refs/csv.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 namespace {
@@ -20,35 +21,34 @@ constexpr std::string_view kDate = "date", kTime = "time", kNominal = "nominalwa
                            kSite = "aeronetsite", kLatitude = "latitude", kLongitude = "longitude",
                            kElevation = "elevation";
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 // "solarzenithangle" of "Solar_Zenith_Angle(Degrees)".
 std::string plain_name(std::string_view column) {
-  std::string name = lower(column.substr(0, column.find('(')));
+  std::string name = lower_case(column.substr(0, column.find('(')));
   std::erase_if(name, [](char c) { return c == '_' || c == ' '; });
   return name;
 }
 
 bool holds_columns(std::string_view line) {
-  const std::string text = lower(line);
+  const std::string text = lower_case(line);
   return text.find("date(") != text.npos && text.find("time(") != text.npos &&
          text.find("wavelength") != text.npos &&
          (text.find("solar_zenith_angle") != text.npos || text.find(kSunZenith) != text.npos);
 }
 
+std::string_view after_last(std::string_view text, char separator) {
+  return text.substr(text.rfind(separator) + 1);
+}
+
+std::optional<double> finite_number(std::string_view text) {
+  const std::optional<double> number = csv_number(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
 // The angle that a column's name holds, if it is one of radiances.
 std::optional<double> angle_of(const std::string& column, std::string_view title) {
-  if (lower(column).find("scatter") != std::string::npos ||
-      title.find("scatter") != std::string_view::npos)
-    return {};
-  static const std::regex named(R"(Radiance_for.*_(-?\d+\.?\d*))", std::regex::icase);
-  std::smatch match;
-  return csv_number(std::regex_match(column, match, named) ? match[1].str() : column);
+  const std::string name = lower_case(column);
+  if (name.find("scatter") != name.npos || title.find("scatter") != title.npos) return {};
+  return finite_number(name.starts_with("radiance_for") ? after_last(name, '_') : name);
 }
 
 // The titles of groups of columns, each spread over its group; empty when it is no such line.
@@ -57,7 +57,7 @@ std::vector<std::string> group_titles(const std::vector<std::string>& fields) {
   if (fields.size() < kFewestColumns || !fields.front().empty()) return {};
   std::vector<std::string> titles;
   for (const std::string& field : fields)
-    titles.push_back(field.empty() && !titles.empty() ? titles.back() : lower(field));
+    titles.push_back(field.empty() && !titles.empty() ? titles.back() : lower_case(field));
   return titles;
 }
 
@@ -116,7 +116,7 @@ AeronetTable::AeronetTable(std::string_view text, std::string_view source) : sou
         fail_at(source_, number, "expected the columns once, or again the same");
       if (columns_.empty()) read_columns(std::move(fields), titles, number);
     } else if (columns_.empty()) {
-      head_ += lower(content) + "\n";
+      head_ += lower_case(content) + "\n";
       titles = group_titles(csv_fields(content, source_, number));
     } else {
       lines_.push_back({number, std::move(fields)});
@@ -127,10 +127,13 @@ AeronetTable::AeronetTable(std::string_view text, std::string_view source) : sou
 void AeronetTable::read_columns(std::vector<std::string> columns,
                                 const std::vector<std::string>& titles, int number) {
   columns_ = std::move(columns);
+  header_line_ = number;
   for (const std::string& name : columns_) names_.push_back(plain_name(name));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (const auto angle = angle_of(columns_[i], i < titles.size() ? titles[i] : ""))
-      angles_.push_back({i, *angle});
+    const std::string title = i < titles.size() ? titles[i] : "";
+    titled_.push_back(title.empty() ? lower_case(columns_[i])
+                                    : title + "_" + lower_case(columns_[i]));
+    if (const auto angle = angle_of(columns_[i], title)) angles_.push_back({i, *angle});
   }
   drop_second_block(angles_);
   for (const std::string_view name : {kDate, kTime, kSunZenith}) {
@@ -138,8 +141,6 @@ void AeronetTable::read_columns(std::vector<std::string> columns,
   }
   if (!column(kNominal) && !column(kExact) && !column(kWavelength))
     fail_at(source_, number, "expected a column Nominal_Wavelength or Wavelength");
-  if (angles_.empty())
-    fail_at(source_, number, "expected columns of radiances, named by their angle from the sun");
   place_.longitude_deg = head_number(head_, "long");
   place_.latitude_deg = head_number(head_, "lat");
   place_.elevation_m = head_number(head_, "elev");
@@ -158,8 +159,17 @@ void AeronetTable::fail(const AeronetLine& line, std::size_t index,
       fmt::format("{} = \"{}\": expected {}", columns_[index], line.fields[index], expectation));
 }
 
-void AeronetTable::expect_fields(const AeronetLine& line) const {
-  const std::size_t needed = angles_.back().column + 1;
+std::vector<AeronetAngle> AeronetTable::columns_of(const std::string& name) const {
+  const std::string start = lower_case(name) + "_for_azimuth_angle";
+  std::vector<AeronetAngle> found;
+  for (std::size_t i = 0; i < titled_.size(); ++i) {
+    if (!titled_[i].starts_with(start)) continue;
+    if (const auto angle = finite_number(after_last(titled_[i], '_'))) found.push_back({i, *angle});
+  }
+  return found;
+}
+
+void AeronetTable::expect_fields(const AeronetLine& line, std::size_t needed) const {
   if (line.fields.size() >= needed) return;
   fail_at(source_, line.number,
           fmt::format("expected {} fields, got {}", needed, line.fields.size()));
@@ -171,11 +181,6 @@ std::optional<double> AeronetTable::number(const AeronetLine& line,
   const std::optional<double> value = csv_number(line.fields[*column]);
   if (!value) fail(line, *column, "a number, -999 where there is none");
   return *value == kMissing ? std::nullopt : value;
-}
-
-std::optional<double> AeronetTable::radiance(const AeronetLine& line,
-                                             const AeronetAngle& angle) const {
-  return number(line, angle.column);
 }
 
 // Of a wavelength in nm or um; no sky is measured below 100 nm or beyond 10 um.
@@ -196,7 +201,7 @@ double AeronetTable::wavelength_nm(const AeronetLine& line) const {
 }
 
 std::string AeronetTable::scan_type(const AeronetLine& line) const {
-  if (const auto type = column(kType)) return lower(line.fields[*type]);
+  if (const auto type = column(kType)) return lower_case(line.fields[*type]);
   return head_.find("principal") == head_.npos ? "almucantar" : "principal plane";
 }
 

@@ -45,14 +45,18 @@ class AeronetTable {
   static bool is_in(std::string_view text);
 
   const std::vector<AeronetLine>& lines() const { return lines_; }
-  const std::vector<AeronetAngle>& angles() const { return angles_; }
+  const std::vector<AeronetAngle>& angles() const { return angles_; }  // of radiances
+  int header_line() const { return header_line_; }                     // that names the columns
+  // The columns whose names, or titles and names, are NAME_for_Azimuth_Angle.._-6.000, case aside.
+  std::vector<AeronetAngle> columns_of(const std::string& name) const;
 
   // The rest throws std::invalid_argument `source:line: column = value: expected ...`.
-  void expect_fields(const AeronetLine& line) const;
+  void expect_fields(const AeronetLine& line, std::size_t needed) const;
   std::string scan_type(const AeronetLine& line) const;  // lower case
   std::string site(const AeronetLine& line) const;       // empty: not known
   double wavelength_nm(const AeronetLine& line) const;   // the exact one where there is one
-  std::optional<double> radiance(const AeronetLine& line, const AeronetAngle& angle) const;
+  // Of a column or value that may be missing.
+  std::optional<double> number(const AeronetLine& line, std::optional<std::size_t> column) const;
   // Time, place and the sun's zenith angle.
   ImportOptions facts(const AeronetLine& line) const;
 
@@ -60,8 +64,6 @@ class AeronetTable {
   void read_columns(std::vector<std::string> columns, const std::vector<std::string>& titles,
                     int number);
   std::optional<std::size_t> column(std::string_view name) const;
-  // Of a column or value that may be missing.
-  std::optional<double> number(const AeronetLine& line, std::optional<std::size_t> column) const;
   double nanometres(const AeronetLine& line, std::optional<std::size_t> column) const;
   Instant time(const AeronetLine& line) const;
   [[noreturn]] void fail(const AeronetLine& line, std::size_t index,
@@ -70,7 +72,9 @@ class AeronetTable {
   std::string source_;
   std::string head_;  // of the lines above the columns, lower case
   ImportOptions place_;
+  int header_line_ = 0;
   std::vector<std::string> columns_, names_;  // as in the file; without unit, case and underscores
+  std::vector<std::string> titled_;           // lower case, after the title of their group
   std::vector<AeronetAngle> angles_;
   std::vector<AeronetLine> lines_;
 };

@@ -108,8 +108,8 @@ PhotometerLine line_of(const Almucantars& data, std::size_t i, std::string_view 
   line.facts.elevation_m = data.elevation_m;
   line.facts.sun_zenith_deg = data.sun_zenith_deg[i];
   for (std::size_t k = 0; k < data.azimuth_deg.size(); ++k) {
-    line.radiances.emplace_back(data.azimuth_deg[k],
-                                present(data.radiance[i * data.azimuth_deg.size() + k]));
+    line.readings.push_back(reading_along(line.path, data.azimuth_deg[k],
+                                          present(data.radiance[i * data.azimuth_deg.size() + k])));
   }
   return line;
 }

@@ -8,6 +8,7 @@
 
 #include "data_refs/absorption_bands.h"
 #include "data_refs/aeronet_csv.h"
+#include "data_refs/aeronet_polarised.h"
 #include "data_refs/arm_csphot.h"
 #include "data_refs/csv.h"
 #include "data_refs/eko_csv.h"
@@ -39,7 +40,7 @@ Reference read_text(const SkyFile& file, const ImportOptions& facts) {
   return parse(file.text(), file.name(), facts);
 }
 
-constexpr std::array<MeasuredFormat, 8> kFormats = {{
+constexpr std::array<MeasuredFormat, 9> kFormats = {{
     {kSpectralFolder, "folder of spectra",
      "DATE___HH.MM.SS_-_INDEX____AZIMUTH___ALTITUDE.asd.rad.txt, one a direction; averaged over 5 "
      "nm",
@@ -64,6 +65,11 @@ constexpr std::array<MeasuredFormat, 8> kFormats = {{
     {kPatchScan, "EKO MS-321LR", "the scanner's CSV of 145 patches; its luminances are read",
      "EKO, instruction manual of the MS-321LR, section 7-4", "sky_scan_eko.csv",
      [](const SkyFile& file) { return is_eko_csv(file.line()); }, read_text<parse_eko_csv>},
+    {kAlmucantar, "AERONET polarised",
+     "almucantars of radiance and degree of polarisation (ALP, version 3)",
+     "public code that reads it (DataCrossing)", "aeronet_polarised.csv",
+     [](const SkyFile& file) { return is_aeronet_polarised(file.text()); },
+     read_text<parse_aeronet_polarised>},
     {kAlmucantar, "AERONET", "almucantars and principal planes of sky radiance, versions 2 and 3",
      "AERONET, data descriptions and files of its web service", "aeronet_almucantar.csv",
      [](const SkyFile& file) { return is_aeronet_csv(file.text()); }, read_text<parse_aeronet_csv>},

@@ -169,6 +169,7 @@ void MeasuredSky::add(const Reading& reading) {
       std::remainder(from_north_deg * kRadiansPerDegree - sun_.azimuth.value_or(0), kTurn);
   sample.wavelength_nm = reading.wavelength_nm;
   sample.value = reading.value * unit_.factor;
+  sample.polarisation = reading.polarisation;
   sample.zero_weight_reason = flaw_of(reading, sample);
   if (!sample.zero_weight_reason.empty()) sample.weight = 0;
   numbers_.insert(reading.number);

@@ -49,8 +49,9 @@ struct Reading {
   int number = 0;                                    // of the direction in the file
   double view_zenith_deg = 0, view_azimuth_deg = 0;  // azimuth as the file counts it
   double wavelength_nm = 0;
-  double value = 0;  // in the unit of the file
-  std::string flaw;  // what the reader knows against it
+  double value = 0;                                    // in the unit of the file
+  std::vector<PolarisationReading> polarisation = {};  // of the same light
+  std::string flaw;                                    // what the reader knows against it
 };
 
 // How a format counts azimuths when the facts do not say.

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data_refs/other_formats.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <regex>
 
 #include "data_refs/scan_header.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 namespace {
@@ -17,9 +16,7 @@ struct OtherFormat {
 };
 
 // The first that matches; a line of columns of AERONET tells the product.
-constexpr std::array<OtherFormat, 11> kFormats = {{
-    {R"(degree_of_polarization_for|degree of polarization)",
-     "is a degree of polarisation of AERONET; skyfit reads AERONET's sky radiances, not yet these"},
+constexpr std::array<OtherFormat, 10> kFormats = {{
     {R"(single_scattering_albedo\[|refractive_index|inversion|retrievals, version|ssa\d+-t)",
      "is an inversion of AERONET; skyfit reads the sky radiances that it came from, and takes it "
      "as "
@@ -51,18 +48,11 @@ constexpr std::array<OtherFormat, 11> kFormats = {{
     {R"(^%!ps|^%pdf)", "is a document; skyfit reads skies as text tables and images"},
 }};
 
-std::string lower_head(std::string_view text) {
-  constexpr std::size_t kHead = 6000;  // a dozen lines of many columns
-  std::string head(text.substr(0, kHead));
-  std::ranges::transform(head, head.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return head;
-}
-
 }  // namespace
 
 std::optional<std::string> other_format(std::string_view text) {
-  const std::string head = lower_head(text);
+  constexpr std::size_t kHead = 6000;  // a dozen lines of many columns
+  const std::string head = lower_case(text.substr(0, kHead));
   for (const OtherFormat& format : kFormats) {
     const std::regex pattern(format.pattern.begin(), format.pattern.end());
     if (std::regex_search(head, pattern)) return std::string(format.what);

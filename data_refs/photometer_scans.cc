@@ -19,19 +19,19 @@ std::string_view name_of(ScanPath path) {
 std::vector<Reading> readings_of(const PhotometerLine& line, const ScanSun& sun) {
   std::vector<Reading> readings;
   std::set<double> values;
-  const bool is_plane = line.path == ScanPath::kPrincipalPlane;
-  for (const auto& [deg, value] : line.radiances) {
+  for (const PhotometerReading& read : line.readings) {
     Reading reading;
     reading.number = static_cast<int>(readings.size());
     reading.wavelength_nm = line.wavelength_nm;
-    const double up_deg = is_plane ? deg : 0, turn_deg = is_plane ? 0 : deg;
-    const double zenith_deg = sun.zenith / kRadiansPerDegree - up_deg;  // < 0: beyond the zenith
+    // < 0: beyond the zenith
+    const double zenith_deg = sun.zenith / kRadiansPerDegree - read.up_deg;
     reading.view_zenith_deg = std::abs(zenith_deg);
-    reading.view_azimuth_deg =
-        sun.azimuth.value_or(0) / kRadiansPerDegree + (zenith_deg < 0 ? 180 : turn_deg);
-    reading.value = value.value_or(0);
-    if (value) values.insert(*value);
-    reading.flaw = value ? "" : "missing";
+    reading.view_azimuth_deg = sun.azimuth.value_or(0) / kRadiansPerDegree + read.clockwise_deg +
+                               (zenith_deg < 0 ? 180 : 0);
+    reading.value = read.radiance.value_or(0);
+    if (read.radiance) values.insert(*read.radiance);
+    reading.polarisation = read.polarisation;
+    reading.flaw = read.radiance ? read.flaw : "missing";
     readings.push_back(reading);
   }
   constexpr std::size_t kFewest = 10;  // that chance does not make equal
@@ -45,10 +45,15 @@ std::vector<Reading> readings_of(const PhotometerLine& line, const ScanSun& sun)
 
 }  // namespace
 
-MeasuredSky photometer_sky(std::string_view source, const ImportOptions& options) {
-  constexpr std::string_view kUnit = "uW cm-2 sr-1 nm-1";
+PhotometerReading reading_along(ScanPath path, double deg, std::optional<double> radiance) {
+  const bool is_plane = path == ScanPath::kPrincipalPlane;
+  return {is_plane ? deg : 0, is_plane ? 0 : deg, radiance};
+}
+
+MeasuredSky photometer_sky(std::string_view source, const ImportOptions& options,
+                           std::string_view unit) {
   ScanHeader layout;
-  layout.facts.unit = kUnit;
+  layout.facts.unit = unit;
   ImportOptions facts = options;
   facts.azimuth_zero.reset();  // azimuths count from the sun
   facts.azimuth_turns.reset();

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scans of a sun photometer along the almucantar or the principal plane of the sun, in
-// uW cm-2 sr-1 nm-1. Each line is one wavelength with its own time and sun; lines along one path
-// that follow each other within 15 min without repeating a wavelength are a scan.
+// Scans of a sun photometer along the almucantar or the principal plane of the sun. Each line is
+// one wavelength with its own time and sun; lines along one path that follow each other within 15
+// min without repeating a wavelength are a scan.
 #pragma once
 
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "data_refs/civil_time.h"
@@ -19,8 +18,15 @@
 namespace skyfit::refs {
 
 enum class ScanPath {
-  kAlmucantar,      // angles are azimuths from the sun
-  kPrincipalPlane,  // angles count from the sun, upward > 0
+  kAlmucantar,      // at the sun's height
+  kPrincipalPlane,  // through sun and zenith
+};
+
+struct PhotometerReading {
+  double up_deg, clockwise_deg;    // from the sun
+  std::optional<double> radiance;  // in the unit of photometer_sky(); nothing where it is missing
+  std::vector<PolarisationReading> polarisation = {};  // of the same light
+  std::string flaw = {};                               // what the reader knows against it
 };
 
 struct PhotometerLine {
@@ -29,13 +35,17 @@ struct PhotometerLine {
   std::string site;  // empty: not known
   double wavelength_nm;
   ImportOptions facts;  // time, place and the sun's zenith angle
-  // By the angle in degrees; nothing where it is missing. A line that has one value throughout
-  // holds no measurement.
-  std::vector<std::pair<double, std::optional<double>>> radiances;
+  // A line that has one radiance throughout holds no measurement.
+  std::vector<PhotometerReading> readings;
 };
 
-// For the lines of PhotometerScans.
-MeasuredSky photometer_sky(std::string_view source, const ImportOptions& options);
+// A reading at an angle along the path: an azimuth from the sun, or in the principal plane upward.
+PhotometerReading reading_along(ScanPath path, double deg, std::optional<double> radiance);
+
+// For the lines of PhotometerScans, whose radiances are in the unit.
+inline constexpr std::string_view kAeronetUnit = "uW cm-2 sr-1 nm-1";
+MeasuredSky photometer_sky(std::string_view source, const ImportOptions& options,
+                           std::string_view unit = kAeronetUnit);
 
 class PhotometerScans {
  public:

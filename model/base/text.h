@@ -15,6 +15,9 @@ std::string_view trim(std::string_view text);
 // The parts between the separators: always one more than there are separators.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
+// With a to z in the place of A to Z.
+std::string lower_case(std::string_view text);
+
 // The text on one line, in valid UTF-8 and without anything that steers a terminal or hides other
 // text: newlines and tabs become spaces; other control characters, bytes that are no UTF-8 and the
 // marks that turn the direction of writing become '?'.
