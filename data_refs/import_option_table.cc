@@ -48,6 +48,15 @@ ImportOptionRow text(std::string name, std::optional<std::string> Options::*memb
   return row;
 }
 
+ImportOptionRow file(std::string name, std::optional<std::string> Options::*member,
+                     std::string expectation, std::string meaning) {
+  ImportOptionRow row = text(
+      std::move(name), member, std::move(expectation),
+      [](const std::string& value) { return !value.empty(); }, std::move(meaning));
+  row.is_file = true;
+  return row;
+}
+
 ImportOptionRow choice(std::string name, std::optional<std::string> Options::*member,
                        const std::vector<std::string>& choices, std::string meaning) {
   return text(
@@ -106,6 +115,12 @@ Rows bands() {
                  "Width of the bands over which a folder of spectra is averaged, by default 5")};
 }
 
+Rows instruments() {
+  return {file("instrument_parameters", &Options::instrument_parameters,
+               "an ins.para of SKYRAD.pack",
+               "Calibration of a sky radiometer; a sidecar names it from its own folder")};
+}
+
 Rows images() {
   constexpr double kMostPixels = 1e6;
   return {
@@ -138,11 +153,9 @@ Rows images() {
              "Factor on the pixels of an image"),
       choice("primaries", &Options::primaries, {"srgb", "radiance"},
              "Primaries of the pixels, by default srgb in EXR and radiance in HDR"),
-      text(
-          "mask", &Options::mask, "an image of the same size",
-          [](const std::string& value) { return !value.empty(); },
-          "Pixels that are dark in this image are not used; a sidecar names it from its own "
-          "folder"),
+      file("mask", &Options::mask, "an image of the same size",
+           "Pixels that are dark in this image are not used; a sidecar names it from its own "
+           "folder"),
       number("bin_deg", &Options::bin_deg, 1, 30,
              "Height of the bins over which pixels are averaged, by default 6; 12 gives the "
              "145 patches")};
@@ -161,6 +174,7 @@ Rows make_table() {
   add(kSpectralScan | kSpectralFolder | kPatchScan, azimuths());
   add(kPatchScan, patches());
   add(kSpectralFolder, bands());
+  add(kSkyRadiometer, instruments());
   add(kSkyImage, images());
   return table;
 }

@@ -93,12 +93,15 @@ ImportOptions parse_sidecar(std::string_view json, std::string_view source) {
 ImportOptions load_sidecar(const std::filesystem::path& sidecar, NamedFiles named) {
   ImportOptions options =
       parse_sidecar(read_csv_file(sidecar, "a sidecar (JSON)"), sidecar.string());
-  if (!options.mask) return options;
-  const auto mask = named_file(sidecar.parent_path(), *options.mask, named);
-  if (!mask)
-    throw std::invalid_argument(fmt::format("{}: mask = {}: expected {}", sidecar.string(),
-                                            in_quotes(*options.mask), kNamedFile));
-  options.mask = mask->string();
+  for (const ImportOptionRow& row : import_option_table()) {
+    if (!row.is_file || !row.is_set(options)) continue;
+    std::string& name = *(options.*row.text);
+    const auto file = named_file(sidecar.parent_path(), name, named);
+    if (!file)
+      throw std::invalid_argument(fmt::format("{}: {} = {}: expected {}", sidecar.string(),
+                                              row.name, in_quotes(name), kNamedFile));
+    name = file->string();
+  }
   return options;
 }
 

@@ -32,6 +32,7 @@ struct ImportOptions {
   std::optional<double> utc_offset_h, latitude_deg, longitude_deg, elevation_m;
   std::optional<double> sun_zenith_deg, sun_azimuth_deg;
   std::optional<double> saturation, near_sun_deg, band_nm;
+  std::optional<std::string> instrument_parameters;  // a file (pom_instrument.h)
   // Of images (sky_image.h).
   std::optional<std::string> projection, lens_polynomial, east, primaries, mask;
   std::optional<double> centre_x_px, centre_y_px, radius_px, north_deg;
@@ -51,7 +52,8 @@ enum SkyFormats : unsigned {
   kPatchScan = 8,
   kAlmucantar = 16,
   kSkyImage = 32,
-  kScans = kSpectralScan | kSpectralFolder | kPatchScan | kAlmucantar | kSkyImage
+  kSkyRadiometer = 64,
+  kScans = kSpectralScan | kSpectralFolder | kPatchScan | kAlmucantar | kSkyImage | kSkyRadiometer
 };
 
 // A row holds either a number or a text.
@@ -65,6 +67,7 @@ struct ImportOptionRow {
   std::function<bool(const std::string&)> accepts_text;
   unsigned formats = kScans;  // that it is about
   bool on_command_line = true;
+  bool is_file = false;  // which a sidecar names from its own folder
 
   bool is_set(const ImportOptions& options) const;
   // Sets what the text says; false when it is not what the row expects.
@@ -85,7 +88,7 @@ ImportOptions overlaid(const ImportOptions& first, const ImportOptions& second);
 // Throws std::invalid_argument `source:line: name = value: expected ...`.
 ImportOptions parse_sidecar(std::string_view json, std::string_view source);
 
-// The same of a file, with the path of the mask that it names. Throws std::runtime_error when it
+// The same of a file, with the paths of the files that it names. Throws std::runtime_error when it
 // cannot be read.
 ImportOptions load_sidecar(const std::filesystem::path& sidecar, NamedFiles named);
 

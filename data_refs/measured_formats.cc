@@ -18,6 +18,7 @@
 #include "data_refs/sample_csv.h"
 #include "data_refs/scan_header.h"
 #include "data_refs/sky_image.h"
+#include "data_refs/sky_radiometer.h"
 #include "data_refs/spectral_scan_csv.h"
 #include "data_refs/spectral_scan_folder.h"
 #include "data_refs/sun_check.h"
@@ -40,7 +41,7 @@ Reference read_text(const SkyFile& file, const ImportOptions& facts) {
   return parse(file.text(), file.name(), facts);
 }
 
-constexpr std::array<MeasuredFormat, 9> kFormats = {{
+constexpr std::array<MeasuredFormat, 10> kFormats = {{
     {kSpectralFolder, "folder of spectra",
      "DATE___HH.MM.SS_-_INDEX____AZIMUTH___ALTITUDE.asd.rad.txt, one a direction; averaged over 5 "
      "nm",
@@ -62,6 +63,11 @@ constexpr std::array<MeasuredFormat, 9> kFormats = {{
      [](const SkyFile& file, const ImportOptions& facts) {
        return load_arm_csphot(file.path(), facts);
      }},
+    {kSkyRadiometer, "SKYNET",
+     "the file .dat of a sky radiometer POM-01 or POM-02, with its calibration in an ins.para",
+     "PREDE, manual of the POM-02, data format; skyrad.pack 5.0", "sky_radiometer.dat",
+     [](const SkyFile& file) { return is_sky_radiometer(file.line()); },
+     read_text<parse_sky_radiometer>},
     {kPatchScan, "EKO MS-321LR", "the scanner's CSV of 145 patches; its luminances are read",
      "EKO, instruction manual of the MS-321LR, section 7-4", "sky_scan_eko.csv",
      [](const SkyFile& file) { return is_eko_csv(file.line()); }, read_text<parse_eko_csv>},

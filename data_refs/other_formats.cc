@@ -16,7 +16,16 @@ struct OtherFormat {
 };
 
 // The first that matches; a line of columns of AERONET tells the product.
-constexpr std::array<OtherFormat, 10> kFormats = {{
+constexpr std::array<OtherFormat, 13> kFormats = {{
+    {R"(krochmann)",
+     "is a scan of a PRC Krochmann sky scanner, whose layout is not public; skyfit reads its 145 "
+     "luminances alone, or columns of directions and luminances that a sidecar names"},
+    {R"(:\s*iy im id ihh)",
+     "is a file .DT3 to .DT5 of SKYRAD.pack; skyfit reads the file .dat of the sky radiometer that "
+     "it was made of"},
+    {R"(^\s*\d\d:\d\d:\d\d[ ,][hv][ ,]\d)",
+     "is a file of a sky radiometer POM-01L, which does not say its directions; skyfit reads files "
+     ".dat of a POM-01 or POM-02"},
     {R"(single_scattering_albedo\[|refractive_index|inversion|retrievals, version|ssa\d+-t)",
      "is an inversion of AERONET; skyfit reads the sky radiances that it came from, and takes it "
      "as "

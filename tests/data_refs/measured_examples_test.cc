@@ -81,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
                             1e-4},
                     Example{"aeronet_polarised.csv", Quantity::kSpectralRadiance, 90, 89, 1, 1e-4,
                             Transfer::kVector},
+                    Example{"sky_radiometer.dat", Quantity::kSpectralRadiance, 252, 170, 2, 2e-3,
+                            Transfer::kVector},
                     Example{"arm_csphotalm.nc", Quantity::kSpectralRadiance, 295, 231, 2, 1e-4},
                     Example{"fisheye.exr", Quantity::kLuminance, 573, 550, 1, 0.03},
                     Example{"sky_scan_145.csv", Quantity::kLuminance, 145, 142, 1, 1e-3},

@@ -31,6 +31,11 @@ TEST(OtherFormats, TextsAreNamed) {
   EXPECT_THAT(*other_format("wavelength, irradiance\n400, 1\n"), HasSubstr("irradiances"));
   EXPECT_THAT(*other_format("# a day\nsun_zenith_deg,direct_normal_lx\n40,80000\n"),
               HasSubstr("fit --irradiance"));
+  EXPECT_THAT(*other_format("PRC Krochmann sky scanner\n1 2 3\n"),
+              HasSubstr("that a sidecar names"));
+  EXPECT_THAT(*other_format("    2003  5 29  5 20  2   5.3339 : IY IM ID IHH IMM ISS TM(hr)\n"),
+              HasSubstr(".DT5 of SKYRAD.pack"));
+  EXPECT_THAT(*other_format("09:59:28,H,2006/03/07,Clalmanalco\n"), HasSubstr("POM-01L"));
   EXPECT_THAT(*other_format("{\"SkyAtmosphere\": {}}"), HasSubstr("JSON"));
   EXPECT_FALSE(other_format("sun_zenith_deg,view_zenith_deg,relative_azimuth_deg\n1,2,3\n"));
 }
