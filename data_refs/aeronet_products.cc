@@ -15,6 +15,7 @@
 #include "data_refs/aeronet_table.h"
 #include "data_refs/csv.h"
 #include "model/base/input_file.h"
+#include "model/base/pattern.h"
 
 namespace skyfit::refs {
 namespace {
@@ -51,19 +52,18 @@ std::optional<Columns> columns_of(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string& name = names[i];
     // The first of each: a file may go on with the date of its processing.
-    if (!has_date && std::regex_match(name, std::regex("date\\s*\\(.*", std::regex::icase))) {
+    if (!has_date && whole_match(name, std::regex("date\\s*\\(.*", std::regex::icase))) {
       columns.date = i;
       has_date = true;
-    } else if (!has_time &&
-               std::regex_match(name, std::regex("time\\s*\\(.*", std::regex::icase))) {
+    } else if (!has_time && whole_match(name, std::regex("time\\s*\\(.*", std::regex::icase))) {
       columns.time = i;
       has_time = true;
     }
     for (const Product& product : kProducts) {
-      std::smatch match;
-      if (!std::regex_match(name, match, std::regex(product.pattern, std::regex::icase))) continue;
-      const auto digits = std::find_if(match.begin() + 1, match.end(),
-                                       [](const std::ssub_match& part) { return part.matched; });
+      const auto match = whole_match(name, std::regex(product.pattern, std::regex::icase));
+      if (!match) continue;
+      const auto digits = std::find_if(match->begin() + 1, match->end(),
+                                       [](const std::csub_match& part) { return part.matched; });
       columns.values.push_back({i, std::stod(digits->str()), product.values});
     }
   }

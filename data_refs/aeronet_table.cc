@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "data_refs/csv.h"
+#include "model/base/pattern.h"
 #include "model/base/text.h"
 
 namespace skyfit::refs {
@@ -72,24 +73,34 @@ void drop_second_block(std::vector<AeronetAngle>& angles) {
 
 // "long=11.000" of a line of version 2.
 std::optional<double> head_number(const std::string& line, const std::string& name) {
-  const std::regex pattern(name + R"(\s*=\s*(-?\d+\.?\d*))");
-  std::smatch match;
-  if (!std::regex_search(line, match, pattern)) return {};
-  return csv_number(match[1].str());
+  for (std::size_t at = line.find(name); at != line.npos; at = line.find(name, at + 1)) {
+    std::string_view value = trim(std::string_view(line).substr(at + name.size()));
+    if (!value.starts_with('=')) continue;
+    value = trim(value.substr(1));
+    return finite_number(value.substr(0, value.find_first_not_of("-.0123456789")));
+  }
+  return {};
 }
 
 }  // namespace
 
 std::string without_tags(const std::string& line) {
-  static const std::regex tag(R"(<[^>]*>)");
-  return std::regex_replace(line, tag, "");
+  std::string result;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t open = line.find('<', at), close = line.find('>', open);
+    if (close == line.npos) return result + line.substr(at);
+    result += line.substr(at, open - at);
+    at = close + 1;
+  }
+  return result;
 }
 
 std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock) {
   static const std::regex day_first(R"((\d{1,2})[:/.-](\d{1,2})[:/.-](\d{4}))");
-  std::smatch match;
-  if (!std::regex_match(date, match, day_first)) return {};
-  return instant(fmt::format("{}-{}-{}", match[3].str(), match[2].str(), match[1].str()), clock, 0);
+  const auto match = whole_match(date, day_first);
+  if (!match) return {};
+  return instant(fmt::format("{}-{}-{}", (*match)[3].str(), (*match)[2].str(), (*match)[1].str()),
+                 clock, 0);
 }
 
 bool AeronetTable::is_in(std::string_view text) {

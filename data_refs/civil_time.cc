@@ -6,6 +6,8 @@
 #include <cmath>
 #include <regex>
 
+#include "model/base/pattern.h"
+
 namespace skyfit::refs {
 namespace chr = std::chrono;
 
@@ -20,10 +22,10 @@ const std::regex& offset_pattern() {
 }  // namespace
 
 std::optional<double> stated_utc_offset_h(std::string_view date_and_clock) {
-  std::cmatch match;
-  if (date_and_clock.find(':') == date_and_clock.npos ||
-      !std::regex_search(date_and_clock.begin(), date_and_clock.end(), match, offset_pattern()))
-    return {};
+  if (date_and_clock.find(':') == date_and_clock.npos) return {};
+  const auto found = first_match(date_and_clock, offset_pattern());
+  if (!found) return {};
+  const std::cmatch& match = *found;
   if (!match[1].matched) return 0;
   const double hours = std::stod(match[2]) + (match[3].matched ? std::stod(match[3]) / 60 : 0.0);
   return match[1] == "-" ? -hours : hours;
@@ -32,9 +34,9 @@ std::optional<double> stated_utc_offset_h(std::string_view date_and_clock) {
 std::optional<Instant> instant(std::string_view date, std::string_view clock, double utc_offset_h) {
   static const std::regex kDate(R"((\d{4})[-/.](\d{1,2})[-/.](\d{1,2}))"),
       kClock(R"((\d{1,2})[:.](\d{2})(?:[:.](\d{2}(?:\.\d{1,9})?))?)");
-  std::cmatch d, c;
-  if (!std::regex_match(date.begin(), date.end(), d, kDate)) return {};
-  if (!std::regex_match(clock.begin(), clock.end(), c, kClock)) return {};
+  const auto date_parts = whole_match(date, kDate), clock_parts = whole_match(clock, kClock);
+  if (!date_parts || !clock_parts) return {};
+  const std::cmatch &d = *date_parts, &c = *clock_parts;
   const chr::year_month_day day{chr::year{std::stoi(d[1])},
                                 chr::month{static_cast<unsigned>(std::stoi(d[2]))},
                                 chr::day{static_cast<unsigned>(std::stoi(d[3]))}};
@@ -46,9 +48,8 @@ std::optional<Instant> instant(std::string_view date, std::string_view clock, do
 }
 
 std::optional<Instant> instant(std::string_view date_and_clock, double utc_offset_h) {
-  std::cmatch offset;
-  if (std::regex_search(date_and_clock.begin(), date_and_clock.end(), offset, offset_pattern()))
-    date_and_clock.remove_suffix(static_cast<std::size_t>(offset.length()));
+  if (const auto offset = first_match(date_and_clock, offset_pattern()))
+    date_and_clock.remove_suffix(static_cast<std::size_t>(offset->length()));
   const std::size_t gap = date_and_clock.find_first_of("T ");
   if (gap == std::string_view::npos) return {};
   return instant(date_and_clock.substr(0, gap), date_and_clock.substr(gap + 1), utc_offset_h);

@@ -16,6 +16,8 @@
 #include "data_refs/patch_scan.h"
 #include "data_refs/scan_header.h"
 #include "data_refs/solar_position.h"
+#include "model/base/pattern.h"
+#include "model/base/text.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -44,7 +46,7 @@ class EkoReader {
     ImportOptions& facts = result.header.facts;
     facts.longitude_deg = angle(5, R"(Lon(?:g(?:itude)?)?)", "Lon140 d 8.0 m");
     facts.latitude_deg = angle(6, R"(Lat?(?:itude)?)", "La36 d 3.0 m");
-    const std::smatch zone = matched(
+    const std::cmatch zone = matched(
         7, R"(Time\s?zone\s*,\s*UTC\s*([+-]?)(\d{1,2})(?::(\d{2}))?.*)", "Timezone,UTC +9:00");
     const double hours = std::stod(zone[2]) + (zone[3].matched ? std::stod(zone[3]) / 60 : 0.0);
     facts.utc_offset_h = zone[1] == "-" ? -hours : hours;
@@ -79,18 +81,18 @@ class EkoReader {
                                             lines_.size(), kHeaderLines));
   }
 
-  std::smatch matched(std::size_t line, const std::string& pattern,
+  std::cmatch matched(std::size_t line, const std::string& pattern,
                       std::string_view expectation) const {
-    std::smatch match;
-    if (!std::regex_match(content(line), match, std::regex(pattern, std::regex::icase))) {
+    const auto match = whole_match(content(line), std::regex(pattern, std::regex::icase));
+    if (!match) {
       fail_at(source_, static_cast<int>(line),
-              fmt::format("\"{}\": expected {}", content(line), expectation));
+              fmt::format("{}: expected {}", in_quotes(content(line)), expectation));
     }
-    return match;
+    return *match;
   }
 
   double angle(std::size_t line, const std::string& name, std::string_view expectation) const {
-    const std::smatch match =
+    const std::cmatch match =
         matched(line,
                 name + R"(\s*,?\s*([EWNS]?)\s*([+-]?)(\d{1,3})\s*d\s*,?\s*(\d+\.?\d*)\s*m)"
                        R"(\s*,?\s*([EWNS]?)\s*,*)",

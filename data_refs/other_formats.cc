@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data_refs/other_formats.h"
 
+#include <algorithm>
 #include <array>
 #include <regex>
 
@@ -9,6 +10,8 @@
 
 namespace skyfit::refs {
 namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 struct OtherFormat {
   std::string_view pattern;  // in the head of the text, without case
@@ -57,11 +60,25 @@ constexpr std::array<OtherFormat, 13> kFormats = {{
     {R"(^%!ps|^%pdf)", "is a document; skyfit reads skies as text tables and images"},
 }};
 
+// With one blank or line end in the place of many, which the patterns would try in all ways.
+std::string squeezed(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t blank = text.find_first_of(kBlanks, at);
+    result += text.substr(at, blank - at);
+    if (blank == text.npos) break;
+    at = std::min(text.size(), text.find_first_not_of(kBlanks, blank));
+    const std::string_view run = text.substr(blank, at - blank);
+    result += run.find('\n') == run.npos ? ' ' : '\n';
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<std::string> other_format(std::string_view text) {
   constexpr std::size_t kHead = 6000;  // a dozen lines of many columns
-  const std::string head = lower_case(text.substr(0, kHead));
+  const std::string head = squeezed(lower_case(text.substr(0, kHead)));
   for (const OtherFormat& format : kFormats) {
     const std::regex pattern(format.pattern.begin(), format.pattern.end());
     if (std::regex_search(head, pattern)) return std::string(format.what);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "data_refs/csv.h"
+#include "model/base/pattern.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
 
@@ -107,10 +108,10 @@ RadianceHeader read_radiance_header(const std::filesystem::path& file) {
   while (std::getline(in, line) && !line.empty()) read_variable(line, source, header);
   std::getline(in, line);
   static const std::regex size(R"(([+-][XY])\s+\d+\s+([+-][XY])\s+\d+\s*)");
-  std::smatch match;
-  if (!std::regex_match(line, match, size) || match[1].str()[1] == match[2].str()[1])
+  const auto match = whole_match(line, size);
+  if (!match || (*match)[1].str()[1] == (*match)[2].str()[1])
     fail(source, line.substr(0, 40), "the size, such as -Y 768 +X 1024");
-  header.order = match[1].str() + " " + match[2].str();
+  header.order = (*match)[1].str() + " " + (*match)[2].str();
   return header;
 }
 

@@ -17,6 +17,7 @@
 
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
+#include "model/base/pattern.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -240,14 +241,14 @@ const Primitive& sky_function(const std::vector<Primitive>& primitives, std::str
 double luminance_per_value(const Scene& scene, std::string_view source) {
   static const std::regex output(R"(gendaylit\b.*\s-O\s*(\d+))");
   for (const Word& comment : scene.comments) {
-    std::smatch match;
-    if (!std::regex_search(comment.text, match, output)) continue;
-    if (match[1] == "2") return 1;  // luminances
-    if (match[1] != "0") {
+    const auto match = first_match(comment.text, output);
+    if (!match) continue;
+    if ((*match)[1] == "2") return 1;  // luminances
+    if ((*match)[1] != "0") {
       fail_at(source, comment.line,
               fmt::format("gendaylit -O {}: radiances of all wavelengths: expected -O 0 or -O 2, "
                           "whose numbers are luminances",
-                          match[1].str()));
+                          (*match)[1].str()));
     }
   }
   return kLumenPerWatt;
@@ -285,11 +286,11 @@ void check_sun(const std::vector<Primitive>& primitives, const Scene& scene, con
   static const std::regex stated(R"(solar altitude and azimuth:\s*(-?[\d.]+)\s+(-?[\d.]+))",
                                  std::regex::icase);
   for (const Word& comment : scene.comments) {
-    std::smatch match;
-    if (!std::regex_search(comment.text, match, stated)) continue;
+    const auto match = first_match(comment.text, stated);
+    if (!match) continue;
     // Azimuths of Radiance's programs count from south to west.
-    expect({(90 - std::stod(match[1])) * kRadiansPerDegree,
-            (180 + std::stod(match[2])) * kRadiansPerDegree},
+    expect({(90 - std::stod((*match)[1])) * kRadiansPerDegree,
+            (180 + std::stod((*match)[2])) * kRadiansPerDegree},
            comment.line, "solar altitude and azimuth");
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data_refs/spectral_scan_csv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <regex>
@@ -12,6 +13,8 @@
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/scan_header.h"
+#include "model/base/pattern.h"
+#include "model/base/text.h"
 
 namespace skyfit::refs {
 namespace {
@@ -40,9 +43,9 @@ std::vector<Band> bands(const CsvTable& table) {
 void read_unit(ScanHeader& header) {
   static const std::regex pattern(R"(radiance_<nm> in ([^;]*[^;\s]))");
   for (const CommentLine& comment : header.comments) {
-    std::smatch match;
-    if (!std::regex_search(comment.text, match, pattern)) continue;
-    header.facts.unit = match[1];
+    const auto match = first_match(comment.text, pattern);
+    if (!match) continue;
+    header.facts.unit = (*match)[1];
     header.line_of["unit"] = comment.line;
   }
 }
@@ -89,9 +92,13 @@ class ScanReader {
 }  // namespace
 
 bool is_spectral_scan(std::string_view columns) {
-  static const std::regex radiance_column(R"((^|,)\s*radiance_\d)");
+  const auto is_radiance = [](std::string_view column) {
+    column = trim(column);
+    return column.size() > kRadiance.size() && column.starts_with(kRadiance) &&
+           column[kRadiance.size()] >= '0' && column[kRadiance.size()] <= '9';
+  };
   return columns.find(kViewAzimuth) != columns.npos &&
-         std::regex_search(columns.begin(), columns.end(), radiance_column);
+         std::ranges::any_of(split(columns, ','), is_radiance);
 }
 
 Reference parse_spectral_scan(std::string_view text, std::string_view source,

@@ -10,6 +10,8 @@
 #include <regex>
 #include <vector>
 
+#include "model/base/pattern.h"
+
 namespace skyfit::refs {
 namespace {
 
@@ -26,6 +28,7 @@ using Exponents = std::map<std::string, int>;
 
 // "W/(m^2 sr)" is W: 1, m: -2, sr: -1; nothing when the text is no product of powers.
 std::optional<Exponents> exponents(std::string_view text) {
+  if (text.size() > kMostMatched) return {};
   static const std::regex factor(R"(([A-Za-z]+)(?:\^?(-?\d))?)");
   Exponents result;
   int sign = 1;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "fit/exchange/engine_files.h"
+#include "model/base/pattern.h"
 #include "model/base/text.h"
 
 namespace skyfit::fit {
@@ -98,9 +99,8 @@ Assignment last_assignment(const Script& script, std::string_view name) {
   for (std::string_view row : split(script.text, '\n')) {
     ++line;
     row = row.substr(0, row.find(script.comment));
-    std::match_results<std::string_view::const_iterator> match;
-    if (std::regex_search(row.begin(), row.end(), match, pattern))
-      found = {line, std::string(trim(match[3].str()))};
+    if (const auto match = first_match(row, pattern))
+      found = {line, std::string(trim((*match)[3].str()))};
   }
   return found;
 }

@@ -164,6 +164,17 @@ TEST(AeronetCsv, ScatteringAnglesAreNoRadiances) {
   EXPECT_EQ(parse(titled).samples.size(), 3u);
 }
 
+// Patterns of std::regex would go down the stack with each character.
+TEST(AeronetCsv, LinesOfAMegabyteAreNoDanger) {
+  const std::string megabyte(1'000'000, '1');
+  const std::string values = "22,-999,20,21,<" + megabyte;
+  EXPECT_THAT(complaint(kBare + line("11:11:49", "440", "60", values)),
+              testing::HasSubstr("expected a number"));
+  const std::string head = "Location=S,long=" + megabyte + ",lat =47.5 N\n";
+  EXPECT_EQ(parse(head + kBare + line("11:11:49", "440", "60", "22,-999,20,21,2")).samples.size(),
+            5u);
+}
+
 TEST(AeronetCsv, FilesOfBothVersionsHoldTheSameSky) {
   const auto read = [](const std::string& name) {
     const std::string file = std::string(SKYFIT_TEST_DATA) + "/" + name;

@@ -40,5 +40,15 @@ TEST(OtherFormats, TextsAreNamed) {
   EXPECT_FALSE(other_format("sun_zenith_deg,view_zenith_deg,relative_azimuth_deg\n1,2,3\n"));
 }
 
+// Patterns with repetitions of repetitions would try blank lines in all ways, for years.
+TEST(OtherFormats, BlankLinesWithoutEndAreSoonDone) {
+  for (const std::string blank : {"\n", " ", " \n", "#\n", "# x\n\n"}) {
+    std::string text;
+    while (text.size() < 100'000) text += blank;
+    EXPECT_FALSE(other_format(text));
+    EXPECT_TRUE(other_format(text.substr(0, 4000) + "\nvoid light solar\n"));
+  }
+}
+
 }  // namespace
 }  // namespace skyfit::refs
