@@ -118,8 +118,20 @@ void expect_known_command(const CLI::App& app, int argc, char** argv) {
     throw UsageError("command", argv[1], fmt::format("expected one of {}", fmt::join(names, ", ")));
 }
 
+// `--shadows=`, which the parser takes for --shadows.
+void expect_values_behind_signs(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word.starts_with("--") && word.find('=') == word.size() - 1) {
+      throw UsageError(word.substr(0, word.size() - 1), "",
+                       "expected a value behind the =, or no = where the option takes none");
+    }
+  }
+}
+
 int run_command(CLI::App& app, int argc, char** argv) {
   expect_known_command(app, argc, argv);
+  expect_values_behind_signs(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -140,6 +152,10 @@ int run(int argc, char** argv) {
     return run_command(app, argc, argv);
   } catch (const CLI::ConversionError& error) {
     return fail(kUsage, std::string(error.what()) + ": expected a whole number");
+  } catch (const CLI::ExtrasError&) {
+    return fail(kUsage,
+                fmt::format("{}: expected options and their values alone (see skyfit --help)",
+                            in_quotes(fmt::format("{}", fmt::join(app.remaining(true), " ")))));
   } catch (const CLI::ParseError& error) {
     return fail(kUsage, std::string(error.what()) + " (see skyfit --help)");
   } catch (const UsageError& error) {

@@ -323,6 +323,9 @@ CLI::Option* add_refraction_option(CLI::App& command, bool& refraction) {
 
 std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const SpectralData& spectra,
                                           int threads, Transfer transfer, bool refraction) {
+  if (refraction && name != "reference" && !name.starts_with("reference:"))
+    throw UsageError("--refraction",
+                     fmt::format("expected with the model reference, not {}", name));
   const std::string variant =
       refraction ? fmt::format("{}:{}", name, ReferenceModel::kRefraction) : name;
   return make_sky_model(variant, spectra, threads, transfer);

@@ -5,8 +5,10 @@
 // include/mitsuba/render/sunsky.h: the sky of Hosek & Wilkie 2012 times sky_scale, none below the
 // horizon, z up).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -14,6 +16,8 @@
 #include <pugixml.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 #include "data_refs/sky_image.h"
 #include "fit/exchange/formula_sky.h"
@@ -148,6 +152,29 @@ double plugin_number(pugi::xml_node emitter, const char* name, double if_none, d
   return value;
 }
 
+// What the plugin knows and the atmosphere does not hold: where its sun stands and how it is shown.
+constexpr std::array<std::string_view, 14> kOfTheScene = {
+    "latitude",  "longitude",    "timezone",    "year",    "month",
+    "day",       "hour",         "minute",      "second",  "sun_direction",
+    "sun_scale", "sun_aperture", "complex_sun", "to_world"};
+
+// Which of them an emitter states; throws where it states what the plugin does not know.
+std::vector<std::string_view> stated_of_the_scene(pugi::xml_node emitter, std::string_view source) {
+  std::vector<std::string_view> stated;
+  for (const pugi::xml_node child : emitter.children()) {
+    if (child.type() != pugi::node_element) continue;
+    const std::string_view name = child.attribute("name").value();
+    if (std::ranges::count(kOfTheScene, name) > 0) {
+      stated.push_back(name);
+    } else if (name != "turbidity" && name != "albedo" && name != "sky_scale") {
+      throw std::invalid_argument(
+          fmt::format("{}: sunsky: <{} name={}>: expected turbidity, albedo, sky_scale, {}", source,
+                      excerpt(child.name()), in_quotes(name), fmt::join(kOfTheScene, ", ")));
+    }
+  }
+  return stated;
+}
+
 }  // namespace
 
 Exported export_mitsuba(const ExportRequest& request) {
@@ -225,6 +252,7 @@ std::optional<Atmosphere<double>> read_mitsuba_sunsky(std::string_view text,
     throw std::invalid_argument(
         fmt::format("{}: {} emitters of type sunsky: expected one", source, skies.size()));
   const pugi::xml_node sky = skies.first().node();
+  const std::vector<std::string_view> of_the_scene = stated_of_the_scene(sky, source);
   constexpr double kMostScale = 1e9;
   const double turbidity = plugin_number(sky, "turbidity", 3, 1, kMostTurbidity, source),
                scale = plugin_number(sky, "sky_scale", 1, 0, kMostScale, source);
@@ -234,6 +262,10 @@ std::optional<Atmosphere<double>> read_mitsuba_sunsky(std::string_view text,
   notes.emplace_back(
       "sunsky is the formula of the model hosek-wilkie: other models show another sky");
   if (scale != 1) notes.push_back(fmt::format("sky_scale = {:g} is left out", scale));
+  if (!of_the_scene.empty()) {
+    notes.push_back(
+        fmt::format("left out, as no part of an atmosphere: {}", fmt::join(of_the_scene, ", ")));
+  }
   return atmosphere;
 }
 

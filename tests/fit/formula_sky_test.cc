@@ -155,7 +155,8 @@ TEST(MitsubaSunsky, ReadBackIsTheSkyWithinTheLoss) {
   std::vector<std::string> notes;
   const auto read = program_named("mitsuba-sunsky").read(text, "sky.xml", notes);
   ASSERT_TRUE(read);
-  EXPECT_THAT(notes, ::testing::ElementsAre(HasSubstr("hosek-wilkie"), HasSubstr("sky_scale")));
+  EXPECT_THAT(notes, ::testing::ElementsAre(HasSubstr("hosek-wilkie"), HasSubstr("sky_scale"),
+                                            HasSubstr(": sun_scale, sun_direction")));
   const double scale = std::stod(emitter_value(scene, "sunsky", "sky_scale"));
   const std::vector<SkyPoint> points = lattice_sky(zenith);
   const XyzRule rule = xyz_rule(spectra());
@@ -229,7 +230,8 @@ TEST(MitsubaSunsky, RefusesTwilightAndNumbersOutside) {
   for (const char* wrong :
        {"<float name='turbidity' value='11'/>", "<float name='turbidity' value=''/>",
         "<rgb name='albedo' value='0.1 0.2 0.3'/>", "<spectrum name='albedo' value='nan'/>",
-        "<float name='sky_scale' value='-1'/>",
+        "<float name='sky_scale' value='-1'/>", "<float name='turbidty' value='4'/>",
+        "<ref id='sky'/>",
         "<float name='turbidity' value='3'/><float name='turbidity' value='4'/>"})
     EXPECT_THAT([&] { read(wrong); },
                 ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr("sky.xml: sunsky: ")))
@@ -241,6 +243,12 @@ TEST(MitsubaSunsky, RefusesTwilightAndNumbersOutside) {
               ::testing::ThrowsMessage<std::invalid_argument>(
                   HasSubstr("sky.xml: 2 emitters of type sunsky: expected one")));
   std::vector<std::string> notes;
+  program_named("mitsuba-sunsky")
+      .read(
+          "<scene><emitter type='sunsky'><float name='hour' value='9'/><vector "
+          "name='sun_direction' value='0 0 1'/></emitter></scene>",
+          "sky.xml", notes);
+  EXPECT_EQ(notes.back(), "left out, as no part of an atmosphere: hour, sun_direction");
   EXPECT_FALSE(program_named("mitsuba-sunsky").read("<scene><emitter/></scene>", "s.xml", notes));
   EXPECT_FALSE(program_named("mitsuba-sunsky").read("{\"a\": 1}", "s.json", notes));
 }
