@@ -6,6 +6,7 @@
 
 #include "model/atmosphere/phase_moments.h"
 #include "model/literature/evaluate.h"
+#include "model/shared/nielsen_horizon.h"
 #include "model/shared/shared.h"
 
 namespace skyfit {
@@ -52,13 +53,18 @@ Aerosol<N> aerosol_of(const literature::ClearAir<N>& green) {
 
 template <int N>
 Dual<N> radiance_of(const literature::ClearAir<N>& air, const Aerosol<N>& aerosol,
-                    const SkyPoint& point, const View& view, const NielsenChoices& choices) {
+                    const Atmosphere<double>& planet, const SkyPoint& point,
+                    const NielsenChoices& choices) {
   Shared<Dual<N>> shared;
   Shared<double> numbers;
   const double height = point.altitude_m, mu_s = std::cos(point.sun_zenith);
+  const View view = literature::view_of(planet, point);
   const auto through_sky = [&](double from_height, double mu) {
-    return exp(-(air.air * numbers.nielsen_air_sky_depth(mu, from_height) +
-                 air.aerosol_scattering * numbers.nielsen_aerosol_sky_depth(mu, from_height)));
+    const double level_mu =
+        SharedNielsenHorizon<double>{}.nielsen_level_mu(mu, from_height, planet.bottom_radius_m);
+    return exp(
+        -(air.air * numbers.nielsen_air_sky_depth(level_mu, from_height) +
+          air.aerosol_scattering * numbers.nielsen_aerosol_sky_depth(level_mu, from_height)));
   };
   const auto sun_at = [&](double at_height) {
     return choices.sun == NielsenSun::kPublished ? shared.nielsen_sunlight(aerosol.multiplier)
@@ -125,8 +131,7 @@ SkyValues NielsenModel::radiance(const Atmosphere<double>& atmosphere,
         const auto air = literature::clear_air(shells, clear, node);
         const Aerosol<N> aerosol = aerosol_of(literature::clear_air(shells, clear, {550, 0}));
         for (std::size_t i = 0; i < points.size(); ++i) {
-          out[i] = radiance_of(air, aerosol, points[i], literature::view_of(atmosphere, points[i]),
-                               choices_);
+          out[i] = radiance_of(air, aerosol, atmosphere, points[i], choices_);
         }
       });
 }

@@ -6,12 +6,16 @@
 #ifdef PREETHAM
 #include "model/shared/preetham.glsl"
 #endif
+#ifdef NIELSEN
+#include "model/shared/nielsen_horizon.glsl"
+#endif
 
 vec4 closed_form_dimming(float air_m, float aerosol_m) { return exp(-(air_beta * air_m + aerosol_beta * aerosol_m)); }
 
 #ifdef NIELSEN
 vec4 closed_form_to_sky(float h, float mu) {
-  return closed_form_dimming(nielsen_air_sky_depth(mu, 1e3 * h), nielsen_aerosol_sky_depth(mu, 1e3 * h));
+  float level_mu = nielsen_level_mu(mu, h, bottom_km);
+  return closed_form_dimming(nielsen_air_sky_depth(level_mu, 1e3 * h), nielsen_aerosol_sky_depth(level_mu, 1e3 * h));
 }
 
 float nielsen_path_depth(float from_m, float to_m, float length_m, float scale_height_m) {

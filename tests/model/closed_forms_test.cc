@@ -53,11 +53,35 @@ TEST(HoffmanPreetham, RefusesTwilightAndHeight) {
   EXPECT_THROW(radiance("hoffman-preetham", {}, {11e3, 0, 0, 0}), std::invalid_argument);
 }
 
-// From 3 km; haze 0.35 of the way from the clear asymmetry 0.4264 to g = 0.76: 0.54305.
+// From 3 km, whose horizon has the cosine -0.030698: 0.5 above it is 0.514892 above a level one.
+// Haze 0.35 of the way from the clear asymmetry 0.4264 to g = 0.76: 0.54305.
 TEST(Nielsen, SkyByHand) {
   SkyPoint high = kSide;
   high.altitude_m = 3000;
-  EXPECT_NEAR(radiance("nielsen:sun-through-sky", {}, high) / 0.019300777413634274, 1, kDigits);
+  EXPECT_NEAR(radiance("nielsen:sun-through-sky", {}, high) / 0.019026993519271933, 1, kDigits);
+}
+
+// From any height the sky runs from the zenith to the horizon that is seen, over which the air is
+// as deep as over a level one: light scattered by air alone is P (1 - exp(-beta 1.05 * 190 km)).
+TEST(Nielsen, SkyEndsAtTheHorizonThatIsSeen) {
+  Atmosphere<double> a;
+  a.at("mie").amount = 0;
+  constexpr double kBeta = 1.216e-5, kAirPhase = 3 / (16 * std::numbers::pi) * 2;
+  for (const double altitude : {0.0, 3e3, 30e3}) {
+    const double dip = std::acos(a.bottom_radius_m / (a.bottom_radius_m + altitude));
+    const auto light = [&](double above_horizon) {
+      return radiance("nielsen", a, {altitude, 0, 0.5 * std::numbers::pi + dip - above_horizon, 0});
+    };
+    // At mu = 0 the depth falls as mu^0.2.
+    constexpr double kBeside = 1e-12, kRoot = 0.01;
+    const double nu = std::cos(0.5 * std::numbers::pi + dip - kBeside);
+    EXPECT_NEAR(light(kBeside), kAirPhase * (1 + 0.25 * nu * nu) * -std::expm1(-kBeta * 199500),
+                kRoot * kAirPhase)
+        << altitude;
+    // No part of the sky below the level is flat.
+    for (double above = 0.1 * dip; above < dip; above += 0.1 * dip)
+      EXPECT_GT(light(above), 1.001 * light(above + 0.1 * dip)) << altitude << ", " << above;
+  }
 }
 
 TEST(Nielsen, BothEndsOfATerrainPathAreHalved) {
