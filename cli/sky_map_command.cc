@@ -126,6 +126,11 @@ void run_sky_map(const SkyMapArguments& arguments) {
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   const auto model =
       make_sky_model(arguments.model, spectra, arguments.threads, transfer_of(arguments.scalar));
+  options.level_horizon = !sky_model_entry(arguments.model).sees_ground;
+  if (options.ground && options.level_horizon) {
+    throw UsageError("--ground", arguments.ground,
+                     fmt::format("expected black: the model {} has the sky alone", model->name()));
+  }
   Progress progress("mapping the sky");
   options.progress = [&](double done) { progress.show(done, arguments.projection); };
   SkyMap map =
@@ -163,7 +168,8 @@ void add_sky_map_command(CLI::App& app) {
   option("--sun-file", arguments->sun_file,
          "Also write direction, size and irradiance of the sun, as JSON", "FILE.json");
   option("--ground", arguments->ground,
-         "filled: below the horizon the ground as the model sees it; black: nothing",
+         "filled: below the horizon the ground as the model sees it; black: nothing, as preetham "
+         "and hosek-wilkie need it, which have the sky alone",
          "filled|black");
   option("--wavelength-nm", arguments->wavelengths,
          "Channels of spectral radiance, W m^-2 sr^-1 nm^-1, in the place of colour", "LIST");

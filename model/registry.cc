@@ -157,11 +157,15 @@ std::span<const SkyModelEntry> sky_models() {
        make<HoffmanPreethamModel>},
       {"preetham",
        "Preetham, Shirley & Smits 1999: formula over the turbidity; day, up to 3 km, sky",
-       make_with_spectra<PreethamModel>},
+       make_with_spectra<PreethamModel>,
+       {},
+       true,
+       false},
       {"hosek-wilkie",
        "Hosek & Wilkie 2012: formula over turbidity and albedo; day, from the ground, no frames",
        make_with_spectra<HosekWilkieModel>,
        {},
+       false,
        false},
   };
   return kModels;

@@ -48,7 +48,7 @@ LightGrid::LightGrid(const SkyModel& model, const Atmosphere<double>& atmosphere
                      const MapChannels& channels, const SkyMapOptions& options)
     : channels_(channels.names.size()) {
   const double h = options.altitude_m, radius = atmosphere.bottom_radius_m;
-  horizon_ = kPi - std::asin(radius / (radius + h));
+  horizon_ = options.level_horizon ? 0.5 * kPi : kPi - std::asin(radius / (radius + h));
   constexpr double kBeside = 1e-5;  // of the horizon, so that a ray is on its side
   const auto zenith_step = [&](double zenith) {
     if (std::abs(zenith - horizon_) < 2.05 * kDegree) return 0.1 * kDegree;

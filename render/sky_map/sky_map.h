@@ -33,8 +33,9 @@ struct SkyMapOptions {
   double altitude_m = 0;
   double sun_zenith = 0, sun_azimuth = 0;  // radians, azimuth clockwise from north
   bool sun_disc = true;
-  bool ground = true;   // else what lies below the horizon is black
-  bool stokes = false;  // also the layers of polarisation
+  bool ground = true;          // else what lies below the horizon is black
+  bool level_horizon = false;  // the horizon is at 90 deg at every altitude
+  bool stokes = false;         // also the layers of polarisation
   PolarisationAngle angle = PolarisationAngle::kClockwise;
   std::function<void(double)> progress = [](double) {};
 };

@@ -349,6 +349,11 @@ TEST_F(BadInputTest, WhatAModelCannotDo) {
   expect_refusal(
       {"fit", "--reference", "cie:12", "--model", "oneil", "--free", "ozone.column", "--out", "x"},
       {"ozone.column", "oneil"});
+  for (const char* model : {"preetham", "hosek-wilkie"}) {
+    expect_refusal(
+        {"sky-map", "earth-clear", "--model", model, "--sun-zenith-deg", "40", "--out", "x.exr"},
+        {"--ground", "filled", "expected black", model, "the sky alone"});
+  }
   expect_refusal({"compare", "--reference", "model:reference", "--out", "x"}, {"--preset"});
   expect_refusal({"compare", "--reference", "cie:12", "--models", "nonsense", "--out", "x"},
                  {"nonsense", "expected one of"});

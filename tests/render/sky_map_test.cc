@@ -9,7 +9,9 @@
 #include <numbers>
 #include <random>
 
+#include "data_refs/references.h"
 #include "data_refs/spectra.h"
+#include "model/atmosphere/preset.h"
 #include "model/numerics/angles.h"
 #include "model/registry.h"
 
@@ -162,6 +164,27 @@ TEST(SkyMap, GroundAndSpaceCanBeBlack) {
   options.altitude_m = 4e5;
   const SkyMap space = map_of("equirectangular", 64, options);
   EXPECT_EQ(space.pixels[static_cast<std::size_t>(3 * 128 * 10) + 1], 0);
+}
+
+// A model that has the sky alone fills the upper half from every altitude that it knows.
+TEST(SkyMap, HasALevelHorizonByAModelOfTheSkyAlone) {
+  for (const char* name : {"preetham", "hosek-wilkie"}) {
+    ASSERT_FALSE(sky_model_entry(name).sees_ground);
+    SkyMapOptions options = sun_at(30);
+    options.altitude_m = name == std::string_view("preetham") ? 2e3 : 0;
+    options.ground = false;
+    options.level_horizon = true;
+    const SkyMap map =
+        sky_map(*make_sky_model(name, spectra(), 2),
+                parse_preset(refs::shipped_preset_json("earth-hazy"), "earth-hazy").atmosphere,
+                xyz_channels(spectra()), *make_map_projection("equirectangular", 16), options);
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x)
+        EXPECT_EQ(map.pixels[static_cast<std::size_t>(3 * (y * map.width + x)) + 1] > 0,
+                  y < map.height / 2)
+            << name << ", row " << y;
+    }
+  }
 }
 
 TEST(SkyMap, WavelengthsAreSpectralRadiances) {
