@@ -351,7 +351,7 @@ earth=(--preset schafhitzel-2007-earth)
 begin
 both sfe07-4a schafhitzel "${earth[@]}" --view space "${small[@]}"
 both sfe07-4b schafhitzel "${earth[@]}" --view orbit --sun-zenith-deg 80 "${small[@]}"
-figure "4a, 4b: the Earth from space, and after sunrise from high above" "A blue limb; long paths are tinted near the terminator." \
+figure "4a, 4b: the Earth from space, and after sunrise from high above" "A blue limb; long paths are tinted near the terminator. The thin arc on the night limb from space is the model's: its table leaves the azimuth between view and sun out, so a ray that leads away from the sun has the light of one toward it." \
   "space, schafhitzel" "space, reference" "orbit, schafhitzel" "orbit, reference"
 begin
 picture sfe07-4d "${earth[@]}" --view valley --strip sun-zenith-deg=89,78,40 --rows model=schafhitzel,reference --metering each "${small[@]}"
