@@ -18,6 +18,9 @@ namespace {
 
 Shared<double> shared;  // stateless
 
+// In the place of all logarithms where nothing scatters: its exponential is 0.
+constexpr float kNoScattering = -1000;
+
 // Levels of a ray: those of the texels, which have a source, and others between them.
 constexpr int kLevelsPerTexel = kSourceStep;
 
@@ -226,6 +229,14 @@ class ScatteringBuilder {
 void make_scattering_tables(const Shells& shells, const NodeOptics& optics,
                             AtmosphereTables& tables, const ReferenceOptions& options,
                             const TableLight& light, const std::function<void(double)>& progress) {
+  const auto& constituents = tables.atmosphere.constituents;
+  if (std::ranges::none_of(constituents, [](const auto& c) { return scatters(c); })) {
+    for (Table* table :
+         {&tables.rayleigh_like, &tables.single, &tables.sky_rays.air, &tables.sky_rays.aerosol})
+      std::ranges::fill(table->rgba, kNoScattering);
+    if (progress) progress(1);
+    return;
+  }
   ScatteringBuilder(shells, optics, tables, options, light).build(progress);
 }
 

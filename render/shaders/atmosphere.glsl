@@ -270,10 +270,13 @@ Scattering scaled(Scattering s, vec4 factor) {
 }
 Scattering scaled(Scattering s, float factor) { return scaled(s, grey(factor)); }
 
+// Of a logarithm. 0 below the least float, where some drivers stop.
+vec4 light_from_logarithm(vec4 logarithm) { return step(grey(-87.0), logarithm) * exp(logarithm); }
+
 // Of logarithms.
 Scattering exponential(Scattering s) {
-  s.rayleigh_like = exp(s.rayleigh_like);
-  for (int c = 0; c < kClasses; ++c) s.single[c] = exp(s.single[c]);
+  s.rayleigh_like = light_from_logarithm(s.rayleigh_like);
+  for (int c = 0; c < kClasses; ++c) s.single[c] = light_from_logarithm(s.single[c]);
   return s;
 }
 

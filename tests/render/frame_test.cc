@@ -137,6 +137,25 @@ TEST(Frame, TheSunsDiscCarriesItsIlluminance) {
   EXPECT_NEAR(frame.view_azimuth_deg[static_cast<std::size_t>(brightest)], 0, 0.1);
 }
 
+TEST(Frame, WithoutAirNothingIsScattered) {
+  Preset airless = earth_clear();
+  airless.atmosphere.constituents.clear();
+  Renderer drawn;
+  drawn.set_atmosphere(airless, tables_of(airless, kSmallTables));
+  for (const char* view : {"limb", "space"}) {
+    FrameOptions options = options_at(find_view(view).camera, find_view(view).sun_zenith, 48, 30);
+    options.layers = true;
+    const Frame frame = drawn.draw(options);
+    int skies = 0;
+    for (std::size_t i = 0; i < frame.luminance.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_EQ(frame.layers->in_scatter[3 * i + c], 0) << view << ", pixel " << i;
+      if (is_sky(frame, i)) ++skies;
+    }
+    EXPECT_GT(skies, 50) << view;
+  }
+}
+
 TEST(Frame, MirrorsAboutTheSunsAzimuthInTheSky) {
   FrameOptions options = options_of("ground", 160, 100);
   const Frame frame = renderer().draw(options);
