@@ -18,8 +18,8 @@ Number relative_air_mass(Number mu) {
   return 1.0 / (max(mu, Number(0.0)) + 0.15 * pow(Number(93.885) - zenith_deg, Number(-1.253)));
 }
 
-// Nielsen 2003: what a ray from height_m to the sky crosses, metres of density 1, for the cosine of its zenith angle (a
-// ray that looks down and misses the ground counts as horizontal). `zenith_depth_m` is that of the vertical ray.
+// Nielsen 2003: what a ray from height_m to the sky crosses, metres of density 1, for the cosine of its zenith angle over a
+// level horizon (nielsen_horizon.glsl). `zenith_depth_m` is that of the vertical ray.
 Number nielsen_sky_depth(Number mu, Number zenith_depth_m) {
   Number f = pow(max(mu, Number(0.0)), Number(0.2));
   Number toward_horizon_m = (1.05 - f) * 190000.0;
