@@ -44,10 +44,13 @@ double LevelGrid::coordinate(double height) const {
 LevelStencil LevelGrid::stencil(double coordinate) const {
   const int below = static_cast<int>(coordinate);
   if (coordinate == below) return {below, {1.0}};
-  LevelStencil stencil{std::clamp(below - 1, 0, size() - 4), std::vector<double>(4)};
+  const NodeRange range =
+      without_short_steps(roots_, below + 1, {std::clamp(below - 1, 0, size() - 4), 4});
+  LevelStencil stencil{range.first, std::vector<double>(static_cast<std::size_t>(range.count))};
   const auto at = static_cast<std::size_t>(below);
   const double root = std::lerp(roots_[at], roots_[at + 1], coordinate - below);
-  lagrange_weights(&roots_[static_cast<std::size_t>(stencil.first)], 4, root, stencil.share.data());
+  lagrange_weights(&roots_[static_cast<std::size_t>(stencil.first)], range.count, root,
+                   stencil.share.data());
   return stencil;
 }
 

@@ -12,12 +12,19 @@
 namespace skyfit {
 namespace {
 
-void set_interpolation(const std::vector<double>& node_s, ViewPath::Sample& sample) {
+bool has_layers(const Shells& shells) {
+  return std::ranges::any_of(shells.profiles, [](const Profile& p) { return p.is_layer(); });
+}
+
+void set_interpolation(const std::vector<double>& node_s, bool layers, ViewPath::Sample& sample) {
   const int size = static_cast<int>(node_s.size());
-  sample.count = std::min(4, size);
   const int above = static_cast<int>(
       std::upper_bound(node_s.begin(), node_s.end(), sample.point.s) - node_s.begin());
-  sample.first = std::clamp(above - 2, 0, size - sample.count);
+  const int most = std::min(4, size);
+  NodeRange range{std::clamp(above - 2, 0, size - most), most};
+  if (layers) range = without_short_steps(node_s, std::clamp(above, 1, size - 1), range);
+  sample.first = range.first;
+  sample.count = range.count;
   lagrange_weights(&node_s[sample.first], sample.count, sample.point.s, sample.share);
 }
 
@@ -77,11 +84,12 @@ ViewPath view_path(const Shells& shells, const std::vector<double>& heights, dou
             ? node
             : ray_point(path.ray, shells.bottom_radius, std::clamp(node.s, part.begin, part.end)));
   }
+  const bool layers = has_layers(shells);
   const std::vector<double> breaks = with_piece_breaks(with_profile_breaks(shells, path.ray, s));
   for (const QuadratureNode& q : composite_gauss(breaks, 3)) {
     ViewPath::Sample sample{ray_point(path.ray, shells.bottom_radius, q.s), q.weight, {}};
     sample.columns = columns_along(shells, path.ray, sample.point);
-    set_interpolation(s, sample);
+    set_interpolation(s, layers, sample);
     path.samples.push_back(sample);
   }
   path.columns_to_end = columns_along(shells, path.ray, path.nodes.back());

@@ -90,25 +90,16 @@ class Interpolation {
   template <class Add>
   void share(double s, Add add) const {
     const int above = static_cast<int>(std::upper_bound(s_.begin(), s_.end(), s) - s_.begin());
-    int first = std::clamp(above - 2, 0, static_cast<int>(s_.size()) - count_), count = count_;
-    if (layers_) leave_out_edges(above, first, count);
+    const int last = static_cast<int>(s_.size()) - 1;
+    NodeRange range{std::clamp(above - 2, 0, last + 1 - count_), count_};
+    if (layers_) range = without_short_steps(s_, std::clamp(above, 1, last), range);
+    const auto [first, count] = range;
     double shares[4];
     lagrange_weights(&s_[first], count, s, shares);
     for (int n = 0; n < count; ++n) add(index_[first + n], shares[n]);
   }
 
  private:
-  // Where a layer begins, levels lie close together and light has a kink: a cubic through two of
-  // them would go astray over the long step before them.
-  void leave_out_edges(int above, int& first, int& count) const {
-    above = std::clamp(above, 1, static_cast<int>(s_.size()) - 1);
-    const double step = s_[above] - s_[above - 1];
-    int end = first + count;
-    while (end > above + 1 && s_[end - 1] - s_[end - 2] < kLeastShare * step) --end;
-    while (first < above - 1 && s_[first + 1] - s_[first] < kLeastShare * step) ++first;
-    count = end - first;
-  }
-
   // Crossings close to the ray's lowest point say nothing new and spoil the interpolation; so does
   // that point close to the ray's beginning.
   void drop_near_lowest(const std::vector<LevelNode>& nodes) {

@@ -8,12 +8,16 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <numbers>
 #include <sstream>
 
+#include "data_refs/references.h"
 #include "data_refs/spectra.h"
 #include "model/atmosphere/parameters.h"
+#include "model/atmosphere/preset.h"
 #include "model/registry.h"
+#include "model/solver/reference_model.h"
 #include "tests/atmospheres.h"
 
 namespace skyfit {
@@ -237,6 +241,33 @@ TEST(Layers, AsATableTheyAreAsBright) {
   const SkyValues a = model->radiance(layered, nodes, points, {}),
                   b = model->radiance(tabulated, nodes, points, {});
   for (std::size_t i = 0; i < a.value.size(); ++i) EXPECT_NEAR(b.value[i] / a.value[i], 1, 5e-3);
+}
+
+// The diffuse field has a kink at a cloud's top. What an eye in the clear air above, short of the
+// next level, sees of the cloud is what it sees with three times the levels.
+TEST(Layers, SeenFromAboveAreAsWithThreeTimesTheLevels) {
+  const Atmosphere<double> a =
+      parse_preset(refs::shipped_preset_json("overcast"), "overcast").atmosphere;
+  const auto nodes = spectral_nodes(refs::standard_spectral_data(), {550});
+  std::vector<SkyPoint> points;
+  for (const double altitude : {3400.0, 3800.0}) {
+    for (const double view : {80.0, 94.0, 100.0}) {
+      for (const double azimuth : {0.0, 180.0})
+        points.push_back({altitude, 84 * kDegree, view * kDegree, azimuth * kDegree});
+    }
+  }
+  ReferenceOptions options;
+  options.threads = 2;
+  options.transfer = Transfer::kScalar;
+  const SkyValues found = ReferenceModel(options).radiance(a, nodes, points, {});
+  options.levels = 3 * kDefaultLevels;
+  const SkyValues fine = ReferenceModel(options).radiance(a, nodes, points, {});
+  double worst = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    worst = std::max(worst, std::abs(found.value[i] / fine.value[i] - 1));
+  std::cout << "[ worst ] " << 100 * worst << " %\n";
+  constexpr double kLevelsInTheCloud = 0.08;  // toward a sun at 84 deg
+  EXPECT_LT(worst, kLevelsInTheCloud);
 }
 
 }  // namespace
