@@ -155,7 +155,7 @@ TEST(Sky, ShowsTheEarthsShadowOppositeTheSunAfterSunset) {
         "[ shadow ] sun at -%g deg: %.3g cd/m^2 at 0.5 deg, %.3g in the shadow at %.1f, "
         "brightest %.3g at %.1f deg\n",
         down, low, part * brightest, 0.8 * down, brightest, belt);
-    EXPECT_LT(low, 0.7 * brightest);
+    EXPECT_LT(low, 0.75 * brightest);
     EXPECT_GT(belt, down);  // the shadow's edge stands about as high as the sun is low
     EXPECT_GT(belt, before);
     before = belt;
