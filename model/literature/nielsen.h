@@ -9,9 +9,9 @@
 // factor m on the Mie coefficient is over Hoffman & Preetham's of turbidity 2; the sun's light,
 // 9.2 - 550 m, is over 9.2 of that in space, of the star's colour, and constant beyond his thickest
 // haze, m = 7e-3. He says that it falls as the sun sinks, but not how: here it does not. His sky
-// ends at a level horizon; of an eye above the ground it ends at the horizon that is seen. Left out:
-// absorption and ozone, every further scattering, the preset's scale heights (the model has its
-// own). Valid by day, the sun above the horizon, up to 30 km, the highest eye of the source.
+// ends at a level horizon; of an eye above the ground it ends at the horizon that is seen. Left
+// out: absorption and ozone, every further scattering, the preset's scale heights (the model has
+// its own). Valid by day, the sun above the horizon, up to 30 km, the highest eye of the source.
 #pragma once
 
 #include "model/sky_model.h"
