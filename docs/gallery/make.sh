@@ -296,7 +296,7 @@ begin
 picture n03-7-6 "${n03[@]}" --view 10km --altitude-m 3500 --sun-zenith-deg 50 --field-of-view-deg 20 --view-zenith-deg 92 \
   --strip model=nielsen,reference "${small[@]}"
 figure "7.6: mountains by day" \
-  "Shadows of near ranges are blue, the farthest peaks yellow to white. A white band lies above them: below the horizontal, his sky stays as it is there." \
+  "Shadows of near ranges are blue, the farthest peaks yellow to white." \
   "one exposure"
 begin
 for model in nielsen nielsen:mean-height; do
