@@ -159,14 +159,14 @@ std::span<const SkyModelEntry> sky_models() {
        "Preetham, Shirley & Smits 1999: formula over the turbidity; day, up to 3 km, sky",
        make_with_spectra<PreethamModel>,
        {},
-       true,
-       false},
+       /*draws_frames=*/true,
+       /*sees_ground=*/false},
       {"hosek-wilkie",
        "Hosek & Wilkie 2012: formula over turbidity and albedo; day, from the ground, no frames",
        make_with_spectra<HosekWilkieModel>,
        {},
-       false,
-       false},
+       /*draws_frames=*/false,
+       /*sees_ground=*/false},
   };
   return kModels;
 }

@@ -54,8 +54,8 @@ struct DiffuseOptions {
   // Couples the suns in as many steps as a deep twilight takes, whose light all comes from far
   // places; in two where that does not converge.
   bool deep_twilight = false;
-  bool polarised = true;  // with P of the light that air polarises
-  int levels;             // of the grid, without those that layers of the atmosphere add
+  bool polarised = true;        // with P of the light that air polarises
+  int levels = kDefaultLevels;  // LevelGrid::asked()
 };
 
 // Levels of a field that knows deep twilight, where one of the day has `levels`: light of one layer

@@ -10,7 +10,7 @@
 namespace skyfit {
 
 // docs/theory (3.1).
-LevelGrid::LevelGrid(const Shells& shells, int count) {
+LevelGrid::LevelGrid(const Shells& shells, int count) : asked_(count) {
   for (int i = 0; i < count; ++i) {
     const double x = static_cast<double>(i) / (count - 1);
     heights_.push_back(shells.top * x * x * x);

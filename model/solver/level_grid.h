@@ -24,6 +24,8 @@ class LevelGrid {
   // Profile::level_heights().
   LevelGrid(const Shells& shells, int count);
 
+  // As it was asked for, without what layers add.
+  int asked() const { return asked_; }
   // Ascending from 0 to the top.
   const std::vector<double>& heights() const { return heights_; }
   int size() const { return static_cast<int>(heights_.size()); }
@@ -33,6 +35,7 @@ class LevelGrid {
   LevelStencil stencil(double coordinate) const;
 
  private:
+  int asked_;
   std::vector<double> heights_, roots_;
 };
 

@@ -6,7 +6,6 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -172,16 +171,16 @@ template <int N>
 std::vector<SkyValues> solve_points(const Question<N>& question, std::span<const SkyPoint> points,
                                     bool deep_twilight, const LightTurns* turns) {
   const auto& [shells, optics, derivatives, options, wanted] = question;
-  const int levels_given = deep_twilight ? twilight_levels(options.levels) : options.levels;
-  const LevelGrid levels(shells, levels_given);
+  const LevelGrid levels(shells, deep_twilight ? twilight_levels(options.levels) : options.levels);
   const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
   const SunsAlongRays suns = suns_along_rays(shells, rays, points, turns);
   const bool first = options.order <= 1, further = options.order != 1;
   ByStokes<Dual<N>> single;
   for (const Stokes which : wanted) single[which].resize(points.size() * optics.size());
-  std::optional<SkySolution<N>> solution;
+  std::optional<SkySolution<N>> solution;  // none where no ray meets the atmosphere
   tbb::parallel_invoke(
       [&] {
+        if (suns.needed.empty()) return;
         solution.emplace(shells, levels, optics, derivatives, suns.needed, options, deep_twilight);
       },
       [&] {
@@ -199,7 +198,8 @@ std::vector<SkyValues> solve_points(const Question<N>& question, std::span<const
   std::vector<SkyValues> result;
   for (const Stokes which : wanted) {
     std::vector<double> multiple(points.size() * optics.size() * slices, 0.0);
-    add_multiple_scattering(*solution, rays, suns.along, optics.size() * slices, which, multiple);
+    if (solution)
+      add_multiple_scattering(*solution, rays, suns.along, optics.size() * slices, which, multiple);
     result.push_back(sum_of(single[which], multiple, static_cast<int>(points.size()), optics.size(),
                             derivatives, further));
   }

@@ -37,8 +37,7 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
       sun_coupling(grid_, shells_, solved_, streams, first),
       {options.moments, options.tolerance, std::max(options.order - 1, 0), deep_twilight,
-       options.transfer == Transfer::kVector,
-       deep_twilight ? twilight_levels(options.levels) : options.levels});
+       options.transfer == Transfer::kVector, levels_.asked()});
 }
 
 // docs/theory (8.6).

@@ -52,7 +52,7 @@ SunsAlongRays suns_along_rays(const Shells& shells, const ViewRays& rays,
 
 bool is_deep_twilight(const Shells& shells, const SkyPoint& point, const LightTurns* turns) {
   static const double kLowest = std::cos(94 * kRadiansPerDegree);
-  constexpr int kPlaces = 16;
+  constexpr int kPlaces = 16;  // along which the local sun moves by a degree or so
   const ViewRay ray =
       view_ray(shells.bottom_radius, shells.top, point.altitude_m, std::cos(point.view_zenith));
   const SunAlongRay sun(shells.bottom_radius, ray, point, turns);

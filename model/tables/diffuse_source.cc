@@ -80,7 +80,7 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
                                     .order = order,
                                     .deep_twilight = true,
                                     .polarised = light.transfer == Transfer::kVector,
-                                    .levels = twilight_levels(options.levels)});
+                                    .levels = levels_.asked()});
   };
   std::vector<DiffuseField> fields = fields_of(light.orders == 0 ? 0 : 1);
   for (int order = 2; order < light.orders; ++order) add(fields_of(order), fields);

@@ -47,17 +47,13 @@ void expect_falling(const Atmosphere<double>& a, Transfer transfer) {
 }
 
 TEST(DeepTwilight, FallsWithTheSunsDepression) {
-  constexpr struct {
-    double air;
-    Transfer transfer;
-  } kCases[] = {
-      {4.5e-6, Transfer::kVector}, {1.216e-5, Transfer::kScalar}, {3.2e-5, Transfer::kVector}};
-  for (const auto& [air, transfer] : kCases) {
+  for (const double air : {4.5e-6, 1.216e-5, 3.2e-5}) {
     Atmosphere<double> a;
     set_scattering(a.at("rayleigh"), 550, air, 4.08);
     set_scattering(a.at("mie"), 550, 9e-5, 1.3);
     a.at("mie").phase = {PhaseType::kTwoLobe, 0, 0.8, 0.3, 0.6};
-    expect_falling(a, transfer);
+    for (const Transfer transfer : {Transfer::kVector, Transfer::kScalar})
+      expect_falling(a, transfer);
   }
 }
 

@@ -24,10 +24,11 @@ std::size_t middle_of(const Frame& frame) {
 }
 
 // Luminance of the sky in a direction.
-double sky_luminance(double altitude, double sun_deg, double zenith_deg, double azimuth_deg) {
-  const Frame frame = renderer().draw(
-      options_at({altitude, zenith_deg * kDegree, azimuth_deg * kDegree, 1 * kDegree},
-                 sun_deg * kDegree, 9, 9));
+double sky_luminance(double altitude, double sun_deg, double zenith_deg, double azimuth_deg,
+                     Renderer& with = renderer()) {
+  const Frame frame =
+      with.draw(options_at({altitude, zenith_deg * kDegree, azimuth_deg * kDegree, 1 * kDegree},
+                           sun_deg * kDegree, 9, 9));
   EXPECT_TRUE(is_sky(frame, middle_of(frame)));
   return frame.luminance[middle_of(frame)];
 }
@@ -139,11 +140,17 @@ TEST(Sky, DarkensAtTheZenithWithAltitude) {
 }
 
 TEST(Sky, ShowsTheEarthsShadowOppositeTheSunAfterSunset) {
-  // From above the haze: the shadow's edge rises as the sun sinks.
+  // From above the haze: the shadow's edge rises as the sun sinks. With the suns of small tables
+  // the belt of a sun at -4 deg would be too dark by an eighth.
+  TableSizes sizes = kSmallTables;
+  sizes.scattering_mu_s = TableSizes{}.scattering_mu_s;
+  const AtmosphereTables tables = tables_of(earth_clear(), sizes);
+  Renderer drawn = make_renderer();
+  drawn.set_atmosphere(earth_clear(), tables);
   double before = 0;
   for (const double down : {1.0, 2.0, 3.0, 4.0}) {
     const auto luminance = [&](double elevation) {
-      return sky_luminance(5e3, 90 + down, 90 - elevation, 180);
+      return sky_luminance(5e3, 90 + down, 90 - elevation, 180, drawn);
     };
     double brightest = 0, belt = 0;
     for (double elevation = 0.5; elevation < 30; elevation += 0.5) {
@@ -155,7 +162,7 @@ TEST(Sky, ShowsTheEarthsShadowOppositeTheSunAfterSunset) {
         "[ shadow ] sun at -%g deg: %.3g cd/m^2 at 0.5 deg, %.3g in the shadow at %.1f, "
         "brightest %.3g at %.1f deg\n",
         down, low, part * brightest, 0.8 * down, brightest, belt);
-    EXPECT_LT(low, 0.75 * brightest);
+    EXPECT_LT(low, 0.7 * brightest);
     EXPECT_GT(belt, down);  // the shadow's edge stands about as high as the sun is low
     EXPECT_GT(belt, before);
     before = belt;
