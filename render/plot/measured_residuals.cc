@@ -39,10 +39,11 @@ void write_directions(Script& script, const MeasuredOutcome& outcome) {
 
 struct Mean {
   double sum = 0, squares = 0, count = 0;
+  double average() const { return sum / count; }
 };
 
-// Wavelength, mean, standard deviation over the directions.
-void write_wavelengths(Script& script, const MeasuredOutcome& outcome) {
+// In percent, by wavelength in nm.
+std::map<double, Mean> means_of(const MeasuredOutcome& outcome) {
   std::map<double, Mean> at;
   for (const Sample& s : outcome.samples) {
     if (!(s.weight > 0 && s.reference > 0)) continue;
@@ -52,16 +53,21 @@ void write_wavelengths(Script& script, const MeasuredOutcome& outcome) {
     mean.squares += value * value;
     ++mean.count;
   }
+  return at;
+}
+
+// Wavelength, mean, standard deviation over the directions.
+void write_wavelengths(Script& script, const MeasuredOutcome& outcome) {
   script.line("$wavelengths << EOD");
-  for (const auto& [nm, mean] : at) {
-    const double average = mean.sum / mean.count;
-    script.line("{:.6g} {:.6g} {:.6g}", nm, average,
-                std::sqrt(std::max(0.0, mean.squares / mean.count - average * average)));
+  for (const auto& [nm, mean] : means_of(outcome)) {
+    const double variance = mean.squares / mean.count - mean.average() * mean.average();
+    script.line("{:.6g} {:.6g} {:.6g}", nm, mean.average(), std::sqrt(std::max(0.0, variance)));
   }
   script.line("EOD");
 }
 
-// Half the height of the panels, the same in all: all but 2 % of the directions lie within.
+// Half the height of the panels, the same in all: all but 2 % of the directions lie within, and
+// the means of spectral samples.
 double limit_percent(const MeasuredOutcome& outcome) {
   std::vector<double> sizes = {1};
   for (const MeasuredDirection& d : directions_of(outcome)) {
@@ -70,7 +76,12 @@ double limit_percent(const MeasuredOutcome& outcome) {
   const auto rank = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(sizes.size() - 1));
   std::ranges::nth_element(sizes, sizes.begin() + rank);
   constexpr double kLeast = 0.1;  // what a fit of its own model leaves is rounding
-  return round_up(std::max(sizes[static_cast<std::size_t>(rank)], kLeast));
+  double limit = std::max(sizes[static_cast<std::size_t>(rank)], kLeast);
+  if (outcome.spectral) {
+    for (const auto& [nm, mean] : means_of(outcome))
+      limit = std::max(limit, std::abs(mean.average()));
+  }
+  return round_up(limit);
 }
 
 // Percents around 0, or factors around 1 on a logarithmic axis where percents are large.
