@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground's two materials, soil and rock, at two scales: grains near the eye and crags far away. The textures are solid
+// The ground's two materials, soil and rock, at all scales: grains near the eye, then stones, then crags far away. The textures are solid
 // noise in the planet's axes, so that no surface has a seam. What a user has of his own (OWN_SOIL_COLOR and so on) takes the
 // place of that.
 #include "render/shaders/view_ray.glsl"
@@ -10,7 +10,7 @@
 layout(binding = 18) uniform sampler3D grains;
 layout(binding = 19) uniform sampler3D crags;
 
-// Phases are texture coordinates of the camera, 0..1; the mean of the grains' texture is its last mipmap.
+// Phases are texture coordinates of the camera, 0..1; the mean of a texture is its last mipmap.
 #define MATERIAL_CONSTANTS(EACH) \
   EACH(vec3, grain_phase)        \
   EACH(float, grains_per_km)     \
@@ -18,12 +18,23 @@ layout(binding = 19) uniform sampler3D crags;
   EACH(float, crags_per_km)      \
   EACH(vec3, far_crag_phase)     \
   EACH(float, far_crags_per_km)  \
-  EACH(vec4, grain_mean)
+  EACH(vec4, grain_mean)         \
+  EACH(vec4, crag_mean)
 CONSTANTS(5, Materials, MATERIAL_CONSTANTS)
 
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
 const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);
 const vec2 kGrainContrast = vec2(1.0, 0.8), kCragContrast = vec2(0.4, 0.5);
+// Stones are the crags' texture again, smaller by this, a whole number (the phase is known but for whole ones), and that
+// as steep and as light and dark as them.
+const float kStoneScale = 8.0;
+const vec4 kStones = vec4(vec3(0.9), 1.5);
+// Units by which the crags move the stones, whose repetition is not seen then.
+const float kStoneBend = 1.0;
+
+// 0 to 1: where a unit of a texture, seen at a mipmap, is but a few pixels, its repetition would show. A larger one takes its
+// place.
+float smallness(float level) { return smoothstep(0.5, 2.5, level); }
 
 #ifdef GRAINS
 // Grit is the grains' texture again, smaller by this, a whole number (the phase is known but for whole ones): the ground near the feet.
@@ -64,10 +75,16 @@ vec4 with_material(vec3 place, float d, vec3 ray, float rock, vec4 reflectance, 
 #else
   vec4 grain = grain_mean;
 #endif
-  // Where a unit of the texture is but a few pixels, its repetition would show: the same texture, larger, takes its place.
-  vec4 crag = mix(textureLod(crags, crag_phase + crags_per_km * place, level),
-                  textureLod(crags, far_crag_phase + far_crags_per_km * place, log2(texels * far_crags_per_km)),
-                  smoothstep(0.5, 2.5, level));
+  vec3 at = crag_phase + crags_per_km * place;
+  vec4 crag = textureLod(crags, at, level);
+  vec3 stone_at = kStoneScale * at + kStoneBend * (crag - crag_mean).xyz;
+  float stone_level = level + log2(kStoneScale);
+  float near = 1.0 - smallness(stone_level), far = smallness(level);
+  if (near > 0.0) crag += near * kStones * (textureLod(crags, stone_at, stone_level) - crag_mean);
+  if (far > 0.0) {
+    vec3 far_at = far_crag_phase + far_crags_per_km * place;
+    crag = mix(crag, textureLod(crags, far_at, log2(texels * far_crags_per_km)), far);
+  }
   float rocky = max(rock, 0.0), land = rock < 0.0 ? 0.0 : 1.0;
   // Of soil and of rock.
   vec3 fine = (255.0 / 127.0) * (grain.xyz - 127.0 / 255.0), coarse = (255.0 / 127.0) * (crag.xyz - 127.0 / 255.0);

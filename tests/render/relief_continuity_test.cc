@@ -56,6 +56,24 @@ TEST(Noise, ChangesLittleWhenTheFinestDetailFadesIn) {
   }
 }
 
+// A crest between two samples does not stand out of the line through them, nor sink below it from
+// one pair to the next: mountains would have teeth.
+TEST(Noise, SamplesShowTheRidgesTheyStandFor) {
+  constexpr double kShortest = 2000, kLongest = 16e3;
+  constexpr int kCount = 20000;
+  double squares = 0, worst = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const glm::dvec3 here = kEarth * direction(i, kCount);
+    const glm::dvec3 half = 0.25 * kShortest * direction((i * 7919) % kCount, kCount);
+    const auto ridge = [&](double x) { return ridged_noise(here + x * half, kLongest, kShortest); };
+    const double error = ridge(0) - 0.5 * (ridge(-1) + ridge(1));
+    squares += error * error / kCount;
+    worst = std::max(worst, std::abs(error));
+  }
+  EXPECT_LT(std::sqrt(squares), 0.013);
+  EXPECT_LT(worst, 0.1);
+}
+
 TEST(Relief, IsContinuousAndNeverBelowTheBottomRadius) {
   const Relief relief(kEarth, {0.15, 0.15, 0.15, 0.15}, true);
   constexpr double kStep = 1;  // m

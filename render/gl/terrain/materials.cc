@@ -33,7 +33,20 @@ std::size_t texel(int x, int y, int z) {
   return (wrap(z) * kSide + wrap(y)) * kSide + wrap(x);
 }
 
-double relief_of(Texture texture, const glm::dvec3& p) {
+// Noise is 0 at its lattice's points, and ridges run through all of them: bent, the lattice does
+// not show.
+glm::dvec3 bent(const glm::dvec3& p) {
+  constexpr int kPeriod = 4;
+  constexpr double kStrength = 0.12;
+  const glm::dvec3 q = p * double{kPeriod};
+  const auto noise = [&](double shift) {
+    return periodic_gradient_noise(q + glm::dvec3(shift), kPeriod);
+  };
+  return p + kStrength * glm::dvec3(noise(0.2), noise(1.4), noise(2.7));
+}
+
+double relief_of(Texture texture, const glm::dvec3& at) {
+  const glm::dvec3 p = bent(at);
   double sum = 0, amplitude = 1;
   glm::dvec3 shift(0);
   for (int period = texture == Texture::kGrains ? 4 : 2; period <= kSide / 4; period *= 2) {
@@ -214,6 +227,7 @@ Materials::Materials(const std::filesystem::path& directory, ContentCache* cache
     : grains_(solid_texture(load_texture(Texture::kGrains, directory, cache))),
       crags_(solid_texture(load_texture(Texture::kCrags, directory, cache))) {
   glGetTextureImage(grains_.id(), kLastLevel, GL_RGBA, GL_FLOAT, sizeof grain_mean_, &grain_mean_);
+  glGetTextureImage(crags_.id(), kLastLevel, GL_RGBA, GL_FLOAT, sizeof crag_mean_, &crag_mean_);
 }
 
 double Materials::grainless_distance_m(double pixel_rad) {
@@ -232,6 +246,7 @@ void Materials::bind(const glm::dvec3& camera, GLuint program, GLuint unit,
   block.set("far_crag_phase", glm::vec3(glm::fract(camera / kFarCragPeriod)));
   block.set("far_crags_per_km", 1e3 / kFarCragPeriod);
   block.set("grain_mean", grain_mean_);
+  block.set("crag_mean", crag_mean_);
   block.bind(buffers);
 }
 

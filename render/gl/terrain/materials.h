@@ -51,7 +51,7 @@ class Materials {
 
  private:
   GlTexture grains_, crags_;
-  glm::vec4 grain_mean_;
+  glm::vec4 grain_mean_, crag_mean_;
 };
 
 }  // namespace skyfit

@@ -13,6 +13,9 @@
 namespace skyfit {
 namespace {
 
+// Of a crest of ridged_noise() whose octave is `shortest` long, in units of 1.6 times the noise.
+constexpr double kCrestWidth = 0.4;
+
 // Points and octaves are worked on eight at a time.
 constexpr std::size_t kBatchWidth = 8;
 typedef double Doubles __attribute__((vector_size(kBatchWidth * sizeof(double))));
@@ -83,15 +86,15 @@ double noise_at(const glm::dvec3& x, std::int64_t end) {
   return batch.noise[0];
 }
 
-// Calls add(amplitude, noise) from the longest octave to the shortest.
+// Calls add(wavelength, amplitude, noise) from the longest octave to the shortest.
 template <class F>
 void for_octaves(const glm::dvec3& x, double longest, double shortest, F&& add) {
   Batch batch{};
-  std::array<double, kBatchWidth> amplitudes;
+  std::array<double, kBatchWidth> wavelengths, amplitudes;
   std::size_t count = 0;
   const auto flush = [&] {
     lattice_noise(batch, kNowhere);
-    for (std::size_t i = 0; i < count; ++i) add(amplitudes[i], batch.noise[i]);
+    for (std::size_t i = 0; i < count; ++i) add(wavelengths[i], amplitudes[i], batch.noise[i]);
     count = 0;
   };
   double amplitude = 1;
@@ -99,6 +102,7 @@ void for_octaves(const glm::dvec3& x, double longest, double shortest, F&& add) 
     // Octaves of one sum must not share their lattice points.
     const glm::dvec3 at = x / wavelength + glm::dvec3(0.37, 0.73, 0.19);
     for (int axis = 0; axis < 3; ++axis) batch.x[axis][count] = at[axis];
+    wavelengths[count] = wavelength;
     amplitudes[count++] = amplitude * std::clamp(2 * wavelength / shortest - 1, 0.0, 1.0);
     amplitude *= 0.5;
     if (count == kBatchWidth) flush();
@@ -127,14 +131,18 @@ double periodic_gradient_noise(const glm::dvec3& x, int period) {
 double fractal_noise(const glm::dvec3& x, double longest, double shortest) {
   double sum = 0;
   for_octaves(x, longest, shortest,
-              [&](double amplitude, double noise) { sum += amplitude * noise; });
+              [&](double, double amplitude, double noise) { sum += amplitude * noise; });
   return sum;
 }
 
 double ridged_noise(const glm::dvec3& x, double longest, double shortest) {
   double sum = 0, gain = 1, present = 0;
-  for_octaves(x, longest, shortest, [&](double amplitude, double noise) {
-    const double crest = 1 - std::min(std::abs(1.6 * noise), 1.0);
+  // Crests lie half a wavelength apart.
+  for_octaves(x, longest, 2 * shortest, [&](double wavelength, double amplitude, double noise) {
+    // A crest is as round as samples half of `shortest` apart can show: a sharp one would become
+    // teeth.
+    const double round = kCrestWidth * std::min(shortest / wavelength, 1.0);
+    const double crest = 1 - std::min(std::sqrt(2.56 * noise * noise + round * round), 1.0);
     const double ridge = crest * crest * gain;
     gain = std::clamp(1.8 * ridge, 0.0, 1.0);
     sum += amplitude * ridge;

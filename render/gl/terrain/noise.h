@@ -26,7 +26,8 @@ double periodic_gradient_noise(const glm::dvec3& x, int period);
 // The first octave has amplitude 1.
 double fractal_noise(const glm::dvec3& x, double longest, double shortest);
 
-// Ridges (Musgrave 1993, ridged multifractal): sharp crests, smooth valleys; about 0..1.
+// Ridges (Musgrave 1993, ridged multifractal): crests as sharp as samples half of `shortest` apart
+// can show, smooth valleys; about 0..1.
 double ridged_noise(const glm::dvec3& x, double longest, double shortest);
 
 }  // namespace skyfit
