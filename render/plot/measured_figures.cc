@@ -20,8 +20,9 @@ constexpr std::array<MeasuredFigure, 6> kFigures = {{
     {"maps", "measured, model and their ratio over the sky, a row per scan (at most 6)", false,
      has_directions,
      [](Outcomes fits, int, const Sheet& sheet) { return maps_figure(fits[0], sheet); }},
-    {"spectra", "six directions of one scan with what a sample scatters by; spectral scans only",
-     false, [](const MeasuredOutcome& outcome) { return outcome.spectral; },
+    {"spectra",
+     "up to six directions of one scan with what a sample scatters by; spectral scans only", false,
+     [](const MeasuredOutcome& outcome) { return outcome.spectral; },
      [](Outcomes fits, int scan, const Sheet& sheet) {
        return spectra_figure(fits[0], scan, sheet);
      }},

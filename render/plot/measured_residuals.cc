@@ -170,7 +170,7 @@ Figure residuals_figure(const MeasuredOutcome& outcome, const Sheet& sheet) {
                       : panels.size();
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   // Beside a panel the numbers of the next.
-  const double gap = !sheet.on_page() ? 31 : columns > 1 ? 52 : 14;
+  const double gap = !sheet.on_page() ? 46 : columns > 1 ? 52 : 14;
   const double panel_width = (width - left - 10) / static_cast<double>(columns) - gap;
   std::size_t lines = 1;
   for (const std::string& title : panel_titles(outcome))

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spectra at six directions of one scan.
+// Spectra at up to six directions of one scan.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "render/plot/header.h"
 #include "render/plot/measured_figures.h"
@@ -13,48 +14,68 @@ namespace skyfit::plot {
 namespace {
 
 constexpr double kWidth = 1200, kRow = 250;
-constexpr double kLeastColumn = 148;  // on a page
-constexpr double kGap = 18;           // above a panel and its names, and beside it
+constexpr double kLeastColumn = 148;              // on a page
+constexpr double kNearZenith = 15, kNear90 = 10;  // deg, that a name still holds
+constexpr double kGap = 18;                       // above a panel and its names, and beside it
 
 struct Chosen {
   std::string meaning;
   MeasuredDirection direction;
 };
 
-// The direction with the smallest cost.
-template <class Cost>
-void choose(std::vector<Chosen>& chosen, const std::vector<MeasuredDirection>& all,
-            std::string_view meaning, const Cost& cost) {
-  const auto best = std::ranges::min_element(all, {}, cost);
-  chosen.push_back({std::string(meaning), *best});
-}
-
 double azimuth_distance(const MeasuredDirection& d, double azimuth_deg) {
   return std::abs(std::remainder(d.relative_azimuth_deg - azimuth_deg, 360.0));
 }
 
-std::vector<Chosen> chosen_directions(const MeasuredOutcome& outcome, int scan) {
-  std::vector<MeasuredDirection> all;
-  for (const MeasuredDirection& d : directions_of(outcome)) {
-    if (d.scan == scan && d.counted) all.push_back(d);
+// Takes directions one by one out of those that are left.
+struct Chooser {
+  std::vector<MeasuredDirection> left;
+  std::vector<Chosen> chosen;
+
+  // The one with the smallest cost, if its name is true of it.
+  template <class Cost, class Holds>
+  void take(const std::string& meaning, const Cost& cost, const Holds& holds) {
+    if (left.empty()) return;
+    const auto best = std::ranges::min_element(left, {}, cost);
+    if (!holds(*best)) return;
+    chosen.push_back({meaning, *best});
+    left.erase(best);
   }
-  if (all.empty())
+
+  // The lowest, more or less, about an azimuth from the sun.
+  void take_low(const std::string& meaning, double azimuth_deg) {
+    constexpr double kLow = 45, kAbout = 45;  // deg
+    take(
+        "low, " + meaning,
+        [&](const auto& d) { return azimuth_distance(d, azimuth_deg) - 3 * d.view_zenith_deg; },
+        [&](const auto& d) {
+          return d.view_zenith_deg >= kLow && azimuth_distance(d, azimuth_deg) <= kAbout;
+        });
+  }
+};
+
+std::vector<Chosen> chosen_directions(const MeasuredOutcome& outcome, int scan) {
+  Chooser chooser;
+  for (const MeasuredDirection& d : directions_of(outcome)) {
+    if (d.scan == scan && d.counted) chooser.left.push_back(d);
+  }
+  if (chooser.left.empty())
     throw std::invalid_argument(
         fmt::format("figure spectra: scan {}: expected 1 to {}, with fitted "
                     "samples",
                     scan, outcome.scans.size()));
-  std::vector<Chosen> chosen;
-  choose(chosen, all, "near the sun", [](const auto& d) { return d.scattering_angle_deg; });
-  choose(chosen, all, "zenith", [](const auto& d) { return d.view_zenith_deg; });
-  choose(chosen, all, "90° from the sun",
-         [](const auto& d) { return std::abs(d.scattering_angle_deg - 90); });
-  const auto low = [](const MeasuredDirection& d, double azimuth_deg) {
-    return azimuth_distance(d, azimuth_deg) - 3 * d.view_zenith_deg;
-  };
-  choose(chosen, all, "low, toward the sun", [&](const auto& d) { return low(d, 0); });
-  choose(chosen, all, "low, across", [&](const auto& d) { return low(d, 90); });
-  choose(chosen, all, "low, away from the sun", [&](const auto& d) { return low(d, 180); });
-  return chosen;
+  const auto from_90 = [](const auto& d) { return std::abs(d.scattering_angle_deg - 90); };
+  chooser.take(
+      "nearest to the sun", [](const auto& d) { return d.scattering_angle_deg; },
+      [](const auto&) { return true; });
+  chooser.take(
+      "zenith", [](const auto& d) { return d.view_zenith_deg; },
+      [](const auto& d) { return d.view_zenith_deg <= kNearZenith; });
+  chooser.take("90° from the sun", from_90, [&](const auto& d) { return from_90(d) <= kNear90; });
+  chooser.take_low("toward the sun", 0);
+  chooser.take_low("across", 90);
+  chooser.take_low("away from the sun", 180);
+  return std::move(chooser.chosen);
 }
 
 // Columns: wavelength, measured, sigma, model, fitted or not.

@@ -157,11 +157,18 @@ TEST_F(PageTest, HoldsTheTextOfSkies) {
 TEST_F(PlotTest, ChosenPanelsAloneAreDrawn) {
   const MeasuredOutcome fit = outcome(true);
   const std::string body = spectra_figure(fit, 1, page(85, 8, {2})).body;
-  EXPECT_THAT(body, HasSubstr("\"zenith\""));
+  EXPECT_THAT(body, HasSubstr("\"90° from the sun\""));
   EXPECT_THAT(body, Not(HasSubstr("low, across")));
   const Figure suns = comparison_figure(comparison_at({20, 40, 60}), page(180, 8, {3, 1}));
   EXPECT_THAT(suns.body, HasSubstr("2 of 3 sun positions shown"));
   EXPECT_LT(suns.body.find("60°"), suns.body.find("20°")) << "in the order that was asked for";
+}
+
+// Its directions are 80 deg from the zenith.
+TEST_F(PlotTest, NamesOfDirectionsHold) {
+  const std::string body = spectra_figure(outcome(true), 1).body;
+  EXPECT_THAT(body, HasSubstr("\"nearest to the sun\""));
+  EXPECT_THAT(body, Not(HasSubstr("\"zenith\"")));
 }
 
 // Luminances that are 3 times too bright have a factor; the axis is logarithmic.
