@@ -129,7 +129,7 @@ ColumnMapping column_mapping(const PresetReader& sidecar) {
 
 std::string mapped_text(std::string_view text, std::string_view source,
                         const ColumnMapping& mapping,
-                        const std::vector<std::pair<std::string, double>>& constants) {
+                        const std::vector<std::pair<std::string, std::string>>& constants) {
   const char delimiter = delimiter_of(mapping);
   // A spectral scan numbers its samples.
   const bool numbered =
@@ -178,7 +178,10 @@ std::string mapped_text(std::string_view text, std::string_view source,
       if (!row.empty()) row += ',';
       row += value_of(mapping.columns[i], fields[place[i]], mapping.decimal_comma, source, number);
     }
-    for (const auto& [name, value] : constants) row += fmt::format(",{}", value);
+    for (const auto& [name, value] : constants) {
+      row += ',';
+      row += csv_field(value);
+    }
     result += row + '\n';
   }
   return result;

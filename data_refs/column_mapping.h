@@ -41,6 +41,6 @@ ColumnMapping column_mapping(const PresetReader& sidecar);
 // `source:line: ...` for a column that the file lacks, or a value that is no number.
 std::string mapped_text(std::string_view text, std::string_view source,
                         const ColumnMapping& mapping,
-                        const std::vector<std::pair<std::string, double>>& constants);
+                        const std::vector<std::pair<std::string, std::string>>& constants);
 
 }  // namespace skyfit::refs

@@ -121,9 +121,7 @@ void CsvTable::fail_value(const CsvRecord& record, std::string_view column,
 }
 
 std::string read_csv_file(const std::filesystem::path& file, std::string_view expectation) {
-  std::string content = read_file(file, expectation);
-  if (content.starts_with(kByteOrderMark)) content.erase(0, kByteOrderMark.size());
-  return content;
+  return read_text_file(file, expectation);
 }
 
 }  // namespace skyfit::refs

@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data_refs/measured_formats.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "data_refs/absorption_bands.h"
 #include "data_refs/aeronet_csv.h"
 #include "data_refs/aeronet_polarised.h"
 #include "data_refs/arm_csphot.h"
+#include "data_refs/civil_time.h"
 #include "data_refs/csv.h"
 #include "data_refs/eko_csv.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/other_formats.h"
 #include "data_refs/patch_csv.h"
 #include "data_refs/sample_csv.h"
+#include "data_refs/sample_csv_columns.h"
 #include "data_refs/scan_header.h"
 #include "data_refs/sky_image.h"
 #include "data_refs/sky_radiometer.h"
@@ -92,19 +98,42 @@ constexpr std::array<MeasuredFormat, 10> kFormats = {{
      read_samples},
 }};
 
-// Of a scan whose mapped columns make a CSV of samples without a sun.
-std::vector<std::pair<std::string, double>> known_sun(const ImportOptions& facts,
-                                                      std::string_view source) {
+// The sun of a scan whose mapped columns make a CSV of samples without one.
+std::optional<ScanSun> missing_sun(const ImportOptions& facts, std::string_view source) {
   const ColumnMapping& mapping = *facts.columns;
   const bool has_values = mapping.has("luminance_cd_m2") || mapping.has("relative_luminance") ||
                           mapping.has("spectral_radiance_w_m2_sr_nm");
   if (!has_values || mapping.has("sun_zenith_deg")) return {};
-  const ScanSun sun = sun_of_scan(facts, source, mapping.has("view_azimuth_deg"));
-  std::vector<std::pair<std::string, double>> columns = {
-      {"sun_zenith_deg", sun.zenith / kRadiansPerDegree}};
-  if (mapping.has("view_azimuth_deg"))
-    columns.emplace_back("sun_azimuth_deg", sun.azimuth.value_or(0) / kRadiansPerDegree);
+  return sun_of_scan(facts, source, mapping.has("view_azimuth_deg"));
+}
+
+// The facts of that sun, which the mapped columns lack.
+std::vector<std::pair<std::string, std::string>> sun_columns(const std::optional<ScanSun>& sun,
+                                                             const ImportOptions& facts,
+                                                             std::string_view source) {
+  std::vector<std::pair<std::string, std::string>> columns;
+  if (!sun) return columns;
+  const auto add = [&](std::string_view name, std::string value) {
+    if (!facts.columns->has(name)) columns.emplace_back(name, std::move(value));
+  };
+  using namespace sample_csv;
+  add(kScan, std::filesystem::path(source).filename().string());
+  add(kSunZenith, fmt::format("{}", sun->zenith * kDegreesPerRadian));
+  if (facts.columns->has(kViewAzimuth))
+    add(kSunAzimuth, fmt::format("{}", sun->azimuth.value_or(0) * kDegreesPerRadian));
+  if (sun->time) {
+    add(kTime, iso_text(*sun->time));
+    add(kDistance, fmt::format("{}", sun->distance_au));
+  }
+  if (sun->elevation_m) add(kElevation, fmt::format("{}", *sun->elevation_m));
   return columns;
+}
+
+// Facts that sun_of_scan() takes.
+bool is_about_sun(const ImportOptionRow& row) {
+  constexpr std::array kAbout = {"local_time",  "utc_offset_h",   "latitude_deg",   "longitude_deg",
+                                 "elevation_m", "sun_zenith_deg", "sun_azimuth_deg"};
+  return std::ranges::find(kAbout, row.name) != kAbout.end();
 }
 
 const MeasuredFormat& format_of(const SkyFile& file) {
@@ -137,15 +166,22 @@ Reference load_measured_sky(const std::filesystem::path& path, const ImportOptio
   validate(options);
   const ImportOptions facts = with_sidecar(options, path);
   SkyFile file(path);
-  if (facts.columns)
-    file.set_text(
-        mapped_text(file.text(), file.name(), *facts.columns, known_sun(facts, file.name())));
+  std::optional<ScanSun> sun;
+  if (facts.columns) {
+    sun = missing_sun(facts, file.name());
+    file.set_text(mapped_text(file.text(), file.name(), *facts.columns,
+                              sun_columns(sun, facts, file.name())));
+  }
   const MeasuredFormat& format = format_of(file);
   Reference sky = format.read(file, facts);
+  if (sun) {
+    for (Scan& scan : sky.scans) scan.site = sun->site;
+  }
   mask_unknown_wavelengths(sky);
   check_suns(facts, sky);
   for (const ImportOptionRow& row : import_option_table()) {
-    if (row.is_set(facts) && (row.formats & format.format) == 0)
+    const bool is_used = (row.formats & format.format) != 0 || (sun && is_about_sun(row));
+    if (row.is_set(facts) && !is_used)
       sky.notes.push_back(row.name + " is not used: it is not about this format");
   }
   return sky;

@@ -63,7 +63,9 @@ void read_variable(const std::string& line, const std::string& source, RadianceH
   } else if (name == "PIXASPECT") {
     if (numbers_of(line, 1, source)[0] != 1) fail(source, line, "square pixels, 1");
   } else if (name == "FORMAT") {
-    header.is_xyz = line.find("xyze") != line.npos;
+    header.is_xyz = line == "FORMAT=32-bit_rle_xyze";
+    if (!header.is_xyz && line != "FORMAT=32-bit_rle_rgbe")
+      fail(source, line, "32-bit_rle_rgbe or 32-bit_rle_xyze");
   } else if (name == "VIEW") {
     header.view = line.substr(line.find('=') + 1);
   }
@@ -157,7 +159,9 @@ ImportOptions with_view(const ImportOptions& facts, const std::string& view,
   const double length = std::hypot(direction[0], direction[1], direction[2]);
   constexpr double kStraight = 1e-3;
   if (!(std::abs(direction[2] / length - 1) < kStraight)) refuse("a view of the zenith, -vd 0 0 1");
-  if (values_or(options, "-vh", {180})[0] != 180 || values_or(options, "-vv", {180})[0] != 180)
+  constexpr double kUnstated = 45;  // deg, of Radiance
+  if (values_or(options, "-vh", {kUnstated})[0] != 180 ||
+      values_or(options, "-vv", {kUnstated})[0] != 180)
     refuse("the whole sky, -vh 180 -vv 180");
   if (values_or(options, "-vs", {0})[0] != 0 || values_or(options, "-vl", {0})[0] != 0)
     refuse("no shift, -vs 0 -vl 0");

@@ -49,6 +49,20 @@ std::optional<std::size_t> channel(const Image& image, std::string_view name) {
   return static_cast<std::size_t>(found - image.channels.begin());
 }
 
+// What the file says of itself and nobody may contradict.
+void expect_as_stated(const Image& image, const ImportOptions& facts, std::string_view source) {
+  constexpr std::string_view kPanorama = "equirectangular";
+  if (!image.environment.empty() &&
+      (image.environment != "LatLong Environment" || facts.projection != kPanorama))
+    fail(source, fmt::format("envmap {}: expected {} and projection = {}",
+                             in_quotes(image.environment), "LatLong Environment", kPanorama));
+  if (image.white_luminance > 0 && image.white_luminance != 1 && !facts.calibration)
+    fail(source,
+         fmt::format("whiteLuminance {0:.6g}: expected calibration = {0:.6g} for pixels that are 1 "
+                     "where white is, or 1 for pixels in cd m-2",
+                     image.white_luminance));
+}
+
 // What Y of CIE XYZ weighs red, green and blue with, where white has 1 (SMPTE RP 177).
 std::vector<double> weights_of(const Chromaticities& xy, std::string_view source) {
   Eigen::Matrix3d primaries;
@@ -216,6 +230,7 @@ Reference sky_image_reference(const Image& image, const Image* mask, bool is_rad
                              image.width, image.height));
   }
   const auto directions = image_directions(facts, image.width, image.height, source);
+  expect_as_stated(image, facts, source);
   const PixelUnit unit = pixel_unit(facts, source);
   const LuminanceWeights weights = luminance_weights(image, is_radiance_hdr, facts, source);
   const ScanSun sun = sun_of_scan(facts, source);
@@ -242,6 +257,22 @@ Reference sky_image_reference(const Image& image, const Image* mask, bool is_rad
   return sky.finish();
 }
 
+// A view of 180 by 180 deg has its zenith in the middle and the horizon at the edges.
+void expect_view_fills(const Image& image, const ImportOptions& facts, std::string_view source) {
+  if (image.width != image.height)
+    fail(source, fmt::format("VIEW= of 180 x 180 deg in {} x {} pixels: expected a square picture",
+                             image.width, image.height));
+  const double middle = 0.5 * image.width;
+  for (const auto& [name, stated] : {std::pair{"centre_x_px", facts.centre_x_px},
+                                     {"centre_y_px", facts.centre_y_px},
+                                     {"radius_px", facts.radius_px}}) {
+    constexpr double kRounded = 1;
+    if (stated && std::abs(*stated - middle) > kRounded)
+      fail(source,
+           fmt::format("{} = {:.6g}: expected {:.6g}, as VIEW= says", name, *stated, middle));
+  }
+}
+
 // The picture as its header means it: upright, without exposure and colour correction.
 Image as_radiance_means(Image image, const RadianceHeader& header, std::string_view source) {
   if (image.channels.size() < 3) fail(source, "expected three channels");
@@ -256,8 +287,17 @@ Image as_radiance_means(Image image, const RadianceHeader& header, std::string_v
   return image;
 }
 
-Image pixels_of(const std::filesystem::path& file) {
-  return module_named<ImageModule>("skyfit_image_module").read(file);
+// A picture by Radiance of colours XYZE is coded as one of RGBE, which alone the library reads.
+std::string as_rgbe(const std::filesystem::path& file) {
+  std::string bytes = read_file(file, "an image", kMostImageBytes);
+  constexpr std::string_view kXyze = "FORMAT=32-bit_rle_xyze", kRgbe = "FORMAT=32-bit_rle_rgbe";
+  static_assert(kXyze.size() == kRgbe.size());
+  bytes.replace(bytes.find(kXyze), kRgbe.size(), kRgbe);  // header.is_xyz says that it is there
+  return bytes;
+}
+
+Image pixels_of(const std::filesystem::path& file, const std::string& bytes = {}) {
+  return module_named<ImageModule>("skyfit_image_module").read(file, bytes);
 }
 
 Reference load_sky_image(const std::filesystem::path& file, const ImportOptions& options) {
@@ -268,8 +308,11 @@ Reference load_sky_image(const std::filesystem::path& file, const ImportOptions&
     header = read_radiance_header(file);
     facts = with_view(facts, header.view, file.string());
   }
-  Image image = pixels_of(file);
+  Image image = pixels_of(file, header.is_xyz ? as_rgbe(file) : "");
+  if (header.is_xyz && facts.lumen_per_watt)
+    fail(file.string(), "lumen_per_watt: pixels in XYZE are luminances, expected unit = cd m-2");
   if (is_radiance_hdr) image = as_radiance_means(std::move(image), header, file.string());
+  if (!header.view.empty()) expect_view_fills(image, facts, file.string());
   std::optional<Image> mask;
   if (facts.mask) {
     require_regular_file(*facts.mask, "an image", kMostImageBytes);

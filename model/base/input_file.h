@@ -25,6 +25,10 @@ void require_regular_file(const std::filesystem::path& file, std::string_view ex
 std::string read_file(const std::filesystem::path& file, std::string_view expectation,
                       std::uintmax_t most_bytes = kMostTextBytes);
 
+// Text, without a byte order mark. Throws std::runtime_error.
+std::string read_text_file(const std::filesystem::path& file, std::string_view expectation,
+                           std::uintmax_t most_bytes = kMostTextBytes);
+
 // The bytes of the standard input, to its end, which a user asked for. Throws std::runtime_error.
 std::string read_stdin(std::string_view expectation, std::uintmax_t most_bytes = kMostTextBytes);
 

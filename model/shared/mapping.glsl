@@ -155,27 +155,65 @@ Number cosine_from_azimuth_unit(Number x) {
 Number sky_from_root(Number s) { return 0.625 * (1.8 - sqrt(max(3.24 - 3.2 * s, Number(0.0)))); }
 Number root_from_sky(Number x) { return x * (1.8 - 0.8 * x); }
 
+// A deck is the top of a layer, at the height `deck`, beyond whose horizon it is not seen; negative: there is none.
+// Cosine of the view zenith of that horizon; of the horizontal for an eye below.
+Number deck_cosine(Number h, Number deck, Number bottom) {
+  Number above = max((h - deck) * (2.0 * bottom + h + deck), Number(0.0));
+  return -sqrt(above) / (bottom + h);
+}
+
+// Coordinate of rays to the sky, 0 at the ground's horizon and 1 in the zenith.
+Number unit_from_sky_ray(Number h, Number mu, Number bottom, Number thickness) {
+  return 1.0 - sky_from_root(sqrt(unit_from_upward_ray(h, mu, bottom, thickness)));
+}
+
+// docs/theory (9.14).
+// Rays below the horizon of a deck have a third of that coordinate, closest to that horizon, where the light changes with
+// the square root of the angle.
+Number share_below_deck() { return Number(1.0 / 3.0); }
+
+Number unit_beside_deck(Number x, Number edge) {
+  Number share = share_below_deck();
+  Number below = clamp(x / edge, Number(0.0), Number(1.0));
+  return x < edge ? share * (1.0 - sqrt(1.0 - below)) : share + (1.0 - share) * (x - edge) / (1.0 - edge);
+}
+
+Number sky_unit_beside_deck(Number unit, Number edge) {
+  Number share = share_below_deck();
+  Number rest = 1.0 - min(unit / share, Number(1.0));
+  return unit < share ? edge * (1.0 - rest * rest) : edge + (1.0 - edge) * (unit - share) / (1.0 - share);
+}
+
+// Where the deck's horizon lies in unit_from_sky_ray().
+Number deck_edge(Number h, Number bottom, Number thickness, Number deck) {
+  return clamp(unit_from_sky_ray(h, deck_cosine(h, deck, bottom), bottom, thickness), Number(1e-6), Number(1.0 - 1e-6));
+}
+
 // docs/theory (9.3).
 // Texture coordinate of the view zenith in the scattering table, from the nadir to the zenith: rays to the ground have
 // the first ground_size texels, rays to the sky the other sky_size; the two meet at the horizon and share no texel.
 // Deviation: powers of Bruneton's distances, which spread the texels over the sky instead of one over the 30 degrees
 // about the zenith.
 Number texture_from_view(Number h, Number mu, bool hits_ground, Number ground_size, Number sky_size, Number bottom,
-                         Number thickness) {
+                         Number thickness, Number deck) {
   if (hits_ground) {
     Number ground = pow(unit_from_ground_ray(h, mu, bottom), Number(0.4));
     return (0.5 + ground * (ground_size - 1.0)) * (1.0 / (ground_size + sky_size));
   }
-  Number sky = sky_from_root(sqrt(unit_from_upward_ray(h, mu, bottom, thickness)));
-  return (ground_size + 0.5 + (1.0 - sky) * (sky_size - 1.0)) * (1.0 / (ground_size + sky_size));
+  Number sky = unit_from_sky_ray(h, mu, bottom, thickness);
+  if (deck >= Number(0.0)) sky = unit_beside_deck(sky, deck_edge(h, bottom, thickness, deck));
+  return (ground_size + 0.5 + sky * (sky_size - 1.0)) * (1.0 / (ground_size + sky_size));
 }
 
-Number mu_from_texture(Number u, Number h, Number ground_size, Number sky_size, Number bottom, Number thickness) {
+Number mu_from_texture(Number u, Number h, Number ground_size, Number sky_size, Number bottom, Number thickness,
+                       Number deck) {
   Number texel = u * (ground_size + sky_size) - 0.5;
   if (texel < ground_size - 0.5) {
     return mu_from_ground_unit(pow(max(texel, Number(0.0)) / (ground_size - 1.0), Number(2.5)), h, bottom);
   }
-  Number sky = root_from_sky(1.0 - max(texel - ground_size, Number(0.0)) / (sky_size - 1.0));
+  Number unit = max(texel - ground_size, Number(0.0)) / (sky_size - 1.0);
+  if (deck >= Number(0.0)) unit = sky_unit_beside_deck(unit, deck_edge(h, bottom, thickness, deck));
+  Number sky = root_from_sky(1.0 - unit);
   return mu_from_upward_unit(sky * sky, h, bottom, thickness);
 }
 

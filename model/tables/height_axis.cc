@@ -101,14 +101,17 @@ std::vector<std::pair<double, double>> gaps_between(const std::vector<Units>& la
   return gaps;
 }
 
-// Layers and between them evenly spaced nodes, so many in each gap.
-HeightAxis axis_of(const std::vector<Units>& layers, const std::vector<int>& counts) {
+// Layers and between them evenly spaced nodes, so many in each gap; the deck is the top of one.
+HeightAxis axis_of(const std::vector<Units>& layers, const std::vector<int>& counts,
+                   std::size_t of_deck) {
   const auto gaps = gaps_between(layers);
   std::vector<double> nodes = {0};
+  std::size_t deck = 0;
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     for (int k = 1; k <= counts[i]; ++k)
       nodes.push_back(std::lerp(gaps[i].first, gaps[i].second, k / (counts[i] + 1.0)));
     if (i < layers.size()) nodes.insert(nodes.end(), layers[i].begin(), layers[i].end());
+    if (i == of_deck) deck = nodes.size() - 2;  // the last lies beyond
   }
   nodes.push_back(1);
   // Where a layer has almost no thickness, begins at the ground or touches another.
@@ -118,7 +121,7 @@ HeightAxis axis_of(const std::vector<Units>& layers, const std::vector<int>& cou
   nodes.back() = 1;
   for (std::size_t i = nodes.size() - 1; i > 0; --i)
     nodes[i - 1] = std::min(nodes[i - 1], nodes[i] - kLeast);
-  return HeightAxis(std::move(nodes));
+  return {std::move(nodes), deck};
 }
 
 }  // namespace
@@ -141,8 +144,14 @@ std::vector<HeightAxis> height_axes(std::span<const Shells> steps, int heights) 
       counts[i] = std::max(counts[i], static_cast<int>(std::ceil(steps_by_height)) - 1);
     }
   }
+  // Of the same layers in every step.
+  const Units deepest = layers_of(steps.front(), {profiles.front()}).front();
+  const auto below =
+      std::ranges::count_if(layers_of(steps.front(), profiles),
+                            [&](const Units& layer) { return layer.front() < deepest.front(); });
   std::vector<HeightAxis> axes;
-  for (const Shells& shells : steps) axes.push_back(axis_of(layers_of(shells, profiles), counts));
+  for (const Shells& shells : steps)
+    axes.push_back(axis_of(layers_of(shells, profiles), counts, static_cast<std::size_t>(below)));
   return axes;
 }
 
@@ -152,7 +161,12 @@ HeightAxis interpolated(const HeightAxis& a, const HeightAxis& b, double share) 
   std::vector<double> nodes = a.nodes();
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes[i] = std::lerp(nodes[i], b.nodes()[i], share);
-  return HeightAxis(std::move(nodes));
+  return a.deck_node() < 0 ? HeightAxis()
+                           : HeightAxis(std::move(nodes), static_cast<std::size_t>(a.deck_node()));
+}
+
+double HeightAxis::deck(double thickness) const {
+  return nodes_.empty() ? -1 : shared.height_from_unit(nodes_[deck_], thickness);
 }
 
 HeightAxis::HeightAxis(const Shells& shells, int heights)

@@ -22,11 +22,16 @@ class HeightAxis {
   // two within the two of the greatest optical depth, in steps that grow from either end. Without
   // them by (9.1) alone.
   HeightAxis(const Shells& shells, int heights);
-  // Ascending values of unit_from_height() of model/shared/mapping.glsl, from 0 to 1, or none.
-  explicit HeightAxis(std::vector<double> nodes) : nodes_(std::move(nodes)) {}
+  // Ascending values of unit_from_height() of model/shared/mapping.glsl, from 0 to 1, or none, and
+  // the node at the deck.
+  HeightAxis(std::vector<double> nodes, std::size_t deck) : nodes_(std::move(nodes)), deck_(deck) {}
 
   // Which (9.1) gives of the heights; evenly spaced texels are these. Empty: (9.1) alone.
   const std::vector<double>& nodes() const { return nodes_; }
+
+  // The node at the top of the layer of the greatest optical depth, and its height, m; -1 without.
+  int deck_node() const { return nodes_.empty() ? -1 : static_cast<int>(deck_); }
+  double deck(double thickness) const;
 
   // docs/theory (9.13).
   // Coordinate 0..1 of a height (m) and back; `thickness` is the height of the atmosphere's top.
@@ -40,6 +45,7 @@ class HeightAxis {
 
  private:
   std::vector<double> nodes_;
+  std::size_t deck_ = 0;
 };
 
 // Of the steps of an atmosphere that changes, whose shells hold all constituents (Keep::kAll) in

@@ -32,6 +32,7 @@ class ScatteringBuilder {
         optics_(optics),
         tables_(tables),
         heights_(level_heights()),
+        deck_(tables.heights.deck(shells.top)),
         source_(shells, optics, source_heights(heights_), options, light),
         kinds_(tables.phases.count()) {
     set_sun_steps();
@@ -190,7 +191,7 @@ class ScatteringBuilder {
   }
 
   void scatter_row(const RayTexels& texels, int row, int level, float* const* out) const {
-    const TexelRay texel = texel_ray(shells_, texels, row, heights_[level]);
+    const TexelRay texel = texel_ray(shells_, texels, row, heights_[level], deck_);
     const std::vector<TexelSun> suns =
         texel_suns(texels, shells_.bottom_radius, texel.sun_point.height);
     const std::size_t cells = suns.size();
@@ -218,6 +219,7 @@ class ScatteringBuilder {
   const NodeOptics& optics_;
   AtmosphereTables& tables_;
   std::vector<double> heights_;
+  double deck_;  // m
   DiffuseSource source_;
   std::size_t kinds_;  // classes of phase functions
   std::vector<kernels::SunStep> sun_steps_;

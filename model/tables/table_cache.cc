@@ -38,6 +38,7 @@ struct Header {
   PreethamSky preetham;
   bool limited;
   double highest_m;
+  int deck_node;
   std::array<std::array<int, 3>, 8> extents;
 };
 
@@ -64,6 +65,7 @@ void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tabl
   header.preetham = preetham;
   header.limited = limits.has_value();
   header.highest_m = limits ? limits->highest_m : 0;
+  header.deck_node = tables.heights.deck_node();
   const std::string model = limits ? limits->model : "";
   std::vector<std::span<const std::byte>> parts = {
       std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(model)),
@@ -99,7 +101,8 @@ bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
   };
   if (!cache.find(key, room)) return false;
   tables.sizes = header.sizes;
-  tables.heights = HeightAxis(std::move(nodes));
+  if (header.deck_node >= 0)
+    tables.heights = HeightAxis(std::move(nodes), static_cast<std::size_t>(header.deck_node));
   tables.sky_rays.mapping = header.mapping;
   tables.sky_rays.nielsen = header.nielsen;
   tables.sky_rays.oneil = header.oneil;

@@ -78,9 +78,10 @@ struct TableRay {
     sun = shared.sun_height(at.height, at.mu_s, planet.bottom);
   }
 
-  Between view(const RayTexels& texels) const {
+  // `deck`: that of the tables whose texels these are.
+  Between view(const RayTexels& texels, double deck) const {
     return {shared.texture_from_view(from.height, from.mu, hits_ground, texels.ground, texels.sky,
-                                     planet.bottom, planet.thickness),
+                                     planet.bottom, planet.thickness, deck),
             texels.rows()};
   }
 
@@ -134,7 +135,7 @@ void accumulate_ray(const AtmosphereTables& tables, const TableRay& ray, double 
   const TableSizes& s = tables.sizes;
   const double turn = ray.azimuth * (s.scattering_azimuth - 1);
   const int first = std::min(static_cast<int>(turn), s.scattering_azimuth - 2);
-  const Between v = ray.view(s.scattering());
+  const Between v = ray.view(s.scattering(), tables.heights.deck(ray.planet.thickness));
   const Between w(height_coordinate(tables, ray.from.height, s.scattering_r), s.scattering_r);
   Between u(sun_coordinate(ray.sun, s.scattering_mu_s), s.scattering_mu_s);
   u.low += first * s.scattering_mu_s;
@@ -242,7 +243,7 @@ NodeValues lookup_radiance_from_outside(const AtmosphereTables& tables, double m
   const RayTexels texels = tables.sizes.outside();
   const Between u(sun_coordinate(ray.sun, texels.mu_s), texels.mu_s),
       v(shared.texture_from_unit(ray.azimuth, texels.azimuth), texels.azimuth),
-      w = ray.view(texels);
+      w = ray.view(texels, tables.heights.deck(ray.planet.thickness));
   NodeValues rayleigh_like{};
   std::array<NodeValues, kMostConstituents> values{};
   const std::span single(values.data(), tables.phases.others.size());

@@ -148,12 +148,12 @@ SkyLight of_daylight(const SkyModel& model, const AtmosphereTables& tables) {
 // A model's light on all rays from a height, into the texels from `first` on.
 void tabulate_rays(const SkyModel& model, const Atmosphere<double>& atmosphere,
                    const ColorRule& color, const Shells& shells, const RayTexels& texels,
-                   double height, const PhaseClasses& phases, Table& rayleigh_like, Table& single,
-                   std::size_t first) {
+                   double height, double deck, const PhaseClasses& phases, Table& rayleigh_like,
+                   Table& single, std::size_t first) {
   std::vector<SkyPoint> points;
   std::vector<double> length_km, nus;
   for (int row = 0; row < texels.rows(); ++row) {
-    const TexelRay texel = texel_ray(shells, texels, row, height);
+    const TexelRay texel = texel_ray(shells, texels, row, height, deck);
     const double r0 = shells.bottom_radius + texel.ray.entry_height,
                  r = shells.bottom_radius + texel.sun_point.height, mu = texel.sun_point.mu;
     // A ray along the horizon is kept on its side of it.
@@ -213,9 +213,10 @@ void tabulate(const SkyModel& model, std::optional<SkyRayTables> own, const Shel
   const RayTexels texels = tables.sizes.scattering();
   const std::size_t slice = static_cast<std::size_t>(texels.rows()) * texels.row();
   const int slices = tables.sizes.scattering_r;
+  const double deck = tables.heights.deck(shells.top);
   for (int i = 0; i < slices; ++i) {
     tabulate_rays(model, tables.atmosphere, tables.color, shells, texels,
-                  tables.heights.height(i / (slices - 1.0), shells.top), tables.phases,
+                  tables.heights.height(i / (slices - 1.0), shells.top), deck, tables.phases,
                   tables.rayleigh_like, tables.single, slice * static_cast<std::size_t>(i));
     progress((i + 1.0) / (slices + 1));
   }
@@ -224,7 +225,7 @@ void tabulate(const SkyModel& model, std::optional<SkyRayTables> own, const Shel
   } else {
     tables.sky_rays = outside_tables(tables.sizes.outside(), tables.phases);
     tabulate_rays(model, tables.atmosphere, tables.color, shells, tables.sizes.outside(),
-                  shells.top, tables.phases, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
+                  shells.top, deck, tables.phases, tables.sky_rays.air, tables.sky_rays.aerosol, 0);
   }
   progress(1);
 }

@@ -8,14 +8,15 @@
 
 namespace skyfit {
 
-TexelRay texel_ray(const Shells& shells, const RayTexels& texels, int row, double height) {
+TexelRay texel_ray(const Shells& shells, const RayTexels& texels, int row, double height,
+                   double deck) {
   Shared<double> shared;
   const double v = (row + 0.5) / texels.rows();
   const bool hits_ground = row < texels.ground;
   const double least = std::min(0.1, 1e-6 * shells.top);
   const double h = hits_ground ? std::max(height, least) : std::min(height, shells.top - least);
-  const double mu =
-      shared.mu_from_texture(v, h, texels.ground, texels.sky, shells.bottom_radius, shells.top);
+  const double mu = shared.mu_from_texture(v, h, texels.ground, texels.sky, shells.bottom_radius,
+                                           shells.top, deck);
   ViewRay ray;
   ray.entry_height = h;
   ray.entry_mu = mu;

@@ -15,8 +15,9 @@ struct TexelRay {
 };
 
 // Which half of the table `row` is in says whether its ray ends on the ground; `height` is that of
-// the table's rays.
-TexelRay texel_ray(const Shells& shells, const RayTexels& texels, int row, double height);
+// the table's rays, `deck` that of HeightAxis::deck(), m.
+TexelRay texel_ray(const Shells& shells, const RayTexels& texels, int row, double height,
+                   double deck);
 
 // Cosine of the sun's zenith angle at the sun point, and sine of that angle times the cosine of the
 // azimuth, of the cells of a row whose sun point has this height: [azimuth][sun].

@@ -38,7 +38,8 @@ std::vector<std::string> table_defines(const AtmosphereTables& tables) {
                   s.scattering_ground, s.scattering_sky),
       fmt::format("SCATTERING_HEIGHTS {}", s.scattering_r)};
   if (const std::vector<double>& nodes = tables.heights.nodes(); !nodes.empty())
-    defined.push_back(fmt::format("HEIGHT_NODES {}", nodes.size()));
+    defined.insert(defined.end(), {fmt::format("HEIGHT_NODES {}", nodes.size()),
+                                   fmt::format("DECK_NODE {}", tables.heights.deck_node())});
   return defined;
 }
 

@@ -27,6 +27,15 @@ struct RmsPlaces {
     many = curves > kMapCurves && !sheet.on_page();
     number_px = sheet.on_page() ? 38 : many ? 34 : 42;
     percent_px = sheet.on_page() ? 14 : 20;
+    // One unit behind the numbers of a panel, unless some are factors, which have none.
+    each_its_unit = std::ranges::any_of(suns.shown, [](const SunSamples& sun) {
+      return std::ranges::any_of(
+          sun.plane, [](const auto& curve) { return is_factor(rms_log_percent(curve)); });
+    });
+    if (each_its_unit) {
+      number_px += percent_px;
+      percent_px = 0;
+    }
     if (!sheet.on_page()) return;
     double beside = panel_width;
     for (const SunSamples& sun : suns.shown)
@@ -40,6 +49,7 @@ struct RmsPlaces {
   }
   bool many = false;
   double number_px = 0, percent_px = 0;
+  bool each_its_unit = false;
   bool one_row = true, named = true;
   std::size_t in_row = kMaxCurves, rows = 0;  // below the angle
 };
@@ -178,12 +188,13 @@ class Panels {
     const bool several = sun.plane.size() > 1;
     script_.text_label(box.left, y, sun_label(sun, several || box.width < kNarrow),
                        "left font text_font");
-    bool percent = false;
+    bool any = false;
     const auto number_at = [&](std::size_t curve, double right, double at_y) {
       const double rms = rms_log_percent(sun.plane[curve]);
-      percent |= !std::isnan(rms) && !is_factor(rms);
+      any |= !std::isnan(rms);
+      const auto text = places.each_its_unit ? log_misfit_with_unit : log_misfit;
       script_.text_label(
-          right, at_y, std::isnan(rms) ? "–" : log_misfit(rms, 1),
+          right, at_y, std::isnan(rms) ? "–" : text(rms, 1),
           fmt::format("right font {} textcolor rgb '{}'", places.many ? "small_font" : "text_font",
                       several ? kCurveColors[curve] : "#000000"));
     };
@@ -200,7 +211,7 @@ class Panels {
                   y - line * (row + 1));
       }
     }
-    if (percent)
+    if (any && !places.each_its_unit)
       script_.text_label(box.right(), places.one_row ? y : y - line, "%", "right font text_font");
     if (places.named) script_.text_label(right + 4, y, "RMS", "right font text_font");
   }

@@ -167,6 +167,15 @@ Place place_at(float h, float mu, float mu_s) {
 #include "render/shaders/closed_form.glsl"
 #endif
 
+// Height of the deck (model/shared/mapping.glsl).
+float deck_km() {
+#ifdef HEIGHT_NODES
+  return height_from_unit(height_node(DECK_NODE), thickness_km);
+#else
+  return -1.0;
+#endif
+}
+
 // docs/theory (9.13).
 // Coordinate 0..1 of a height: where layers are, by the heights that HeightAxis (model/tables/height_axis.h) chose.
 float unit_from_table_height(float h) {
@@ -322,13 +331,14 @@ TableRay table_ray(Place from, float nu, bool hits_ground) {
 }
 
 // What two tables of such texels, as scattering_size is, hold of a whole ray; `height` is the texture coordinate.
-Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, float height, Place from, bool hits_ground,
-                      TableRay ray) {
+Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, float height, float deck, Place from,
+                      bool hits_ground, TableRay ray) {
   float turn = ray.azimuth * (size.y - 1.0);
   float first = min(floor(turn), size.y - 2.0);
   float u_sun = texture_from_unit(ray.sun, size.x);
   vec3 left = vec3((first + u_sun) / size.y,
-                   texture_from_view(from.h, from.mu, hits_ground, size.z, size.w, bottom_km, thickness_km),
+                   texture_from_view(from.h, from.mu, hits_ground, size.z, size.w, bottom_km, thickness_km,
+                                     deck),
                    height);
   vec3 right = left + vec3(1.0 / size.y, 0.0, 0.0);
   return between(look_up_classes(rayleigh_like, single, left), look_up_classes(rayleigh_like, single, right),
@@ -339,13 +349,13 @@ Scattering ray_texels(sampler3D rayleigh_like, sampler3D single, vec4 size, floa
 Scattering scattering(Place from, float nu, bool hits_ground) {
   TableRay ray = table_ray(from, nu, hits_ground);
   Scattering means = ray_texels(rayleigh_like_table, single_table, scattering_size,
-                                height_coordinate(from.h, scattering_heights), from, hits_ground, ray);
+                                height_coordinate(from.h, scattering_heights), deck_km(), from, hits_ground, ray);
 #ifdef ENCODED
   means = decoded(means, texel_scale.xy, texel_offset.xy);
 #endif
 #ifdef CHANGES
   Scattering change = ray_texels(rayleigh_like_change, single_change, change_size,
-                                 height_in_changes(from.h, change_heights), from, hits_ground, ray);
+                                 height_in_changes(from.h, change_heights), -1.0, from, hits_ground, ray);
   means.rayleigh_like += change.rayleigh_like;
   for (int c = 0; c < kClasses; ++c) means.single[c] += change.single[c];
 #endif

@@ -31,9 +31,12 @@ float cloud_opacity_at(vec4 sheet, vec3 from_centre, float width_km) {
     kept += part * part;
     place = kCloudTurn * place;
   }
-  // Of the same deviation, so that the cover stays.
-  noise = 0.5 + (noise - 0.5) * sqrt(dot(kCloudWeights, kCloudWeights) / max(kept, 0.01));
-  return sheet.y * smoothstep(sheet.z - 0.02, sheet.z + 0.07, noise);
+  // The mean of the clouds' edge, as wide as kEdge, over what of the noise was averaged: variances add, and a smoothstep is
+  // the integral of a density whose variance is a 20th of its width squared.
+  const float kEdge = 0.09, kDeviation = 1.0 / 6.0;
+  float averaged = kDeviation * kDeviation * max(dot(kCloudWeights, kCloudWeights) - kept, 0.0);
+  float reach = 0.5 * sqrt(kEdge * kEdge + 20.0 * averaged), middle = sheet.z + 0.025;
+  return sheet.y * smoothstep(middle - reach, middle + reach, noise);
 }
 
 // Of a sheet that a ray crosses at a slant.

@@ -25,7 +25,7 @@ vec3 texture_from_units(vec3 unit) {
 Scattering sky_ray_scattering(Place from, float nu) {
   TableRay ray = table_ray(from, nu, false);
   vec3 at = texture_from_units(vec3(ray.sun, ray.azimuth, 0.0));
-  at.z = texture_from_view(from.h, from.mu, false, 0.0, sky_ray_size.z, bottom_km, thickness_km);
+  at.z = texture_from_view(from.h, from.mu, false, 0.0, sky_ray_size.z, bottom_km, thickness_km, deck_km());
   return scaled(exponential(sky_ray_texels(at)), ray.light);
 }
 #elif SKY_RAYS == 1  // Bruneton

@@ -26,7 +26,7 @@ vec2 place_in_view(ViewRay ray, vec3 sun, vec3 size) {
   float across = length(ray.direction.xy) * length(sun.xy);
   float cosine = clamp(dot(ray.direction.xy, sun.xy) / max(across, 1e-9), -1.0, 1.0);
   return vec2(texture_from_unit(unit_from_azimuth(cosine), size.x),
-              texture_from_view(ray.h, ray.mu, ray.hits_ground, size.y, size.z, bottom_km, thickness_km));
+              texture_from_view(ray.h, ray.mu, ray.hits_ground, size.y, size.z, bottom_km, thickness_km, deck_km()));
 }
 
 // The ray of a column and a row, counted from 0.
@@ -35,7 +35,7 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
   float turn_sine = sqrt(max(1.0 - turn_cosine * turn_cosine, 0.0));
   bool hits_ground = texel.y < size.y - 0.5;
   float h = min(camera_km, thickness_km);
-  float mu = mu_from_texture((texel.y + 0.5) / (size.y + size.z), h, size.y, size.z, bottom_km, thickness_km);
+  float mu = mu_from_texture((texel.y + 0.5) / (size.y + size.z), h, size.y, size.z, bottom_km, thickness_km, deck_km());
   float sine = sqrt(max(1.0 - mu * mu, 0.0));
   vec2 sunward = length(sun.xy) > 1e-9 ? normalize(sun.xy) : vec2(1.0, 0.0);
   vec2 across = turn_cosine * sunward + turn_sine * vec2(-sunward.y, sunward.x);

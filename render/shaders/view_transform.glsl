@@ -59,33 +59,42 @@ vec3 gamut_mapped(vec3 color, Number luminance, mat3 from_xyz, mat3 xyz_from) {
   return mapped * (luminance / (xyz_from * mapped).y);
 }
 
-// Linear light of a display whose channels are 0..1, of the same hue as `color`, which must not be negative. What is brighter
+// Linear light of a display whose channels are 0..1, of the same hue as `color`, which must not be negative. What is bright
 // loses chroma, and little lightness: Ottosson 2021, "sRGB gamut clipping", towards a grey that depends on lightness and
-// chroma.
+// chroma; the more, the nearer a channel is to 1, so that no line shows where one would reach it.
 vec3 display_mapped(vec3 color, mat3 from_xyz, mat3 xyz_from) {
   const Number kKeepChroma = 0.05;  // between the chroma, which 0 would keep, and the lightness
-  if (least_channel(color) >= 0.0 && greatest_channel(color) <= 1.0) return color;
+  const Number kStays = 0.85;       // of the way from the grey to the edge
+  // Channels grow with the third power of that way at most.
+  if (greatest_channel(color) <= kStays * kStays * kStays) return color;
   vec3 lab = oklab_from(color, xyz_from);
   Number off = lab.x - 0.5;
   Number e = 0.5 + abs(off) + kKeepChroma * length(vec2(lab.y, lab.z));
   Number step_to_grey = 0.5 * (e - sqrt(max(e * e - 2.0 * abs(off), Number(0.0))));
   Number grey = clamp(off < 0.0 ? 0.5 - step_to_grey : 0.5 + step_to_grey, Number(0.0), Number(1.0));
   vec3 from_grey = lab - vec3(grey, 0.0, 0.0);
-  Number low = 0.0, high = 1.0;
+  // Where the line from the grey through the colour leaves what can be shown, in units of the colour's distance.
+  Number low = 0.0, high = 1.0 / kStays;
   for (int i = 0; i < BISECTIONS; ++i) {
     Number share = 0.5 * (low + high);
-    vec3 tried = color_from_oklab(vec3(grey, 0.0, 0.0) + share * from_grey, from_xyz);
-    if (least_channel(tried) >= 0.0 && greatest_channel(tried) <= 1.0) {
+    if (greatest_channel(color_from_oklab(vec3(grey, 0.0, 0.0) + share * from_grey, from_xyz)) <= 1.0) {
       low = share;
     } else {
       high = share;
     }
   }
-  return clamp(color_from_oklab(vec3(grey, 0.0, 0.0) + low * from_grey, from_xyz), vec3(0.0), vec3(1.0));
+  Number over = max(1.0 / max(low, Number(1e-6)) - kStays, Number(0.0)) / (1.0 - kStays);
+  Number share = low * (kStays + (1.0 - kStays) * (1.0 - exp(-over)));
+  return clamp(color_from_oklab(vec3(grey, 0.0, 0.0) + min(share, Number(1.0)) * from_grey, from_xyz), vec3(0.0), vec3(1.0));
 }
 
-// The curve to the luminance; the hue stays.
+// The curve to the luminance; the hue stays, and its chroma as well but for lights far brighter than white, which films and
+// eyes see as white.
 vec3 displayed(vec3 color, Number luminance, Number curved_luminance, mat3 from_xyz, mat3 xyz_from) {
+  const Number kHalfChroma = 16.0;  // at this luminance
   if (!(luminance > 0.0)) return vec3(0.0);
-  return display_mapped(color * (curved_luminance / luminance), from_xyz, xyz_from);
+  vec3 lab = oklab_from(color, xyz_from);
+  Number keep = 1.0 / (1.0 + luminance * luminance / (kHalfChroma * kHalfChroma));
+  vec3 paler = max(color_from_oklab(lab * vec3(1.0, keep, keep), from_xyz), vec3(0.0));
+  return display_mapped(paler * (curved_luminance / (xyz_from * paler).y), from_xyz, xyz_from);
 }

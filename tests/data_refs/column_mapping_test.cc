@@ -16,7 +16,9 @@
 namespace skyfit::refs {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -55,6 +57,13 @@ TEST_F(ColumnMappingTest, MakesACsvOfSamplesWithTheSunOfTheTime) {
   EXPECT_NEAR(sky.samples[0].view_zenith, 30 * kDegree, 1e-12);
   EXPECT_EQ(sky.samples[0].value, 4500);
   EXPECT_EQ(sky.samples[1].value, 2500);
+  // The scan keeps its time and place, the Earth its distance from the sun.
+  ASSERT_THAT(sky.scans, SizeIs(1));
+  EXPECT_EQ(sky.scans[0].name, "sky.txt");
+  EXPECT_EQ(sky.scans[0].time_utc, "2024-06-21T12:00:00Z");
+  EXPECT_NEAR(sky.scans[0].sun_distance_au, 1.0163, 1e-4);
+  EXPECT_TRUE(sky.scans[0].site.has_value());
+  EXPECT_THAT(sky.notes, Not(Contains(HasSubstr("is not used"))));
   // Near the solstice's noon the sun stands in the south, 24 deg from the zenith.
   EXPECT_NEAR(sky.samples[0].sun_zenith / kDegree, 47.5 - 23.44, 0.1);
   EXPECT_NEAR(std::abs(sky.samples[0].relative_azimuth) / kDegree, 90, 2);

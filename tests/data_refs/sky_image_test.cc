@@ -235,6 +235,77 @@ TEST(SkyImage, RadianceFileIsReadAndItsExposureUndone) {
   std::filesystem::remove(file);
 }
 
+// The same picture in the file's other coding: X, Y, Z of 0.5, which are luminances.
+TEST(SkyImage, RadianceFileOfXyzIsReadByItsY) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "skyfit_xyz.hdr";
+  std::ofstream out(file, std::ios::binary);
+  out << "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 8 +X 8\n";
+  for (int i = 0; i < 64; ++i) out << std::string("\x20\x80\x40\x80", 4);
+  out.close();
+  ImportOptions options = facts();
+  options.bin_deg = 30;
+  EXPECT_NEAR(load_sky_image(file, options).samples[0].value, 0.5, 0.005);
+  options.unit.reset();
+  options.lumen_per_watt = 179;
+  EXPECT_THAT(complaint_of([&] { load_sky_image(file, options); }),
+              HasSubstr("lumen_per_watt: pixels in XYZE are luminances"));
+  std::ofstream(file, std::ios::binary) << "#?RADIANCE\nFORMAT=float\n\n-Y 8 +X 8\n";
+  EXPECT_THAT(complaint_of([&] { load_sky_image(file, options); }),
+              HasSubstr("\"FORMAT=float\": expected 32-bit_rle_rgbe or 32-bit_rle_xyze"));
+  std::filesystem::remove(file);
+}
+
+TEST(SkyImage, AViewOfRadianceFillsItsPicture) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "skyfit_view.hdr";
+  std::ofstream out(file, std::ios::binary);
+  out << "#?RADIANCE\nVIEW= -vta -vd 0 0 1 -vu 0 1 0 -vh 180 -vv 180\nFORMAT=32-bit_rle_rgbe\n\n"
+         "-Y 8 +X 8\n";
+  for (int i = 0; i < 64; ++i) out << std::string("\x80\x80\x80\x80", 4);
+  out.close();
+  ImportOptions options = facts();
+  options.radius_px = 3;
+  EXPECT_EQ(complaint_of([&] { load_sky_image(file, options); }),
+            file.string() + ": radius_px = 3: expected 4, as VIEW= says");
+  options.radius_px = 4;
+  options.bin_deg = 30;
+  EXPECT_EQ(complaint_of([&] { load_sky_image(file, options); }), "accepted");
+  std::filesystem::remove(file);
+}
+
+// Of a file whose window of data is smaller than its picture the rest is not known.
+TEST(SkyImage, OpenExrIsReadWithinItsDisplayWindow) {
+  ImportOptions options = facts();
+  options.accept_sun = true;
+  const std::string data = SKYFIT_TEST_DATA;
+  const Reference whole = load_sky_image(data + "/exr_whole.exr", options),
+                  window = load_sky_image(data + "/exr_window.exr", options);
+  int same = 0;
+  for (const Sample& s : window.samples) {
+    for (const Sample& w : whole.samples) {
+      if (std::abs(w.view_zenith - s.view_zenith) > 1e-9 ||
+          std::abs(w.relative_azimuth - s.relative_azimuth) > 1e-9 || !(s.weight > 0))
+        continue;
+      EXPECT_NEAR(s.value / w.value, 1, 0.05);  // of a bin at the edge only a part is known
+      ++same;
+    }
+  }
+  EXPECT_GT(same, 20);
+  EXPECT_THAT(window.notes, Contains(HasSubstr("of the sky is not used: not finite")));
+}
+
+TEST(SkyImage, WhatAnOpenExrSaysOfItselfIsObeyedOrRefused) {
+  const auto complaint_about = [](const std::string& name, const ImportOptions& options) {
+    const std::string file = SKYFIT_TEST_DATA "/" + name;
+    return complaint_of([&] { load_sky_image(file, options); });
+  };
+  EXPECT_THAT(complaint_about("exr_aspect.exr", facts()),
+              HasSubstr("PixelAspectRatio 1.5: expected square pixels, 1"));
+  EXPECT_THAT(complaint_about("exr_latlong.exr", facts()),
+              HasSubstr("expected LatLong Environment and projection = equirectangular"));
+  EXPECT_THAT(complaint_about("exr_white.exr", facts()),
+              HasSubstr("whiteLuminance 100: expected calibration = 100"));
+}
+
 TEST(SkyBins, CoverTheSkyOnce) {
   for (const double bin_deg : {12.0, 30.0, 1.0}) {
     SkyBins bins(bin_deg);

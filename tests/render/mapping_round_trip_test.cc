@@ -46,16 +46,33 @@ TEST_P(MappingRoundTrip, RaysThatGrazeTheGroundMeetItByTheHorizon) {
 
 TEST_P(MappingRoundTrip, ViewZenithInBothHalves) {
   constexpr int kGround = 32, kSky = 64;
-  for (double x = 1.0 / 32; x <= 1; x += 1.0 / 32) {
-    const double h = shared_.height_from_unit(x, thickness_);
-    for (int i = 0; i < kGround + kSky; ++i) {
-      const double u = (i + 0.5) / (kGround + kSky);
-      const double mu = shared_.mu_from_texture(u, h, kGround, kSky, bottom_, thickness_);
-      EXPECT_NEAR(shared_.texture_from_view(h, mu, i < kGround, kGround, kSky, bottom_, thickness_),
-                  u, kNearZenith)
-          << "h = " << h;
+  for (const double deck : {-1.0, 0.02 * thickness_}) {
+    for (double x = 1.0 / 32; x <= 1; x += 1.0 / 32) {
+      const double h = shared_.height_from_unit(x, thickness_);
+      for (int i = 0; i < kGround + kSky; ++i) {
+        const double u = (i + 0.5) / (kGround + kSky);
+        const double mu = shared_.mu_from_texture(u, h, kGround, kSky, bottom_, thickness_, deck);
+        EXPECT_NEAR(
+            shared_.texture_from_view(h, mu, i < kGround, kGround, kSky, bottom_, thickness_, deck),
+            u, kNearZenith)
+            << "h = " << h << ", deck " << deck;
+      }
     }
   }
+}
+
+// A third of the texels of rays to the sky, at every height.
+TEST_P(MappingRoundTrip, TheDecksHorizonLiesOnOneTexel) {
+  const double deck = 0.02 * thickness_;
+  for (const double h : {deck, 1.001 * deck, 2 * deck, 0.5 * thickness_, thickness_}) {
+    const double horizon =
+        shared_.mu_from_texture((21 + 0.5) / 64, h, 0, 64, bottom_, thickness_, deck);
+    EXPECT_NEAR((bottom_ + h) * std::sqrt(1 - horizon * horizon), bottom_ + deck,
+                1e-9 * (bottom_ + h));
+  }
+  const double level =
+      shared_.mu_from_texture((21 + 0.5) / 64, 0.5 * deck, 0, 64, bottom_, thickness_, deck);
+  EXPECT_NEAR(level, 0, 1e-9);
 }
 
 TEST_P(MappingRoundTrip, HalvesMeetAtTheHorizon) {
@@ -104,10 +121,10 @@ TEST_P(MappingRoundTrip, JetsAgreeWithDifferences) {
   for (const double mu : {-0.9, -0.3, 0.02, 0.4, 0.95}) {
     const double h = 0.05 * thickness_;
     const bool hit = shared_.ray_hits_ground(h, mu, bottom_);
-    const Jet jet =
-        jets.texture_from_view(Jet(h), Jet(mu, 0), hit, Jet(32.0), Jet(64.0), bottom, thickness);
+    const Jet jet = jets.texture_from_view(Jet(h), Jet(mu, 0), hit, Jet(32.0), Jet(64.0), bottom,
+                                           thickness, Jet(0.02 * thickness_));
     const auto plain = [&](double m) {
-      return shared_.texture_from_view(h, m, hit, 32, 64, bottom_, thickness_);
+      return shared_.texture_from_view(h, m, hit, 32, 64, bottom_, thickness_, 0.02 * thickness_);
     };
     EXPECT_DOUBLE_EQ(jet.a, plain(mu));
     EXPECT_NEAR(jet.v[0], (plain(mu + step) - plain(mu - step)) / (2 * step),

@@ -135,6 +135,11 @@ TEST_F(ObjFiles, ABackslashJoinsALineToTheNext) {
   }
 }
 
+TEST_F(ObjFiles, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  const ObjectMesh mesh = read("\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh.indices.size(), 3);
+}
+
 TEST_F(ObjFiles, TrianglesWithoutAreaAreLeftOut) {
   const ObjectMesh mesh = read("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n");
   EXPECT_EQ(mesh.indices.size(), 3);

@@ -72,10 +72,12 @@ std::vector<float> rays() {
 
 TEST_F(SharedFormulas, Mappings) {
   const auto inputs = rays();
+  constexpr double kDeck = 2;
   const auto outputs =
       run_glsl("#include \"model/shared/geometry.glsl\"\n#include \"model/shared/mapping.glsl\"\n",
                "bool hit = ray_hits_ground(x.x, x.y, 6360.0);\n"
-               "y = vec4(texture_from_view(x.x, x.y, hit, 32.0, 64.0, 6360.0, 100.0), "
+               "float deck = x.z < 0.0 ? -1.0 : 2.0;\n"
+               "y = vec4(texture_from_view(x.x, x.y, hit, 32.0, 64.0, 6360.0, 100.0, deck), "
                "unit_from_height(x.x, 100.0), "
                "unit_from_sun(sun_height(x.x, x.z, 6360.0), -0.2079), hit ? 1.0 : 0.0);",
                inputs);
@@ -83,8 +85,10 @@ TEST_F(SharedFormulas, Mappings) {
     const double h = inputs[i], mu = inputs[i + 1], mu_s = inputs[i + 2];
     const bool hit = shared_.ray_hits_ground(h, mu, kBottom);
     EXPECT_EQ(outputs[i + 3] > 0.5f, hit) << "h = " << h << ", mu = " << mu;
-    EXPECT_NEAR(outputs[i], shared_.texture_from_view(h, mu, hit, 32, 64, kBottom, kThickness),
-                kRoot)
+    EXPECT_NEAR(
+        outputs[i],
+        shared_.texture_from_view(h, mu, hit, 32, 64, kBottom, kThickness, mu_s < 0 ? -1 : kDeck),
+        kRoot)
         << "h = " << h << ", mu = " << mu;
     EXPECT_NEAR(outputs[i + 1], shared_.unit_from_height(h, kThickness), kCoordinate);
     EXPECT_NEAR(outputs[i + 2],

@@ -44,7 +44,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
       missing_.push_back(excerpt(name));
       return false;
     }
-    std::istringstream text(read_file(*file, "a file of materials"));
+    std::istringstream text(read_text_file(*file, "a file of materials"));
     tinyobj::LoadMtl(numbers, materials, &text, warning, error);
     return true;
   }
@@ -82,7 +82,7 @@ std::string missing_materials(const fs::path& mesh, const MaterialUses& uses, co
 }
 
 ObjFile parsed(const fs::path& file, double reflectance, NamedFiles named) {
-  std::string joined = with_joined_lines(read_file(file, "a mesh", kMostMeshBytes));
+  std::string joined = with_joined_lines(read_text_file(file, "a mesh", kMostMeshBytes));
   const MaterialUses uses = check_obj(file, joined);
   ObjFile obj;
   std::string warning, error;
