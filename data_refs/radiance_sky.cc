@@ -113,12 +113,8 @@ class Parser {
   std::size_t at_ = 0;
 };
 
-struct Direction {
-  double zenith, azimuth;  // radians, azimuth clockwise from north
-};
-
 // East, north, up.
-Direction direction_of(const Primitive& p, std::size_t first, std::string_view source) {
+RadianceSun direction_of(const Primitive& p, std::size_t first, std::string_view source) {
   const double x = p.reals[first], y = p.reals[first + 1], z = p.reals[first + 2];
   const double length = std::hypot(x, y, z);
   constexpr double kRounding = 0.05;  // of numbers written with few digits
@@ -130,9 +126,7 @@ Direction direction_of(const Primitive& p, std::size_t first, std::string_view s
   return {std::atan2(std::hypot(x, y), z), std::atan2(x, y)};
 }
 
-Direction sun_of(const RadianceSky& sky) { return {sky.sun_zenith, sky.sun_azimuth}; }
-
-double angle_between(const Direction& a, const Direction& b) {
+double angle_between(const RadianceSun& a, const RadianceSun& b) {
   Sample sample;
   sample.sun_zenith = a.zenith;
   sample.view_zenith = b.zenith;
@@ -140,7 +134,7 @@ double angle_between(const Direction& a, const Direction& b) {
   return scattering_angle(sample);
 }
 
-std::string text_of(const Direction& d) {
+std::string text_of(const RadianceSun& d) {
   return fmt::format("zenith {:.2f} deg, azimuth {:.2f} deg", d.zenith * kDegreesPerRadian,
                      std::remainder(d.azimuth, 2 * kPi) * kDegreesPerRadian);
 }
@@ -159,7 +153,8 @@ double intermediate_sky(double zenith, double sun_zenith, double angle) {
          2.326 * std::exp(-0.563 * angle * ((2.629 - zenith) * (1.562 - sun_zenith) + 0.812));
 }
 
-double value_of(const RadianceSky& sky, double zenith, double angle) {
+// Without the ground.
+double sky_value(const RadianceSky& sky, double zenith, double angle) {
   const std::vector<double>& a = sky.a;
   const double mu = std::cos(zenith), nu = std::cos(angle);
   switch (sky.formula) {
@@ -171,13 +166,20 @@ double value_of(const RadianceSky& sky, double zenith, double angle) {
     case RadianceFormula::kClear:
       return a[1] * clear_sky(mu, angle) / a[3];
     case RadianceFormula::kIntermediate:
-      return a[1] * intermediate_sky(zenith, sky.sun_zenith, angle) / a[3];
+      return a[1] * intermediate_sky(zenith, sky.sun->zenith, angle) / a[3];
     case RadianceFormula::kOvercast:
       return a[1] * (1 + 2 * mu) / 3;
     case RadianceFormula::kUniform:
       break;
   }
   return a[1];
+}
+
+double value_of(const RadianceSky& sky, double zenith, double angle) {
+  const double value = sky_value(sky, zenith, angle);
+  if (sky.formula == RadianceFormula::kPerez) return value;
+  const double weight = std::pow(std::cos(zenith) + 1.01, 10);
+  return (weight * value + sky.a[2] / weight) / (weight + 1 / weight);
 }
 
 std::string_view meaning_of(RadianceFormula formula) {
@@ -228,11 +230,16 @@ const Primitive& sky_function(const std::vector<Primitive>& primitives, std::str
   if (found == nullptr)
     throw std::invalid_argument(
         fmt::format("{}: expected a brightfunc of perezlum.cal or skybright.cal", source));
-  const std::size_t wanted = functions_of(*found) == "perezlum.cal" ? 10 : 7;
-  if (found->reals.size() != wanted) {
+  if (found->reals.empty()) fail_at(source, found->line, "0 numbers: expected those of a sky");
+  // An overcast or uniform sky has no sun.
+  const RadianceFormula formula = formula_of(*found, source);
+  const bool has_sun =
+      formula != RadianceFormula::kOvercast && formula != RadianceFormula::kUniform;
+  const std::size_t count = found->reals.size();
+  const std::size_t wanted = formula == RadianceFormula::kPerez ? 10 : has_sun ? 7 : 3;
+  if (count != wanted && (has_sun || count != 7)) {
     fail_at(source, found->line,
-            fmt::format("{} numbers: expected the {} of {}", found->reals.size(), wanted,
-                        functions_of(*found)));
+            fmt::format("{} numbers: expected the {} of {}", count, wanted, functions_of(*found)));
   }
   return *found;
 }
@@ -254,11 +261,24 @@ double luminance_per_value(const Scene& scene, std::string_view source) {
   return kLumenPerWatt;
 }
 
-// The brightness of what the function `name` modulates, 1 where the scene has no glow of it.
+// Whether what the material `name` is on lights the lower hemisphere alone.
+bool is_ground(const std::vector<Primitive>& primitives, const std::string& name) {
+  constexpr double kWholeSphere_deg = 360;
+  bool below = false;
+  for (const Primitive& p : primitives) {
+    if (p.type != "source" || p.modifier != name || p.reals.size() != 4) continue;
+    if (p.reals[2] > 0 || p.reals[3] >= kWholeSphere_deg) return false;
+    below = true;
+  }
+  return below;
+}
+
+// The brightness of the sky that the function `name` modulates, 1 where the scene has no glow of
+// it.
 double glow_of(const std::vector<Primitive>& primitives, const std::string& name,
                std::string_view source) {
   for (const Primitive& p : primitives) {
-    if (p.type != "glow" || p.modifier != name) continue;
+    if (p.type != "glow" || p.modifier != name || is_ground(primitives, p.name)) continue;
     if (p.reals.size() != 4 || std::ranges::any_of(p.reals, [](double v) { return v < 0; }))
       fail_at(source, p.line, fmt::format("glow {}: expected 4 numbers >= 0", p.name));
     double brightness = 0;
@@ -268,38 +288,82 @@ double glow_of(const std::vector<Primitive>& primitives, const std::string& name
   return 1;
 }
 
-// The suns of the light and of the comment must be that of the function.
-void check_sun(const std::vector<Primitive>& primitives, const Scene& scene, const RadianceSky& sky,
+// Azimuths of Radiance's programs count from south to west.
+RadianceSun sun_at(double altitude_deg, double azimuth_deg) {
+  return {(90 - altitude_deg) * kRadiansPerDegree, (180 + azimuth_deg) * kRadiansPerDegree};
+}
+
+struct StatedSun {
+  RadianceSun sun;
+  int line;
+  std::string_view what;
+};
+
+// The suns that comments state: the command gives one (-ang), or the program tells what it computed
+// from the time.
+std::vector<StatedSun> suns_of_comments(const Scene& scene) {
+  static const std::regex computed(R"(solar altitude and azimuth:\s*(-?[\d.]+)\s+(-?[\d.]+))",
+                                   std::regex::icase),
+      given(R"(gen(?:sky|daylit)\s+-ang\s+(-?[\d.]+)\s+(-?[\d.]+))");
+  std::vector<StatedSun> suns;
+  for (const Word& comment : scene.comments) {
+    for (const auto& [pattern, what] :
+         {std::pair{&computed, "solar altitude and azimuth"}, {&given, "-ang"}}) {
+      const auto match = first_match(comment.text, *pattern);
+      if (!match) continue;
+      suns.push_back({sun_at(std::stod((*match)[1]), std::stod((*match)[2])), comment.line, what});
+    }
+  }
+  return suns;
+}
+
+// The suns of the light and of the comments must be that of the function. gensky and gendaylit put
+// a sun above 87 deg there, and say the altitude before.
+void check_sun(const std::vector<Primitive>& primitives, const Scene& scene, const RadianceSun& sun,
                std::string_view source) {
-  const auto expect = [&](const Direction& other, int line, std::string_view what) {
-    const double apart = angle_between(sun_of(sky), other) * kDegreesPerRadian;
+  const auto expect = [&](const RadianceSun& other, int line, std::string_view what) {
+    const double apart = angle_between(sun, other) * kDegreesPerRadian;
     if (apart <= kSunAgreement_deg) return;
     fail_at(source, line,
             fmt::format("{}: {}, {:.3g} deg from the sky's sun ({}): expected within {:g} deg",
-                        what, text_of(other), apart, text_of(sun_of(sky)), kSunAgreement_deg));
+                        what, text_of(other), apart, text_of(sun), kSunAgreement_deg));
   };
   constexpr double kWidest_deg = 1;  // a sky or a ground is a source of 180 deg
   for (const Primitive& p : primitives) {
     if (p.type != "source" || p.reals.size() != 4 || p.reals[3] > kWidest_deg) continue;
     expect(direction_of(p, 0, source), p.line, "source " + p.name);
   }
-  static const std::regex stated(R"(solar altitude and azimuth:\s*(-?[\d.]+)\s+(-?[\d.]+))",
-                                 std::regex::icase);
-  for (const Word& comment : scene.comments) {
-    const auto match = first_match(comment.text, stated);
-    if (!match) continue;
-    // Azimuths of Radiance's programs count from south to west.
-    expect({(90 - std::stod((*match)[1])) * kRadiansPerDegree,
-            (180 + std::stod((*match)[2])) * kRadiansPerDegree},
-           comment.line, "solar altitude and azimuth");
+  constexpr double kHighest = 3 * kRadiansPerDegree, kRounding = 1e-3;
+  const bool may_be_lowered = std::abs(sun.zenith - kHighest) < kRounding;
+  for (StatedSun stated : suns_of_comments(scene)) {
+    if (may_be_lowered) stated.sun.zenith = std::max(stated.sun.zenith, kHighest);
+    expect(stated.sun, stated.line, stated.what);
   }
+}
+
+// Of the function, or where it has none of the comments.
+std::optional<RadianceSun> sun_of(const Primitive& function, const Scene& scene,
+                                  std::string_view source) {
+  constexpr std::size_t kWithoutSun = 3;
+  std::optional<RadianceSun> sun;
+  int line = function.line;
+  if (function.reals.size() > kWithoutSun) {
+    sun = direction_of(function, function.reals.size() - 3, source);
+  } else if (const std::vector<StatedSun> stated = suns_of_comments(scene); !stated.empty()) {
+    sun = stated.front().sun;
+    line = stated.front().line;
+  }
+  if (!sun) return {};
+  if (!(sun->zenith >= 0 && sun->zenith < 0.5 * kPi))
+    fail_at(source, line, fmt::format("sun {}: expected a sun above the horizon", text_of(*sun)));
+  sun->azimuth = std::fmod(sun->azimuth + 4 * kPi, 2 * kPi);
+  return sun;
 }
 
 }  // namespace
 
 std::string RadianceSky::description() const {
-  return fmt::format("Radiance: {}, sun {}", meaning_of(formula),
-                     text_of({sun_zenith, sun_azimuth}));
+  return fmt::format("Radiance: {}{}", meaning_of(formula), sun ? ", sun " + text_of(*sun) : "");
 }
 
 bool is_radiance_sky(std::string_view text) {
@@ -321,16 +385,10 @@ RadianceSky parse_radiance_sky(std::string_view text, std::string_view source) {
   const Scene scene = scene_of(text);
   const std::vector<Primitive> primitives = Parser(scene, source).primitives();
   const Primitive& function = sky_function(primitives, source);
-  const Direction sun = direction_of(function, function.reals.size() - 3, source);
-  if (!(sun.zenith < 0.5 * kPi)) {
-    fail_at(source, function.line,
-            fmt::format("sun {}: expected a sun above the horizon", text_of(sun)));
-  }
   const RadianceSky sky{
-      formula_of(function, source), function.reals, sun.zenith,
-      sun.azimuth < 0 ? sun.azimuth + 2 * kPi : sun.azimuth,
+      formula_of(function, source), function.reals, sun_of(function, scene, source),
       luminance_per_value(scene, source) * glow_of(primitives, function.name, source)};
-  check_sun(primitives, scene, sky, source);
+  if (sky.sun) check_sun(primitives, scene, *sky.sun, source);
   return sky;
 }
 

@@ -94,11 +94,20 @@ Reference weather_reference(std::string_view name, Sampling sampling) {
   return reference;
 }
 
-// A scene of Radiance with a sky: its luminances under its sun.
-Reference radiance_reference(const std::filesystem::path& file, Sampling sampling) {
+// A scene of Radiance with a sky: its luminances under its sun, or where it has none under that of
+// the caller.
+Reference radiance_reference(const std::filesystem::path& file,
+                             const std::vector<double>& sun_zenith, Sampling sampling) {
   const RadianceSky sky =
       parse_radiance_sky(read_csv_file(file, "a scene of Radiance"), file.string());
-  Reference reference = sampled({sky.sun_zenith}, sampling, [&](const Sample& s) {
+  if (!sky.sun && sun_zenith.size() != 1) {
+    throw std::invalid_argument(
+        fmt::format("{}: a sky without a sun, of one time: expected one sun_zenith_deg, got {}",
+                    file.string(), sun_zenith.size()));
+  }
+  const std::vector<double> suns = sky.sun ? std::vector{sky.sun->zenith} : sun_zenith;
+  expect_suns(file.string(), suns);
+  Reference reference = sampled(suns, sampling, [&](const Sample& s) {
     const double luminance = radiance_sky_luminance(sky, s.view_zenith, scattering_angle(s));
     if (luminance > 0 && std::isfinite(luminance)) return luminance;
     throw std::invalid_argument(fmt::format(
@@ -108,10 +117,12 @@ Reference radiance_reference(const std::filesystem::path& file, Sampling samplin
   reference.quantity = Quantity::kLuminance;
   reference.name = file.string();
   reference.description = sky.description();
-  Scan scan;
-  scan.name = file.string();
-  scan.sun_azimuth = sky.sun_azimuth;
-  reference.scans.push_back(scan);
+  if (sky.sun) {
+    Scan scan;
+    scan.name = file.string();
+    scan.sun_azimuth = sky.sun->azimuth;
+    reference.scans.push_back(scan);
+  }
   return reference;
 }
 
@@ -186,7 +197,7 @@ Reference load_reference(std::string_view name, const std::vector<double>& sun_z
     return reference;
   }
   const std::filesystem::path file(name);
-  if (is_radiance_sky_file(name)) return radiance_reference(file, sampling);
+  if (is_radiance_sky_file(name)) return radiance_reference(file, sun_zenith, sampling);
   if (std::filesystem::exists(file)) return load_measured_sky(file, options);
   throw std::invalid_argument(
       fmt::format("{}: no such file or reference, expected cie:1 to cie:{}, {}, "
