@@ -47,7 +47,7 @@ Reference parse_aeronet_csv(std::string_view text, std::string_view source,
     fail_at(source, table.header_line(),
             "expected columns of radiances, named by their angle from the sun");
   }
-  MeasuredSky sky = photometer_sky(source, options);
+  MeasuredSky sky = photometer_sky(source, options, table.unit().value_or(kAeronetUnit));
   PhotometerScans scans(options, sky);
   LeftOut left_out("line");
   for (const AeronetLine& line : table.lines())

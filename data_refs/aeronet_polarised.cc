@@ -118,7 +118,7 @@ Reference parse_aeronet_polarised(std::string_view text, std::string_view source
                                   const ImportOptions& options) {
   const AeronetTable table(text, source);
   const std::vector<Direction> directions = directions_of(table, source);
-  MeasuredSky sky = photometer_sky(source, options);
+  MeasuredSky sky = photometer_sky(source, options, table.unit().value_or(kAeronetUnit));
   sky.note(
       "radiances are the means of P1, P2 and P3, which were calibrated with unpolarised light as "
       "far as is known; --scale profiled leaves their factor open");

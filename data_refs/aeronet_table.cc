@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "data_refs/csv.h"
+#include "data_refs/units.h"
 #include "model/base/pattern.h"
 #include "model/base/text.h"
 
@@ -20,7 +21,7 @@ constexpr std::string_view kDate = "date", kTime = "time", kNominal = "nominalwa
                            kExact = "exactwavelength", kWavelength = "wavelength",
                            kSunZenith = "solarzenithangle", kType = "skyscantype",
                            kSite = "aeronetsite", kLatitude = "latitude", kLongitude = "longitude",
-                           kElevation = "elevation";
+                           kElevation = "elevation", kRadiance = "radiance_for";
 
 // "solarzenithangle" of "Solar_Zenith_Angle(Degrees)".
 std::string plain_name(std::string_view column) {
@@ -45,11 +46,28 @@ std::optional<double> finite_number(std::string_view text) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
+// Without what stands in parentheses, such as a unit.
+std::string_view without_unit(std::string_view name) { return name.substr(0, name.find('(')); }
+
+bool is_of_scattering(const std::string& column, const std::string& title) {
+  return lower_case(title + column).find("scatter") != std::string::npos;
+}
+
 // The angle that a column's name holds, if it is one of radiances.
-std::optional<double> angle_of(const std::string& column, std::string_view title) {
-  const std::string name = lower_case(column);
-  if (name.find("scatter") != name.npos || title.find("scatter") != title.npos) return {};
-  return finite_number(name.starts_with("radiance_for") ? after_last(name, '_') : name);
+std::optional<double> angle_of(const std::string& column, const std::string& title) {
+  if (is_of_scattering(column, title)) return {};
+  if (!lower_case(column).starts_with(kRadiance)) return finite_number(without_unit(column));
+  return finite_number(without_unit(after_last(column, '_')));
+}
+
+// "uW/cm^2/sr/nm" of "Radiance_for_Azimuth_Angle_in_Degrees(uW/cm^2/sr/nm)"; empty where there is
+// none.
+std::string unit_in(std::string_view name) {
+  const std::size_t open = name.find_first_of("([");
+  if (open == name.npos || lower_case(name.substr(0, open)).find("radiance") == name.npos)
+    return {};
+  const std::size_t close = name.find_first_of(")]", open);
+  return std::string(trim(name.substr(open + 1, close - open - 1)));
 }
 
 // The titles of groups of columns, each spread over its group; empty when it is no such line.
@@ -58,7 +76,7 @@ std::vector<std::string> group_titles(const std::vector<std::string>& fields) {
   if (fields.size() < kFewestColumns || !fields.front().empty()) return {};
   std::vector<std::string> titles;
   for (const std::string& field : fields)
-    titles.push_back(field.empty() && !titles.empty() ? titles.back() : lower_case(field));
+    titles.push_back(field.empty() && !titles.empty() ? titles.back() : field);
   return titles;
 }
 
@@ -142,9 +160,13 @@ void AeronetTable::read_columns(std::vector<std::string> columns,
   for (const std::string& name : columns_) names_.push_back(plain_name(name));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const std::string title = i < titles.size() ? titles[i] : "";
-    titled_.push_back(title.empty() ? lower_case(columns_[i])
-                                    : title + "_" + lower_case(columns_[i]));
-    if (const auto angle = angle_of(columns_[i], title)) angles_.push_back({i, *angle});
+    titled_.push_back(lower_case(title.empty() ? columns_[i] : title + "_" + columns_[i]));
+    if (const auto angle = angle_of(columns_[i], title)) {
+      expect_no_gap(i, titles);
+      angles_.push_back({i, *angle});
+    }
+    read_unit(title, number - 1);
+    read_unit(columns_[i], number);
   }
   drop_second_block(angles_);
   for (const std::string_view name : {kDate, kTime, kSunZenith}) {
@@ -155,6 +177,33 @@ void AeronetTable::read_columns(std::vector<std::string> columns,
   place_.longitude_deg = head_number(head_, "long");
   place_.latitude_deg = head_number(head_, "lat");
   place_.elevation_m = head_number(head_, "elev");
+}
+
+// Whether the columns since the last angle are of another block.
+void AeronetTable::expect_no_gap(std::size_t column, const std::vector<std::string>& titles) const {
+  if (angles_.empty()) return;
+  for (std::size_t i = angles_.back().column + 1; i < column; ++i) {
+    if (is_of_scattering(columns_[i], i < titles.size() ? titles[i] : "")) continue;
+    fail_at(source_, header_line_,
+            fmt::format("column {} = {}: expected the angle of radiances from the sun, in degrees",
+                        i + 1, in_quotes(columns_[i])));
+  }
+}
+
+void AeronetTable::read_unit(std::string_view name, int number) {
+  const std::string text = unit_in(name);
+  if (text.empty()) return;
+  const std::optional<Unit> unit = find_unit(text);
+  if (!unit || unit->quantity != Quantity::kSpectralRadiance) {
+    fail_at(source_, number,
+            fmt::format("unit = {}: expected one of {}", in_quotes(text),
+                        unit_names({Quantity::kSpectralRadiance})));
+  }
+  if (unit_.value_or(unit->name) != unit->name) {
+    fail_at(source_, number,
+            fmt::format("unit = {}: expected {} as before", in_quotes(text), *unit_));
+  }
+  unit_ = unit->name;
 }
 
 std::optional<std::size_t> AeronetTable::column(std::string_view name) const {

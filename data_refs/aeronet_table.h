@@ -6,8 +6,9 @@
 //              AERONET_Site, Latitude, Longitude, Elevation
 //   version 2: Date, Time, Wavelength, SolarZenithAngle; the site in a line `Location=..,long=..`
 // A column of radiances is named by its angle, `-6.000000` or `Radiance_for_.._-6.000`. A line of
-// group titles may stand above; columns of scattering angles, which follow in some files with the
-// same names, are none of radiances.
+// group titles may stand above; titles or names may state the unit, `Radiance_for_..(W/m^2/sr/um)`;
+// columns of scattering angles, which follow in some files with the same names, are none of
+// radiances.
 #pragma once
 
 #include <optional>
@@ -38,7 +39,8 @@ struct AeronetAngle {
 
 class AeronetTable {
  public:
-  // Throws std::invalid_argument `source:line: ...` when columns are missing.
+  // Throws std::invalid_argument `source:line: ...` when columns are missing, one between those
+  // of radiances has no angle, or a unit is none of spectral radiance or another one than before.
   AeronetTable(std::string_view text, std::string_view source);
 
   // Whether a text holds such a table.
@@ -47,6 +49,8 @@ class AeronetTable {
   const std::vector<AeronetLine>& lines() const { return lines_; }
   const std::vector<AeronetAngle>& angles() const { return angles_; }  // of radiances
   int header_line() const { return header_line_; }                     // that names the columns
+  // Of the radiances, where titles or names state it.
+  const std::optional<std::string_view>& unit() const { return unit_; }
   // The columns whose names, or titles and names, are NAME_for_Azimuth_Angle.._-6.000, case aside.
   std::vector<AeronetAngle> columns_of(const std::string& name) const;
 
@@ -63,6 +67,8 @@ class AeronetTable {
  private:
   void read_columns(std::vector<std::string> columns, const std::vector<std::string>& titles,
                     int number);
+  void expect_no_gap(std::size_t column, const std::vector<std::string>& titles) const;
+  void read_unit(std::string_view name, int number);
   std::optional<std::size_t> column(std::string_view name) const;
   double nanometres(const AeronetLine& line, std::optional<std::size_t> column) const;
   Instant time(const AeronetLine& line) const;
@@ -72,6 +78,7 @@ class AeronetTable {
   std::string source_;
   std::string head_;  // of the lines above the columns, lower case
   ImportOptions place_;
+  std::optional<std::string_view> unit_;  // one of units()
   int header_line_ = 0;
   std::vector<std::string> columns_, names_;  // as in the file; without unit, case and underscores
   std::vector<std::string> titled_;           // lower case, after the title of their group

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "complaint.h"
 #include "data_refs/csv.h"
@@ -162,6 +163,42 @@ TEST(AeronetCsv, ScatteringAnglesAreNoRadiances) {
                              "-6.0,6.0,90.0,5.2,5.3,75.5\n" +
                              line("11:11:49", "440", "60", "22,20,2,5.2,5.2,75.5");
   EXPECT_EQ(parse(titled).samples.size(), 3u);
+}
+
+// 1 uW/cm^2 is 0.01 W/m^2, 1/um is 0.001/nm.
+TEST(AeronetCsv, TitlesAndNamesStateTheUnit) {
+  const std::string values = line("11:11:49", "440", "60", "22,20");
+  const auto titled = [&](const std::string& title) {
+    const std::size_t columns = kHead.find("AERONET_Site");
+    return kHead.substr(0, columns) + ",,,,,,,,Radiance_for_Azimuth_Angle" + title + ",\n" +
+           kHead.substr(columns) + "-6.0(Degrees),6.0\n" + values;
+  };
+  for (const auto& [unit, factor] : {std::pair{"(uW/cm^2/sr/nm)", 1e-2},
+                                     {"(W/m^2/sr/um)", 1e-3},
+                                     {"[mW/m^2/sr/nm]", 1e-3},
+                                     {"", 1e-2}}) {
+    const Reference sky = parse(titled(unit));
+    ASSERT_EQ(sky.samples.size(), 2u);
+    EXPECT_NEAR(sky.samples[0].value, 22 * factor, 22 * kRounding) << unit;
+    EXPECT_NEAR(sky.samples[0].relative_azimuth, -6 * kDegree, kRounding);
+  }
+  EXPECT_THAT(complaint(titled("(counts)")),
+              StartsWith("sky.alm:4: unit = \"counts\": expected one of W m-2 sr-1 nm-1"));
+  EXPECT_EQ(complaint(kHead +
+                      "Radiance_for_Angle(uW/cm^2/sr/nm)_-6.0,"
+                      "Radiance_for_Angle(mW/m^2/sr/nm)_6.0\n" +
+                      values),
+            "sky.alm:4: unit = \"mW/m^2/sr/nm\": expected uW cm-2 sr-1 nm-1 as before");
+  ImportOptions options;
+  options.unit = "W m-2 sr-1 nm-1";
+  EXPECT_THAT(complaint_of([&] { parse(titled("(W/m^2/sr/um)"), options); }),
+              StartsWith("sky.alm: unit = \"W m-2 sr-1 um-1\": expected \"W m-2 sr-1 nm-1\""));
+}
+
+TEST(AeronetCsv, AColumnOfRadiancesWithoutAnAngleIsNamed) {
+  EXPECT_EQ(complaint(kHead + "-6.0,0.0x,6.0\n" + line("11:11:49", "440", "60", "22,20,2")),
+            "sky.alm:4: column 10 = \"0.0x\": expected the angle of radiances from the sun, in "
+            "degrees");
 }
 
 // Patterns of std::regex would go down the stack with each character.
