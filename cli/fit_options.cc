@@ -266,8 +266,11 @@ std::optional<refs::AerosolKnowledge> known_aerosol(const FitArguments& argument
     if (times.empty() || times.size() < reference.scans.size())
       throw UsageError(option, file,
                        "expected with scans whose time is known (local_time, utc_offset_h)");
-    const refs::AerosolKnowledge more =
-        refs::aerosol_at(refs::load_aerosol_records(file), times, file);
+    std::vector<refs::AerosolRecord> records = refs::load_aerosol_records(file);
+    for (const refs::Scan& scan : reference.scans) {
+      if (scan.site) records = refs::records_near(records, *scan.site, file);
+    }
+    const refs::AerosolKnowledge more = refs::aerosol_at(records, times, file);
     known = known ? refs::joined(*known, more) : more;
   }
   return known;

@@ -16,35 +16,54 @@
 #include "data_refs/csv.h"
 #include "model/base/input_file.h"
 #include "model/base/pattern.h"
+#include "model/base/text.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
 
-constexpr double kMissing = -999, kGreen = 550;  // nm
+constexpr double kMissing = -999, kGreen = 550;     // nm
+constexpr double kShortest = 400, kLongest = 1100;  // nm, of a power law
 
 using Spectrum = std::map<double, double>;
 
 struct Product {
-  const char* pattern;  // of a column, its first group the wavelength in nm
+  std::regex pattern;  // of a column, its first group the wavelength in nm
   Spectrum AerosolRecord::*values;
+  double least, most;  // that can be; optical depths of clean air may come out below 0
 };
-const std::array<Product, 3> kProducts = {{
-    {R"(ao[dt]_(\d+)(?:nm)?|ao[dt]_?ext(?:inction-total)?\[?(\d+)(?:nm\]|-t))",
-     &AerosolRecord::optical_depth},
-    {R"(single_scattering_albedo\[(\d+)nm\]|ssa(\d+)-t)", &AerosolRecord::single_scattering_albedo},
-    {R"(asymmetry_factor-total\[(\d+)nm\]|asym(\d+)-t)", &AerosolRecord::asymmetry},
-}};
+const std::array<Product, 3>& products() {
+  constexpr auto kAnyCase = std::regex::icase;
+  static const std::array<Product, 3> table = {{
+      {std::regex(R"(ao[dt]_(\d+)(?:nm)?|ao[dt]_?ext(?:inction-total)?\[?(\d+)(?:nm\]|-t))",
+                  kAnyCase),
+       &AerosolRecord::optical_depth, -0.1, 10},
+      {std::regex(R"(single_scattering_albedo\[(\d+)nm\]|ssa(\d+)-t)", kAnyCase),
+       &AerosolRecord::single_scattering_albedo, 0, 1},
+      {std::regex(R"(asymmetry_factor-total\[(\d+)nm\]|asym(\d+)-t)", kAnyCase),
+       &AerosolRecord::asymmetry, -1, 1},
+  }};
+  return table;
+}
 
 struct Column {
   std::size_t index;
+  std::string name;
   double wavelength_nm;
-  Spectrum AerosolRecord::*values;
+  const Product& product;
 };
 
 struct Columns {
   std::size_t date = 0, time = 0;
+  std::optional<std::size_t> latitude, longitude;
   std::vector<Column> values;
 };
+
+// Whether "Date(dd:mm:yyyy)" is a date.
+bool is_named(const std::string& column, std::string_view name) {
+  const std::size_t open = column.find('(');
+  return open != column.npos && lower_case(trim(std::string_view(column).substr(0, open))) == name;
+}
 
 std::optional<Columns> columns_of(const std::vector<std::string>& names) {
   Columns columns;
@@ -52,49 +71,89 @@ std::optional<Columns> columns_of(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string& name = names[i];
     // The first of each: a file may go on with the date of its processing.
-    if (!has_date && whole_match(name, std::regex("date\\s*\\(.*", std::regex::icase))) {
+    if (!has_date && is_named(name, "date")) {
       columns.date = i;
       has_date = true;
-    } else if (!has_time && whole_match(name, std::regex("time\\s*\\(.*", std::regex::icase))) {
+    } else if (!has_time && is_named(name, "time")) {
       columns.time = i;
       has_time = true;
+    } else if (!columns.latitude &&
+               (is_named(name, "site_latitude") || is_named(name, "latitude"))) {
+      columns.latitude = i;
+    } else if (!columns.longitude &&
+               (is_named(name, "site_longitude") || is_named(name, "longitude"))) {
+      columns.longitude = i;
     }
-    for (const Product& product : kProducts) {
-      const auto match = whole_match(name, std::regex(product.pattern, std::regex::icase));
+    for (const Product& product : products()) {
+      const auto match = whole_match(name, product.pattern);
       if (!match) continue;
       const auto digits = std::find_if(match->begin() + 1, match->end(),
                                        [](const std::csub_match& part) { return part.matched; });
-      columns.values.push_back({i, std::stod(digits->str()), product.values});
+      columns.values.push_back({i, name, std::stod(digits->str()), product});
     }
   }
   if (!has_date || !has_time) return {};
   return columns;
 }
 
-AerosolRecord record_of(const Columns& columns, const std::vector<std::string>& fields,
-                        const std::string& source, int line) {
-  const auto field = [&](std::size_t i) -> const std::string& {
-    if (i >= fields.size())
-      fail_at(source, line, fmt::format("expected at least {} fields", i + 1));
-    return fields[i];
-  };
-  const auto time = aeronet_instant(field(columns.date), field(columns.time));
-  if (!time)
-    fail_at(source, line,
-            fmt::format("date and time \"{}\", \"{}\": expected dd:mm:yyyy and hh:mm:ss",
-                        field(columns.date), field(columns.time)));
-  AerosolRecord record{*time, {}, {}, {}};
-  for (const Column& column : columns.values) {
-    const std::string& text = field(column.index);
-    if (text.empty() || text == "N/A") continue;
-    const std::optional<double> value = csv_number(text);
-    if (!value || !std::isfinite(*value))
-      fail_at(source, line,
-              fmt::format("\"{}\": expected a number, -999 where there is none", text));
-    if (*value != kMissing) (record.*column.values)[column.wavelength_nm] = *value;
+class RecordReader {
+ public:
+  RecordReader(const Columns& columns, const std::vector<std::string>& fields,
+               const std::string& source, int line)
+      : columns_(columns), fields_(fields), source_(source), line_(line) {}
+
+  // `head` has the site where no column has.
+  AerosolRecord record(const std::optional<Site>& head) const {
+    const auto time = aeronet_instant(field(columns_.date), field(columns_.time));
+    if (!time)
+      fail_at(source_, line_,
+              fmt::format("date and time \"{}\", \"{}\": expected dd:mm:yyyy and hh:mm:ss",
+                          field(columns_.date), field(columns_.time)));
+    AerosolRecord record{*time, {}, {}, {}};
+    for (const Column& column : columns_.values) {
+      const Product& product = column.product;
+      if (const auto value = number(column.index, column.name, product.least, product.most))
+        (record.*product.values)[column.wavelength_nm] = *value;
+    }
+    record.site = head;
+    if (columns_.latitude && columns_.longitude) {
+      const auto latitude = number(*columns_.latitude, "latitude", -90, 90),
+                 longitude = number(*columns_.longitude, "longitude", -180, 360);
+      if (latitude && longitude)
+        record.site = {*latitude * kRadiansPerDegree, *longitude * kRadiansPerDegree};
+    }
+    return record;
   }
-  return record;
-}
+
+ private:
+  const std::string& field(std::size_t i) const {
+    if (i >= fields_.size())
+      fail_at(source_, line_, fmt::format("expected at least {} fields", i + 1));
+    return fields_[i];
+  }
+
+  // Nothing where it is missing.
+  std::optional<double> number(std::size_t i, const std::string& name, double least,
+                               double most) const {
+    const std::string& text = field(i);
+    if (text.empty() || text == "N/A") return {};
+    const std::optional<double> value = csv_number(text);
+    if (value == kMissing) return {};
+    if (!value)
+      fail_at(source_, line_,
+              fmt::format("{} = {}: expected a number, -999 where there is none", name,
+                          in_quotes(text)));
+    if (!(*value >= least && *value <= most))
+      fail_at(source_, line_,
+              fmt::format("{} = {:.9g}: expected {:g} to {:g}", name, *value, least, most));
+    return value;
+  }
+
+  const Columns& columns_;
+  const std::vector<std::string>& fields_;
+  const std::string& source_;
+  int line_;
+};
 
 // Linear between the two wavelengths around 550 nm, or the nearest one's.
 double at_green(const Spectrum& values) {
@@ -111,7 +170,7 @@ struct PowerLaw {
 };
 
 std::optional<PowerLaw> power_law(const Spectrum& optical_depth) {
-  constexpr double kShortest = 400, kLongest = 1100, kSigma = 0.01;
+  constexpr double kSigma = 0.01;
   double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0;
   int count = 0;
   for (const auto& [nm, tau] : optical_depth) {
@@ -167,6 +226,25 @@ AerosolRecord record_at(const std::vector<AerosolRecord>& records, Instant time,
                   reach_of(nearest).count(), iso_text(time), iso_text(nearest.time)));
 }
 
+// On a sphere of the Earth's mean radius.
+double distance_km(const Site& a, const Site& b) {
+  constexpr double kEarth_km = 6371;
+  const double north = std::sin(0.5 * (a.latitude - b.latitude)),
+               east = std::sin(0.5 * (a.longitude - b.longitude));
+  const double square = north * north + std::cos(a.latitude) * std::cos(b.latitude) * east * east;
+  return 2 * kEarth_km * std::asin(std::min(1.0, std::sqrt(square)));
+}
+
+std::string text_of(const Site& site) {
+  return fmt::format("latitude {:.6g}, longitude {:.6g} deg", site.latitude * kDegreesPerRadian,
+                     site.longitude * kDegreesPerRadian);
+}
+
+bool holds_values(const AerosolRecord& record) {
+  return !record.optical_depth.empty() || !record.single_scattering_albedo.empty() ||
+         !record.asymmetry.empty();
+}
+
 std::optional<Prior> mean_of(const std::vector<Prior>& priors) {
   if (priors.empty()) return {};
   Prior mean{0, 0};
@@ -183,7 +261,9 @@ std::vector<AerosolRecord> load_aerosol_records(const std::filesystem::path& fil
   const std::string source = file.string();
   std::istringstream lines(read_file(file, "optical depths or an inversion of AERONET"));
   std::optional<Columns> columns;
+  std::optional<Site> place;
   std::vector<AerosolRecord> records;
+  int without_values = 0;
   std::string raw;
   for (int number = 1; std::getline(lines, raw); ++number) {
     const std::string content = without_tags(raw);
@@ -191,8 +271,17 @@ std::vector<AerosolRecord> load_aerosol_records(const std::filesystem::path& fil
     const std::vector<std::string> fields = csv_fields(content, source, number);
     if (!columns) {
       columns = columns_of(fields);
+      const std::string head = lower_case(content);
+      const auto latitude = head_number(head, "lat"), longitude = head_number(head, "long");
+      if (latitude && longitude)
+        place = {*latitude * kRadiansPerDegree, *longitude * kRadiansPerDegree};
     } else if (!columns_of(fields)) {
-      records.push_back(record_of(*columns, fields, source, number));
+      AerosolRecord record = RecordReader(*columns, fields, source, number).record(place);
+      if (holds_values(record)) {
+        records.push_back(std::move(record));
+      } else {
+        ++without_values;
+      }
     }
   }
   if (!columns || columns->values.empty())
@@ -200,9 +289,32 @@ std::vector<AerosolRecord> load_aerosol_records(const std::filesystem::path& fil
         fmt::format("{}: expected a line of columns with date, time, and AOD_440nm, "
                     "Single_Scattering_Albedo[440nm] or the like, as AERONET gives them",
                     source));
-  if (records.empty()) throw std::invalid_argument(fmt::format("{}: expected records", source));
+  if (records.empty()) {
+    throw std::invalid_argument(
+        without_values == 0
+            ? fmt::format("{}: expected records", source)
+            : fmt::format("{}: every value of its {} record{} is missing: expected one that is not "
+                          "-999",
+                          source, without_values, without_values == 1 ? "" : "s"));
+  }
   std::ranges::stable_sort(records, {}, &AerosolRecord::time);
   return records;
+}
+
+std::vector<AerosolRecord> records_near(const std::vector<AerosolRecord>& records, const Site& site,
+                                        const std::string& source) {
+  constexpr double kFar_km = 100;
+  const auto distance = [&](const AerosolRecord& record) {
+    return record.site ? distance_km(*record.site, site) : 0;
+  };
+  std::vector<AerosolRecord> near;
+  std::ranges::copy_if(records, std::back_inserter(near),
+                       [&](const AerosolRecord& record) { return distance(record) <= kFar_km; });
+  if (!near.empty()) return near;
+  const AerosolRecord& nearest = *std::ranges::min_element(records, {}, distance);
+  throw std::invalid_argument(
+      fmt::format("{}: is of {}, {:.0f} km from the scan's {}: expected within {:g} km", source,
+                  text_of(*nearest.site), distance(nearest), text_of(site), kFar_km));
 }
 
 AerosolKnowledge aerosol_at(const std::vector<AerosolRecord>& records,
@@ -229,6 +341,12 @@ AerosolKnowledge aerosol_at(const std::vector<AerosolRecord>& records,
       ++with_asymmetry;
     }
   }
+  if (depths.empty() && albedos.empty() && with_asymmetry == 0) {
+    throw std::invalid_argument(
+        fmt::format("{}: tells nothing at the time of the scans: expected optical depths > 0 of at "
+                    "least two wavelengths from {:g} to {:g} nm, or an albedo",
+                    source, kShortest, kLongest));
+  }
   AerosolKnowledge knowledge{mean_of(depths), mean_of(exponents), mean_of(albedos), {}};
   const auto note = [&](const char* what, const std::optional<Prior>& prior) {
     if (prior)
@@ -238,6 +356,12 @@ AerosolKnowledge aerosol_at(const std::vector<AerosolRecord>& records,
   note("prior: aerosol optical depth at 550 nm", knowledge.optical_depth);
   note("prior: Angstrom exponent", knowledge.angstrom_exponent);
   note("prior: single scattering albedo at 550 nm", knowledge.single_scattering_albedo);
+  if (depths.size() < times.size()) {
+    knowledge.notes.push_back(fmt::format(
+        "no optical depth by {} at {} of {} scans: a power law needs two wavelengths from {:g} to "
+        "{:g} nm",
+        source, times.size() - depths.size(), times.size(), kShortest, kLongest));
+  }
   if (with_asymmetry > 0)
     knowledge.notes.push_back(fmt::format("to compare: asymmetry factor at 550 nm {:.3g} by {}",
                                           asymmetry / with_asymmetry, source));

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "data_refs/civil_time.h"
+#include "data_refs/solar_position.h"
 #include "model/atmosphere/parameters.h"
 
 namespace skyfit::refs {
@@ -23,16 +24,25 @@ namespace skyfit::refs {
 struct AerosolRecord {
   Instant time;
   std::map<double, double> optical_depth, single_scattering_albedo, asymmetry;
+  std::optional<Site> site = {};  // where the file states it
 };
 
-// By time. Throws std::invalid_argument with one line that names file, line and expectation when
-// the file holds neither product, std::runtime_error when it cannot be read.
+// By time, without those whose values are all missing. Throws std::invalid_argument with one line
+// that names file, line and expectation when the file holds neither product, no value, or an
+// optical depth outside -0.1 to 10, an albedo outside 0 to 1 or an asymmetry factor outside -1 to
+// 1; std::runtime_error when it cannot be read.
 std::vector<AerosolRecord> load_aerosol_records(const std::filesystem::path& file);
+
+// Those within 100 km of the site, or of no known place. Throws std::invalid_argument that names
+// both places when there is none.
+std::vector<AerosolRecord> records_near(const std::vector<AerosolRecord>& records, const Site& site,
+                                        const std::string& source);
 
 // What a fit takes from it: values at 550 nm with one standard deviation.
 struct AerosolKnowledge {
   std::optional<Prior> optical_depth, angstrom_exponent, single_scattering_albedo;
-  std::vector<std::string> notes;  // where each comes from, and the asymmetry factor to compare
+  // Where each comes from, what the records do not tell, and the asymmetry factor to compare.
+  std::vector<std::string> notes;
 };
 
 // The records around the times of the scans, between which is interpolated; several times are
@@ -47,7 +57,8 @@ struct AerosolKnowledge {
 // where the optical depth at 440 nm is 0.4 or more, else 0.07 (Dubovik et al. 2000, J. Geophys.
 // Res. 105, 9791).
 //
-// Throws std::invalid_argument that names the time without a record and the nearest record.
+// Throws std::invalid_argument that names the time without a record and the nearest record, or says
+// that the records tell nothing of these.
 AerosolKnowledge aerosol_at(const std::vector<AerosolRecord>& records,
                             const std::vector<Instant>& times, const std::string& source);
 

@@ -89,7 +89,8 @@ void drop_second_block(std::vector<AeronetAngle>& angles) {
     angles.resize(static_cast<std::size_t>(half));
 }
 
-// "long=11.000" of a line of version 2.
+}  // namespace
+
 std::optional<double> head_number(const std::string& line, const std::string& name) {
   for (std::size_t at = line.find(name); at != line.npos; at = line.find(name, at + 1)) {
     std::string_view value = trim(std::string_view(line).substr(at + name.size()));
@@ -99,8 +100,6 @@ std::optional<double> head_number(const std::string& line, const std::string& na
   }
   return {};
 }
-
-}  // namespace
 
 std::string without_tags(const std::string& line) {
   std::string result;

@@ -27,6 +27,9 @@ std::string without_tags(const std::string& line);
 // Of "15:05:2024" and "06:30:00", UTC; nothing when they are no such instant.
 std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock);
 
+// 11 of "long=11.000" in the head of version 2, `line` in lower case.
+std::optional<double> head_number(const std::string& line, const std::string& name);
+
 struct AeronetLine {
   int number;  // 1 is the first of the file
   std::vector<std::string> fields;

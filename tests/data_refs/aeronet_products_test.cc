@@ -9,6 +9,7 @@
 
 #include "model/base/temporary_directory.h"
 #include "model/base/whole_file.h"
+#include "model/numerics/angles.h"
 
 namespace skyfit::refs {
 namespace {
@@ -108,7 +109,56 @@ TEST(AeronetProducts, OfVersion2) {
   EXPECT_EQ(inversion[0].asymmetry.at(440), 0.69);
 }
 
+// Along a meridian a degree is 111.2 km.
+TEST(AeronetProducts, RecordsOfAnotherPlaceAreRefused) {
+  const std::string columns =
+      "Date(dd:mm:yyyy),Time(hh:mm:ss),AOD_870nm,AOD_440nm,Site_Latitude(Degrees),"
+      "Site_Longitude(Degrees)\n";
+  const auto here = [](double latitude_deg) {
+    return Site{latitude_deg * kRadiansPerDegree, 11 * kRadiansPerDegree};
+  };
+  const auto list = records(columns + "15:05:2024,06:30:00,0.1,0.25,47.5,11\n" +
+                            "15:05:2024,06:30:00,0.1,0.25,-33.5,151\n");
+  EXPECT_THAT(records_near(list, here(48.3), "site"), SizeIs(1));
+  EXPECT_THAT(complaint([&] { records_near(list, here(48.5), "site"); }),
+              HasSubstr("site: is of latitude 47.5, longitude 11 deg, 111 km from the scan's "
+                        "latitude 48.5, longitude 11 deg: expected within 100 km"));
+  const auto second = records(
+      "AERONET Data, Version 2\nLocation=Somewhere,long=11.000,lat=47.500,elev=700\n"
+      "Date(dd-mm-yy),Time(hh:mm:ss),AOT_870,AOT_440\n15:05:2024,06:30:00,0.1,0.25\n");
+  EXPECT_THAT(complaint([&] { records_near(second, here(0), "site"); }), HasSubstr("5282 km"));
+  const auto nowhere = records(kHead + optical_depths("06:30:00"));
+  EXPECT_THAT(records_near(nowhere, here(0), "site"), SizeIs(1));
+}
+
+TEST(AeronetProducts, WhatTellsNothingIsSaid) {
+  const std::string missing = "15:05:2024,06:30:00,136,-999.,-999.,-999.,-999.,0,1.4,16:05:2025\n";
+  EXPECT_THAT(complaint([&] { records(kHead + missing); }),
+              HasSubstr("site.lev20: every value of its 1 record is missing"));
+  // A record without values hides none beside it.
+  EXPECT_THAT(records(kHead + missing + optical_depths("06:31:00")), SizeIs(1));
+  const std::string columns =
+      "Date(dd:mm:yyyy),Time(hh:mm:ss),AOD_Extinction-Total[440nm],"
+      "Single_Scattering_Albedo[440nm]\n15:05:2024,06:30:00,0.2,";
+  const auto of = [&](const std::string& albedo) {
+    return aerosol_at(records(columns + albedo + "\n"), {at("2024-05-15T06:30:00")}, "site");
+  };
+  EXPECT_THAT(complaint([&] { of("-999"); }), HasSubstr("site: tells nothing at the time"));
+  const AerosolKnowledge known = of("0.92");
+  EXPECT_EQ(known.single_scattering_albedo->mean, 0.92);
+  EXPECT_FALSE(known.optical_depth);
+  EXPECT_THAT(known.notes.back(), HasSubstr("no optical depth by site at 1 of 1 scans"));
+}
+
 TEST(AeronetProducts, SaysWhatIsWrong) {
+  EXPECT_THAT(complaint([] { records(kHead + "15:05:2024,06:30:00,136,1,1,99,1,0,1.4,x\n"); }),
+              HasSubstr("site.lev20:6: AOD_675nm = 99: expected -0.1 to 10"));
+  EXPECT_THAT(complaint([] {
+                records(
+                    "Date(dd:mm:yyyy),Time(hh:mm:ss),Single_Scattering_Albedo[440nm]\n"
+                    "15:05:2024,06:30:00,1.92\n");
+              }),
+              HasSubstr("site.lev20:2: Single_Scattering_Albedo[440nm] = 1.92: expected 0 to 1"));
   EXPECT_THAT(complaint([] { records("no columns\n"); }), HasSubstr("expected a line of columns"));
   EXPECT_THAT(complaint([] { records(kHead); }), HasSubstr("expected records"));
   EXPECT_THAT(
