@@ -16,6 +16,7 @@
 #include "data_refs/patch_scan.h"
 #include "data_refs/scan_header.h"
 #include "data_refs/solar_position.h"
+#include "data_refs/sun_mends.h"
 #include "model/base/pattern.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
@@ -156,8 +157,14 @@ class EkoReader {
     const double computed_deg = 90 - sun.zenith / kRadiansPerDegree;
     if (std::abs(stated_deg - computed_deg) <= kMotion_deg) return;
     fail_at(source_, line,
-            fmt::format("altitude of the sun = {:.9g}: expected {:.2f} within {} deg, that of {}",
-                        stated_deg, computed_deg, kMotion_deg, iso_text(*sun.time)));
+            fmt::format(
+                "altitude of the sun = {:.9g}: expected {:.2f} within {} deg, that of {}; {}",
+                stated_deg, computed_deg, kMotion_deg, iso_text(*sun.time),
+                mended_by(mends_of_time_and_place(
+                              *sun.time, *sun.site,
+                              angle_to_stated((90 - stated_deg) * kRadiansPerDegree, std::nullopt)),
+                          std::abs(stated_deg - computed_deg) * kRadiansPerDegree,
+                          kMotion_deg * kRadiansPerDegree)));
   }
 
   std::string source_;

@@ -14,6 +14,7 @@
 #include "data_refs/absorption_bands.h"
 #include "data_refs/solar_position.h"
 #include "data_refs/spectra.h"
+#include "data_refs/sun_mends.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -41,23 +42,19 @@ std::optional<Instant> time_of(const ImportOptions& facts, std::string_view plac
   return time;
 }
 
-// How far the stated sun is from one at `zenith`, degrees.
-double stated_sun_apart_deg(const ImportOptions& facts, const SolarPosition& sun, double zenith) {
-  Sample between;  // the angle between two suns, as that between sun and view
-  between.sun_zenith = zenith;
-  between.view_zenith = *facts.sun_zenith_deg * kRadiansPerDegree;
-  if (facts.sun_azimuth_deg)
-    between.relative_azimuth = *facts.sun_azimuth_deg * kRadiansPerDegree - sun.azimuth;
-  return scattering_angle(between) / kRadiansPerDegree;
-}
-
 // What to note of the stated sun; throws when it is another one.
 std::string expect_agreement(const ImportOptions& facts, const SolarPosition& sun, Instant time,
-                             std::string_view place) {
+                             const Site& site, std::string_view place) {
   if (!facts.sun_zenith_deg) return {};
-  const double apart_deg = stated_sun_apart_deg(facts, sun, sun.zenith);
-  if (apart_deg <= kSunAgreement_deg) return {};
-  if (stated_sun_apart_deg(facts, sun, sun.zenith - refraction(sun.zenith)) <= kSunAgreement_deg) {
+  std::optional<double> azimuth;
+  if (facts.sun_azimuth_deg) azimuth = *facts.sun_azimuth_deg * kRadiansPerDegree;
+  const AngleToSun angle = angle_to_stated(*facts.sun_zenith_deg * kRadiansPerDegree, azimuth);
+  constexpr double kAgreement = kSunAgreement_deg * kRadiansPerDegree;
+  const double apart = angle(sun);
+  if (apart <= kAgreement) return {};
+  SolarPosition apparent = sun;
+  apparent.zenith -= refraction(sun.zenith);
+  if (angle(apparent) <= kAgreement) {
     return fmt::format(
         "sun_zenith_deg = {:.9g} is the apparent sun: refraction raises the sun of {} "
         "from zenith {:.3f} deg, where the model has it",
@@ -65,9 +62,10 @@ std::string expect_agreement(const ImportOptions& facts, const SolarPosition& su
   }
   fail(place,
        fmt::format("sun_zenith_deg = {:.9g}: expected the sun of {} at this site, zenith {:.3f} "
-                   "and azimuth {:.3f} deg, within {} deg; it is {:.2f} deg away",
+                   "and azimuth {:.3f} deg, within {} deg; it is {:.2f} deg away; {}",
                    *facts.sun_zenith_deg, iso_text(time), sun.zenith / kRadiansPerDegree,
-                   sun.azimuth / kRadiansPerDegree, kSunAgreement_deg, apart_deg));
+                   sun.azimuth / kRadiansPerDegree, kSunAgreement_deg, apart / kRadiansPerDegree,
+                   mended_by(mends_of_time_and_place(time, site, angle), apart, kAgreement)));
 }
 
 [[noreturn]] void fail_without_sun(const ImportOptions& facts, std::string_view place) {
@@ -96,7 +94,7 @@ ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azi
     result.site = {*facts.latitude_deg * kRadiansPerDegree,
                    *facts.longitude_deg * kRadiansPerDegree, facts.elevation_m.value_or(0)};
     const SolarPosition sun = solar_position(*result.time, *result.site);
-    result.remark = expect_agreement(facts, sun, *result.time, place);
+    result.remark = expect_agreement(facts, sun, *result.time, *result.site, place);
     result.zenith = sun.zenith;
     result.azimuth = sun.azimuth;
   } else if (facts.sun_zenith_deg && (facts.sun_azimuth_deg || !azimuth_is_needed)) {

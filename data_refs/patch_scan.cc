@@ -9,6 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "data_refs/sun_check.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -69,8 +70,28 @@ std::optional<std::string> settle_by_sun_azimuth(ImportOptions& facts,
       *facts.azimuth_zero, std::min(*north, *south));
 }
 
+Reference sky_of(const std::string& source, const Unit& unit, const ImportOptions& facts,
+                 std::span<const PatchScan> scans, std::span<const SkyDirection> directions,
+                 const std::vector<std::string>& notes) {
+  MeasuredSky sky(source, unit, facts);
+  for (const std::string& text : notes) sky.note(text);
+  for (const PatchScan& scan : scans) {
+    sky.begin_scan(scan.name, scan.sun);
+    for (std::size_t i = 0; i < kPatches; ++i) {
+      Reading reading;
+      reading.number = static_cast<int>(i) + 1;  // the channel
+      reading.view_zenith_deg = directions[i].view_zenith / kRadiansPerDegree;
+      reading.view_azimuth_deg = directions[i].relative_azimuth / kRadiansPerDegree;
+      reading.value = scan.values[i];
+      sky.add(reading);
+    }
+  }
+  return sky.finish();
+}
+
 // Sets facts.azimuth_zero, or throws; returns what to note.
-std::optional<std::string> settle_azimuth_zero(const std::string& source, ImportOptions& facts,
+std::optional<std::string> settle_azimuth_zero(const std::string& source, const Unit& unit,
+                                               ImportOptions& facts,
                                                std::span<const PatchScan> scans,
                                                std::span<const SkyDirection> directions) {
   constexpr double kNear_deg = 40, kApart_deg = 40;  // of a patch of 12 deg and a bright aureole
@@ -85,8 +106,13 @@ std::optional<std::string> settle_azimuth_zero(const std::string& source, Import
   if (!facts.azimuth_zero) {
     if (!is_clear) {
       if (auto settled = settle_by_sun_azimuth(facts, scans, counter)) return settled;
+      ImportOptions from_north = facts;
+      from_north.azimuth_zero = "north";
+      const std::string mends =
+          mends_from_either_zero(sky_of(source, unit, from_north, scans, directions, {}));
       throw std::invalid_argument(
-          fmt::format("{}: azimuth_zero: not stated, expected north or south: {}", source, found));
+          fmt::format("{}: azimuth_zero: not stated, expected north or south: {}{}{}", source,
+                      found, mends.empty() ? "" : "; if the clock or place is wrong, ", mends));
     }
     facts.azimuth_zero = says;
     return fmt::format("azimuth_zero is {}: {}", says, found);
@@ -114,25 +140,14 @@ std::vector<SkyDirection> patch_directions(const ImportOptions& facts) {
   return directions;
 }
 
-Reference patch_reference(std::string source, const Unit& unit, ImportOptions facts,
+Reference patch_reference(const std::string& source, const Unit& unit, ImportOptions facts,
                           std::span<const PatchScan> scans, const std::vector<std::string>& notes) {
   const std::vector<SkyDirection> directions = patch_directions(facts);
-  const std::optional<std::string> note = settle_azimuth_zero(source, facts, scans, directions);
-  MeasuredSky sky(std::move(source), unit, facts);
-  if (note) sky.note(*note);
-  for (const std::string& text : notes) sky.note(text);
-  for (const PatchScan& scan : scans) {
-    sky.begin_scan(scan.name, scan.sun);
-    for (std::size_t i = 0; i < kPatches; ++i) {
-      Reading reading;
-      reading.number = static_cast<int>(i) + 1;  // the channel
-      reading.view_zenith_deg = directions[i].view_zenith / kRadiansPerDegree;
-      reading.view_azimuth_deg = directions[i].relative_azimuth / kRadiansPerDegree;
-      reading.value = scan.values[i];
-      sky.add(reading);
-    }
-  }
-  return sky.finish();
+  const std::optional<std::string> note =
+      settle_azimuth_zero(source, unit, facts, scans, directions);
+  std::vector<std::string> all = notes;
+  if (note) all.insert(all.begin(), *note);
+  return sky_of(source, unit, facts, scans, directions, all);
 }
 
 }  // namespace skyfit::refs

@@ -32,8 +32,8 @@ struct PatchScan {
 // The samples of the scans. Where azimuth_zero is stated, throws std::invalid_argument when the
 // brightest patches lie far from the sun and near it with the other zero; where it is not, they
 // must tell which it is, or under a sky without a bright side the stated azimuths of the sun, and a
-// note says so.
-Reference patch_reference(std::string source, const Unit& unit, ImportOptions facts,
+// note says so; else the error says which change of clock or place would let them tell.
+Reference patch_reference(const std::string& source, const Unit& unit, ImportOptions facts,
                           std::span<const PatchScan> scans,
                           const std::vector<std::string>& notes = {});
 

@@ -2,11 +2,12 @@
 #include "data_refs/sun_check.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "data_refs/civil_time.h"
 #include "data_refs/seen_sun.h"
 #include "data_refs/solar_position.h"
+#include "data_refs/sun_mends.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -22,18 +24,13 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 // The pointing of a scanner may be off by 6 deg; the sun of a wrong hour is off by 13 deg or more.
 constexpr double kRefused = 8 * kRadiansPerDegree, kNoted = 2 * kRadiansPerDegree;
+constexpr double kAlike = 1.5 * kRadiansPerDegree;  // of mends that the light hardly tells apart
 
 struct Disagreement {
   SeenSun seen;
   double stated_zenith;
   const Scan* scan;
   double apart() const { return seen_from_stated(seen, stated_zenith); }
-};
-
-// A change and the angle that it would leave between the two suns.
-struct Mend {
-  std::string text;
-  double apart;
 };
 
 bool is_certain(const SeenSun& seen, double apart) {
@@ -43,93 +40,49 @@ bool is_certain(const SeenSun& seen, double apart) {
 
 std::string degrees(double angle) { return fmt::format("{:.1f} deg", angle * kDegreesPerRadian); }
 
-std::string minutes_off(int minutes) {
-  return fmt::format("a clock that is {} min {}", std::abs(minutes), minutes > 0 ? "slow" : "fast");
+// Of a scan whose time, place and azimuths are known.
+std::optional<Instant> time_of(const Scan& scan) {
+  if (!scan.site || scan.time_utc.empty() || !scan.sun_azimuth) return {};
+  return instant(std::string_view(scan.time_utc).substr(0, scan.time_utc.size() - 1), 0);
 }
 
-class Mends {
- public:
-  explicit Mends(const Disagreement& d) : d_(d) {
-    add_azimuths();
-    if (!d.scan->site || d.scan->time_utc.empty() || !d.scan->sun_azimuth) return;
-    const auto time =
-        instant(std::string_view(d.scan->time_utc).substr(0, d.scan->time_utc.size() - 1), 0);
-    if (!time) return;
-    add_places(*time, *d.scan->site);
-    add_clocks(*time, *d.scan->site);
-  }
+// The angle between the sun that is seen and another one, where azimuths of the sky are turned by
+// `turn`.
+AngleToSun angle_to_seen(const SeenSun& seen, const Scan& scan, double turn = 0) {
+  return [seen, stated = *scan.sun_azimuth, turn](const SolarPosition& sun) {
+    SeenSun moved = seen;
+    moved.relative_azimuth += turn - (sun.azimuth - stated);
+    return seen_from_stated(moved, sun.zenith);
+  };
+}
 
-  // The best, and what is hardly worse.
-  std::string text() const {
-    constexpr double kGood = 0.4, kAlike = 1.5 * kRadiansPerDegree;
-    constexpr std::size_t kMost = 3;
-    std::vector<Mend> good;
-    for (const Mend& mend : mends_) {
-      if (mend.apart < kGood * d_.apart()) good.push_back(mend);
-    }
-    if (good.empty()) return "no single change of time, place or azimuths would mend it";
-    std::ranges::stable_sort(good, {}, &Mend::apart);
-    std::vector<std::string> texts;
-    for (const Mend& mend : good) {
-      if (texts.size() < kMost && mend.apart < good.front().apart + kAlike)
-        texts.push_back(fmt::format("{} (leaves {})", mend.text, degrees(mend.apart)));
-    }
-    return fmt::format("it would be mended by {}", fmt::join(texts, ", or by "));
-  }
-
- private:
-  void add(std::string text, double zenith, double relative_azimuth) {
-    SeenSun seen = d_.seen;
+std::vector<Mend> mends_of_azimuths(const Disagreement& d) {
+  std::vector<Mend> mends;
+  const auto add = [&](std::string text, double relative_azimuth) {
+    SeenSun seen = d.seen;
     seen.relative_azimuth -= relative_azimuth;
-    mends_.push_back({std::move(text), seen_from_stated(seen, zenith)});
-  }
+    mends.push_back({std::move(text), seen_from_stated(seen, d.stated_zenith)});
+  };
+  add("azimuths that count from the opposite side (azimuth_zero)", kTurn / 2);
+  add(fmt::format("an instrument turned {} {}", degrees(std::abs(d.seen.relative_azimuth)),
+                  d.seen.relative_azimuth > 0 ? "counter-clockwise" : "clockwise"),
+      d.seen.relative_azimuth);
+  if (!d.scan->sun_azimuth) return mends;
+  // View azimuths v become -v, so that the sun that is seen moves to -v, too.
+  const double turned = 2 * (d.seen.relative_azimuth + *d.scan->sun_azimuth);
+  add("azimuths that turn the other way (azimuth_turns)", turned);
+  add("azimuths that turn the other way from the opposite side (azimuth_turns, azimuth_zero)",
+      turned + kTurn / 2);
+  return mends;
+}
 
-  void add_azimuths() {
-    add("azimuths that count from the opposite side (azimuth_zero)", d_.stated_zenith, kTurn / 2);
-    add(fmt::format("an instrument turned {} {}", degrees(std::abs(d_.seen.relative_azimuth)),
-                    d_.seen.relative_azimuth > 0 ? "counter-clockwise" : "clockwise"),
-        d_.stated_zenith, d_.seen.relative_azimuth);
-    if (!d_.scan->sun_azimuth) return;
-    // View azimuths v become -v, so that the sun that is seen moves to -v, too.
-    const double turned = 2 * (d_.seen.relative_azimuth + *d_.scan->sun_azimuth);
-    add("azimuths that turn the other way (azimuth_turns)", d_.stated_zenith, turned);
-    add("azimuths that turn the other way from the opposite side (azimuth_turns, azimuth_zero)",
-        d_.stated_zenith, turned + kTurn / 2);
-  }
-
-  void add_sun(std::string text, Instant time, const Site& site) {
-    const SolarPosition sun = solar_position(time, site);
-    add(std::move(text), sun.zenith, sun.azimuth - *d_.scan->sun_azimuth);
-  }
-
-  void add_places(Instant time, const Site& site) {
-    add_sun(fmt::format("longitude_deg = {:.9g}", -site.longitude * kDegreesPerRadian), time,
-            {site.latitude, -site.longitude, site.elevation_m});
-    add_sun(fmt::format("latitude_deg = {:.9g}", -site.latitude * kDegreesPerRadian), time,
-            {-site.latitude, site.longitude, site.elevation_m});
-  }
-
-  void add_clocks(Instant time, const Site& site) {
-    for (int hours = -12; hours <= 12; ++hours) {
-      if (hours == 0) continue;
-      add_sun(fmt::format("a clock that is {0} h {1} (utc_offset_h {0} {2})", std::abs(hours),
-                          hours > 0 ? "slow" : "fast", hours > 0 ? "less" : "more"),
-              time + std::chrono::hours(hours), site);
-    }
-    std::vector<std::pair<double, int>> minutes;
-    for (int m = -40; m <= 40; ++m) {
-      const SolarPosition sun = solar_position(time + std::chrono::minutes(m), site);
-      SeenSun seen = d_.seen;
-      seen.relative_azimuth -= sun.azimuth - *d_.scan->sun_azimuth;
-      minutes.push_back({seen_from_stated(seen, sun.zenith), m});
-    }
-    const auto [apart, best] = *std::ranges::min_element(minutes);
-    if (best != 0) mends_.push_back({minutes_off(best), apart});
-  }
-
-  const Disagreement& d_;
-  std::vector<Mend> mends_;
-};
+std::string mends_of(const Disagreement& d) {
+  std::vector<Mend> mends = mends_of_azimuths(d);
+  if (const auto time = time_of(*d.scan))
+    std::ranges::move(mends_of_time_and_place(*time, *d.scan->site, angle_to_seen(d.seen, *d.scan)),
+                      std::back_inserter(mends));
+  return mended_by(std::move(mends), d.apart(), kAlike);
+}
 
 std::string text_of(const std::string& sky, const Disagreement& d) {
   const double higher = d.stated_zenith - d.seen.zenith;
@@ -140,17 +93,49 @@ std::string text_of(const std::string& sky, const Disagreement& d) {
       sky.ends_with(d.scan->name) ? sky : fmt::format("{}: {}", sky, d.scan->name),
       degrees(d.apart()), who, degrees(d.stated_zenith), degrees(std::abs(higher)),
       higher > 0 ? "higher" : "lower", degrees(std::abs(d.seen.relative_azimuth)),
-      d.seen.relative_azimuth > 0 ? "clockwise" : "counter-clockwise", Mends(d).text());
+      d.seen.relative_azimuth > 0 ? "clockwise" : "counter-clockwise", mends_of(d));
 }
 
-}  // namespace
-
-void check_suns(const ImportOptions& facts, Reference& sky) {
+std::vector<std::vector<Sample>> samples_by_scan(const Reference& sky) {
   std::vector<std::vector<Sample>> samples(sky.scans.size());
   for (const Sample& s : sky.samples) {
     if (static_cast<std::size_t>(s.scan) < samples.size())
       samples[static_cast<std::size_t>(s.scan)].push_back(s);
   }
+  return samples;
+}
+
+}  // namespace
+
+std::string mends_from_either_zero(const Reference& from_north) {
+  const std::vector<std::vector<Sample>> samples = samples_by_scan(from_north);
+  std::optional<SeenSun> clearest;
+  std::size_t scan = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto seen = seen_sun(samples[i]);
+    if (!seen || seen->sigma > kNoted || (clearest && clearest->sigma < seen->sigma)) continue;
+    clearest = seen;
+    scan = i;
+  }
+  if (!clearest) return {};
+  const auto time = time_of(from_north.scans[scan]);
+  if (!time) return {};
+  const Site& site = *from_north.scans[scan].site;
+  double apart = kTurn;
+  std::vector<Mend> mends;
+  for (const auto& [zero, turn] : {std::pair{"north", 0.0}, {"south", kTurn / 2}}) {
+    const AngleToSun angle = angle_to_seen(*clearest, from_north.scans[scan], turn);
+    apart = std::min(apart, angle(solar_position(*time, site)));
+    for (Mend mend : mends_of_time_and_place(*time, site, angle)) {
+      mend.text += fmt::format(" with azimuth_zero {}", zero);
+      mends.push_back(std::move(mend));
+    }
+  }
+  return mended_by(std::move(mends), apart, kAlike);
+}
+
+void check_suns(const ImportOptions& facts, Reference& sky) {
+  const std::vector<std::vector<Sample>> samples = samples_by_scan(sky);
   std::vector<Disagreement> noted;
   int telling = 0, refused = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -17,6 +17,7 @@
 namespace skyfit::refs {
 namespace {
 
+using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -124,6 +125,14 @@ TEST(EkoCsv, FaultsOfARowNameLineAndField) {
   std::string late = row("L");
   late.replace(2, 8, "25:20:00");
   EXPECT_EQ(with(late), "eko.csv:10: time = \"25:20:00\": expected HH:MM:SS");
+}
+
+TEST(EkoCsv, TheStatedAltitudeTellsAWrongClock) {
+  std::vector<std::string> lines = header();
+  lines[6] = "Timezone,UTC +11:00";
+  lines.push_back(row("L"));
+  EXPECT_THAT(complaint(lines),
+              HasSubstr("mended by a clock that is 2 h slow (utc_offset_h 2 less)"));
 }
 
 TEST(EkoCsv, SuspectPatchesStay) {

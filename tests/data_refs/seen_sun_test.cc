@@ -5,12 +5,15 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
 
 #include "data_refs/measured_formats.h"
+#include "data_refs/measured_sky.h"
 #include "data_refs/references.h"
+#include "data_refs/solar_position.h"
 #include "data_refs/sun_check.h"
 #include "model/base/input_file.h"
 #include "model/base/temporary_directory.h"
@@ -80,6 +83,44 @@ TEST_F(WrongSun, IsRefusedWithWhatWouldMendIt) {
               HasSubstr("mended by a clock that is 1 h fast (utc_offset_h 1 more)"));
   EXPECT_THAT(complaint_of([&] { load("latitude_deg=47.5", "latitude_deg=-47.5"); }),
               HasSubstr("mended by latitude_deg = 47.5"));
+}
+
+// Where the zero of azimuths is open and none fits, a mend names the zero that goes with it.
+TEST_F(WrongSun, IsSeenWithEitherZeroOfAzimuths) {
+  EXPECT_THAT(complaint_of([&] {
+                load(
+                    "azimuth_zero=north local_time=2024-05-15T15:00:00 utc_offset_h=2 "
+                    "latitude_deg=47.5 longitude_deg=11.0",
+                    "local_time=2024-05-15T15:00:00 utc_offset_h=2 latitude_deg=-47.5 "
+                    "longitude_deg=11.0");
+              }),
+              AllOf(HasSubstr("azimuth_zero: not stated"),
+                    HasSubstr("mended by latitude_deg = 47.5 with azimuth_zero north (leaves 0.")));
+}
+
+// A stated sun tells the mend as the light does; 47.5 N, 11 E has its sun there at that time.
+TEST(StatedSun, TellsWhatWouldMendThePlace) {
+  const auto site = [](double latitude_deg, double longitude_deg) {
+    return Site{latitude_deg * kDegree, longitude_deg * kDegree};
+  };
+  const Instant time = *instant("2024-05-15T06:30:00", 0);
+  const SolarPosition sun = solar_position(time, site(47.5, 11));
+  const auto complaint = [&](double latitude_deg, double longitude_deg, int hours) {
+    ImportOptions facts;
+    facts.local_time = iso_text(time + std::chrono::hours(hours));
+    facts.latitude_deg = latitude_deg;
+    facts.longitude_deg = longitude_deg;
+    facts.sun_zenith_deg = sun.zenith / kDegree;
+    return complaint_of([&] { sun_of_scan(facts, "scan.csv"); });
+  };
+  EXPECT_EQ(complaint(47.5, 11, 0), "accepted");
+  EXPECT_THAT(complaint(47.5, -11, 0), HasSubstr("mended by longitude_deg = 11 (leaves 0.0 deg)"));
+  EXPECT_THAT(complaint(11, 47.5, 0),
+              HasSubstr("mended by latitude and longitude exchanged (latitude_deg = 47.5, "
+                        "longitude_deg = 11) (leaves 0.0 deg)"));
+  EXPECT_THAT(complaint(47.5, 11, 1),
+              HasSubstr("mended by a clock that is 1 h fast (utc_offset_h 1 more)"));
+  EXPECT_THAT(complaint(85, 100, 0), HasSubstr("no single change of time, place or azimuths"));
 }
 
 TEST_F(WrongSun, IsAcceptedWhenAskedFor) {
