@@ -27,7 +27,8 @@ void print_list(bool json) {
   std::vector<refs::ReferenceEntry> entries = refs::shipped_references();
   entries.push_back({"perez:EPSILON,DELTA",
                      "Perez, Seals & Michalsky 1993, all-weather sky: clearness, brightness"});
-  entries.push_back({"perez:FILE@TIME", "The same of an hour of a weather file: EPW, WEA or TMY3"});
+  entries.push_back(
+      {"perez:FILE@TIME", "The same of an hour of a weather file: EPW, WEA, TMY2 or TMY3"});
   for (const refs::TruthEntry& entry : refs::truth_references())
     entries.push_back({std::string(entry.name), std::string(entry.description)});
   if (json) {

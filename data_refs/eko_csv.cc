@@ -174,8 +174,8 @@ class EkoReader {
 }  // namespace
 
 bool is_eko_csv(std::string_view first_line) {
-  return first_line.find("MS-321LR") != first_line.npos ||
-         first_line.find("Sky Scanner") != first_line.npos;
+  const auto has = [&](std::string_view word) { return first_line.find(word) != first_line.npos; };
+  return has("MS-321LR") || (has("Sky Scanner") && !has("Krochmann"));
 }
 
 Reference parse_eko_csv(std::string_view text, std::string_view source,

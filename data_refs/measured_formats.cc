@@ -35,7 +35,10 @@ namespace skyfit::refs {
 namespace {
 
 Reference read_samples(const SkyFile& file, const ImportOptions& facts) {
-  if (file.line().find("view_zenith_deg") == std::string_view::npos) {  // which samples have
+  constexpr auto kNone = std::string_view::npos;
+  const std::string_view line = file.line();
+  // Columns that samples have.
+  if (line.find("view_zenith_deg") == kNone || line.find(',') == kNone) {
     if (const auto other = other_format(file.text()))
       throw std::invalid_argument(file.name() + ": " + *other);
   }
@@ -151,6 +154,8 @@ const std::string& SkyFile::text() const {
   if (!text_) {
     text_ = read_csv_file(path_, "a measured sky");
     if (text_->find('\0') != std::string::npos) {
+      if (const auto other = other_format(*text_))
+        throw std::invalid_argument(name() + ": " + *other);
       throw std::invalid_argument(
           name() + ": no measured sky: expected text, or an image in OpenEXR or Radiance HDR");
     }

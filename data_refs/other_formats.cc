@@ -19,7 +19,15 @@ struct OtherFormat {
 };
 
 // The first that matches; a line of columns of AERONET tells the product.
-constexpr std::array<OtherFormat, 13> kFormats = {{
+constexpr std::array<OtherFormat, 25> kFormats = {{
+    {R"(^\x89png|^\xff\xd8\xff|^(ii\*|mm\x00\*)|^gif8)",
+     "is an image of colours for a screen (PNG, JPEG, TIFF or GIF), whose light is not known; "
+     "skyfit "
+     "reads skies in OpenEXR and Radiance HDR"},
+    {R"(^pk[\x01-\x08]|^\x1f\x8b|^bzh|^7z\xbc|^\xfd\x37zxz)",
+     "is an archive; skyfit reads what is in it, once it is unpacked"},
+    {R"(^\x89hdf)", "is HDF5; skyfit reads skies as text tables and images, not yet these"},
+    {R"(^(\xff\xfe|\xfe\xff))", "is text in UTF-16; skyfit reads UTF-8"},
     {R"(krochmann)",
      "is a scan of a PRC Krochmann sky scanner, whose layout is not public; skyfit reads its 145 "
      "luminances alone, or columns of directions and luminances that a sidecar names"},
@@ -37,10 +45,25 @@ constexpr std::array<OtherFormat, 13> kFormats = {{
      "is aerosol optical depths of AERONET; skyfit reads AERONET's sky radiances, and takes these "
      "as "
      "a prior by fit --aeronet-aod"},
-    {R"(^location,[^\n]*\n\s*design conditions)",
-     "is an EnergyPlus weather file (EPW), which holds irradiances; skyfit reads skies with "
+    {R"(no data (was |were )?found)",
+     "is an answer without data, as AERONET's web service gives it for a site or a time that it "
+     "does not have; skyfit reads its sky radiances"},
+    {R"(^(<[^\n>]*>|\s)*aeronet (version|data))",
+     "is of AERONET, without the columns of its sky radiances; skyfit reads those with Date(..), "
+     "Time(..), a wavelength, Solar_Zenith_Angle(..) and a radiance for each angle"},
+    {R"(^location,[^\n]*\n\s*design conditions|^place [^\n]*\s+latitude |date \(mm/dd/yyyy\),|^\s*\d{5} [a-z][^\n]* -?\d+ [ns] \d+ \d+ [ew] \d+ \d+ )",
+     "is a weather file (EPW, WEA, TMY2 or TMY3), which holds irradiances; skyfit reads skies with "
      "directions, and an hour of such a file as perez:FILE@YYYY-MM-DDTHH:MM or by "
      "fit --irradiance FILE@YYYY-MM-DDTHH:MM"},
+    {R"(^source,location id,)",
+     "is a weather file of NREL's NSRDB, which holds irradiances; skyfit reads EPW, WEA, TMY2 and "
+     "TMY3, not yet these"},
+    {R"(^\d{4}-\d\d-\d\d___|wavelength ?[,;] ?irradiance)",
+     "is a spectrum of irradiance, as Kider et al. 2014 publish them; skyfit reads their radiances "
+     "of directions, not yet these"},
+    {R"(^((#|mtllib |o |g |s |usemtl )[^\n]*\n)*v -?[\d.]+ -?[\d.]+ -?[\d.])",
+     "is a mesh (OBJ); skyfit render reads it by --mesh"},
+    {R"(^ncols \d)", "is a map of heights (ESRI grid); skyfit render takes maps by --dem"},
     {R"(^\s*(#\?radiance[^\n]*\n)?(#[^\n]*\n|\s*\n)*\s*(void\s+(light|glow|brightfunc|plastic)\s|!\s*gen))",
      "is a scene of Radiance, such as gendaylit and gensky write; skyfit reads the sky of one with "
      "perezlum.cal or skybright.cal where it takes a reference (fit, references, compare, "
@@ -56,8 +79,16 @@ constexpr std::array<OtherFormat, 13> kFormats = {{
     {R"(^\s*(#[^\n]*\n)*[^#\n]*(irradiance|(direct|diffuse|global)_(normal|horizontal)_(lx|w_m2)))",
      "is a table of irradiances, which have no directions; skyfit reads radiances and luminances "
      "of directions, and irradiances by fit --irradiance"},
+    {R"(^(#[^\n]*\n)*[^#\n]*\b(ghi|dni|dhi)\b)",
+     "is a table of irradiances (GHI, DNI, DHI), which have no directions; fit --irradiance reads "
+     "it with the columns time, global_horizontal_w_m2, direct_normal_w_m2 and "
+     "diffuse_horizontal_w_m2"},
     {R"(^netcdf\s|^CDF)", "is netCDF; skyfit reads skies as text tables and images, not yet these"},
     {R"(^%!ps|^%pdf)", "is a document; skyfit reads skies as text tables and images"},
+    {R"(^(#[^\n]*\n)*[^#,\n;]*;[^,\n;]*;[^,\n]*\n)",
+     "has columns between semicolons; skyfit reads them where the sidecar FILE.sidecar.json says "
+     "which they are: \"columns\", \"delimiter\": \";\" and, of numbers such as 3,14, "
+     "\"decimal_comma\": true"},
 }};
 
 // With one blank or line end in the place of many, which the patterns would try in all ways.

@@ -6,11 +6,13 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
 #include "data_refs/csv.h"
+#include "model/base/pattern.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
 #include "model/photometry/broadband.h"
@@ -23,12 +25,20 @@ struct Clock {
   double middle;  // of the interval, hours of the day
 };
 
+std::vector<std::string> words_of(std::string_view line, std::string_view = {}, int = 0) {
+  std::istringstream in{std::string(line)};
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
 // What a file says of itself and how its rows are read.
 struct Layout {
   Site site = {};
   double utc_offset_h = 0;
   int first_row = 0;  // line
-  char separator = ',';
+  std::vector<std::string> (*fields)(std::string_view line, std::string_view source,
+                                     int number) = csv_fields;
   double interval_h = 1;
   std::size_t direct = 0, diffuse = 0;    // fields of a row
   std::optional<std::size_t> water = {};  // precipitable water
@@ -62,13 +72,6 @@ Site site_of(double latitude_deg, double longitude_deg, double elevation_m, doub
   return {latitude_deg * kRadiansPerDegree, longitude_deg * kRadiansPerDegree, elevation_m};
 }
 
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
-}
-
 // The hour is the one that ends, from 1; the minute the end of the interval in it, 60 or 0 of whole
 // hours.
 Clock epw_clock(const std::vector<std::string>& fields, double interval_h, std::string_view source,
@@ -85,6 +88,14 @@ Clock wea_clock(const std::vector<std::string>& fields, double, std::string_view
   return {static_cast<unsigned>(number_of(fields, 0, "month", source, line)),
           static_cast<unsigned>(number_of(fields, 1, "day", source, line)),
           number_of(fields, 2, "hour", source, line)};
+}
+
+// The hour is the one that ends, from 1.
+Clock tmy2_clock(const std::vector<std::string>& fields, double interval_h, std::string_view source,
+                 int line) {
+  return {static_cast<unsigned>(number_of(fields, 0, "month", source, line)),
+          static_cast<unsigned>(number_of(fields, 1, "day", source, line)),
+          number_of(fields, 2, "hour", source, line) - 0.5 * interval_h};
 }
 
 // MM/DD/YYYY and HH:MM, 24:00 for midnight.
@@ -116,7 +127,7 @@ Layout epw_layout(const std::vector<std::string>& lines, std::string_view source
 
 // West is positive, and so is the meridian of its time.
 Layout wea_layout(const std::vector<std::string>& lines, std::string_view source) {
-  Layout layout{.first_row = 7, .separator = ' ', .direct = 3, .diffuse = 4, .clock = wea_clock};
+  Layout layout{.first_row = 7, .fields = words_of, .direct = 3, .diffuse = 4, .clock = wea_clock};
   const auto header = [&](std::size_t line, const std::string& name) {
     const std::vector<std::string> words =
         line < lines.size() ? words_of(lines[line]) : std::vector<std::string>{};
@@ -158,6 +169,44 @@ Layout tmy_layout(const std::vector<std::string>& lines, std::string_view source
   return layout;
 }
 
+// Of TMY2: the time zone, N and degrees and minutes, W and degrees and minutes, the elevation.
+const std::regex& tmy2_head() {
+  static const std::regex pattern(
+      R"(\s(-?\d+)\s+([NS])\s+(\d+)\s+(\d+)\s+([EW])\s+(\d+)\s+(\d+)\s+(-?\d+)\s*$)");
+  return pattern;
+}
+
+// Of the fixed columns of TMY2: month, day, hour, direct normal, diffuse horizontal, water in mm.
+std::vector<std::string> tmy2_fields(std::string_view line, std::string_view, int) {
+  struct Columns {
+    std::size_t first, count;  // the first of a line is 1
+  };
+  std::vector<std::string> fields;
+  for (const auto [first, count] : {Columns{4, 2}, {6, 2}, {8, 2}, {24, 4}, {30, 4}, {124, 3}}) {
+    if (line.size() < first) break;
+    fields.emplace_back(trim(line.substr(first - 1, count)));
+  }
+  return fields;
+}
+
+Layout tmy2_layout(const std::vector<std::string>& lines, std::string_view source) {
+  const std::cmatch head = *first_match(lines[0], tmy2_head());
+  const auto degrees = [&](std::size_t side, char negative) {
+    const double value = std::stod(head[side + 1]) + std::stod(head[side + 2]) / 60;
+    return head[side].str()[0] == negative ? -value : value;
+  };
+  Layout layout{.first_row = 2,
+                .fields = tmy2_fields,
+                .direct = 3,
+                .diffuse = 4,
+                .water = 5,
+                .clock = tmy2_clock};
+  layout.utc_offset_h = std::stod(head[1]);
+  layout.site =
+      site_of(degrees(2, 'S'), degrees(5, 'W'), std::stod(head[8]), layout.utc_offset_h, source);
+  return layout;
+}
+
 // Nothing where the file has none; 999 and -9900 stand for a missing value.
 std::optional<double> water_of(const std::vector<std::string>& fields, const Layout& layout) {
   constexpr double kMost_mm = 100;
@@ -180,11 +229,13 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 Layout layout_of(const std::vector<std::string>& lines, std::string_view source) {
   if (!lines.empty() && lines[0].starts_with("LOCATION,")) return epw_layout(lines, source);
-  if (!lines.empty() && lines[0].starts_with("place ")) return wea_layout(lines, source);
+  if (!lines.empty() && words_of(lines[0]).size() > 1 && words_of(lines[0])[0] == "place")
+    return wea_layout(lines, source);
+  if (!lines.empty() && first_match(lines[0], tmy2_head())) return tmy2_layout(lines, source);
   if (lines.size() > 1 && lines[1].starts_with("Date (MM/DD/YYYY)"))
     return tmy_layout(lines, source);
   throw std::invalid_argument(
-      fmt::format("{}: no weather file, expected EPW, WEA or TMY3", source));
+      fmt::format("{}: no weather file, expected EPW, WEA, TMY2 or TMY3", source));
 }
 
 }  // namespace
@@ -210,8 +261,7 @@ WeatherHour weather_hour(std::string_view file_and_time) {
   for (std::size_t i = static_cast<std::size_t>(layout.first_row) - 1; i < lines.size(); ++i) {
     if (trim(lines[i]).empty()) continue;
     const int line = static_cast<int>(i) + 1;
-    const std::vector<std::string> fields =
-        layout.separator == ',' ? csv_fields(lines[i], file, line) : words_of(lines[i]);
+    const std::vector<std::string> fields = layout.fields(lines[i], file, line);
     const Clock row = layout.clock(fields, layout.interval_h, file, line);
     // Where two intervals meet, the one that begins.
     const double apart = std::abs(row.middle - clock);

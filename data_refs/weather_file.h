@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiances of weather files, hour by hour: EnergyPlus (EPW), Radiance's gendaymtx (WEA) and
-// TMY3. Layouts: EnergyPlus, Auxiliary Programs, "EnergyPlus Weather File (EPW) Data Dictionary";
-// Radiance, manual page of gendaymtx; Wilcox & Marion 2008, Users Manual for TMY3 Data Sets. The
+// Irradiances of weather files, hour by hour: EnergyPlus (EPW), Radiance's gendaymtx (WEA), TMY2
+// and TMY3. Layouts: EnergyPlus, Auxiliary Programs, "EnergyPlus Weather File (EPW) Data
+// Dictionary"; Radiance, manual page of gendaymtx; Marion & Urban 1995, User's Manual for TMY2s,
+// tables 3-1 and 3-2; Wilcox & Marion 2008, Users Manual for TMY3 Data Sets. The
 // years of their rows are of a typical year and not read: an hour is found by month, day and clock.
 #pragma once
 
@@ -21,7 +22,7 @@ struct WeatherHour {
   Instant middle;
   Site site;
   double direct_normal_w_m2 = 0, diffuse_horizontal_w_m2 = 0;
-  std::optional<double> precipitable_water_mm;  // where the file has it: EPW and TMY3
+  std::optional<double> precipitable_water_mm;  // where the file has it: EPW, TMY2, TMY3
 };
 
 // Of "FILE@YYYY-MM-DDTHH:MM" in the file's own standard time, the interval that contains it, where

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The three layouts of weather files give the same hour and the same Perez sky; what is wrong in
+// The four layouts of weather files give the same hour and the same Perez sky; what is wrong in
 // one is named by line and field.
 #include "data_refs/weather_file.h"
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -36,6 +37,15 @@ const std::string kTmy =
     "Date (MM/DD/YYYY),Time (HH:MM),GHI (W/m^2),DNI (W/m^2),DHI (W/m^2)\n"
     "06/21/1999,11:00,870,800,120\n06/21/1999,12:00,950,850,110\n";
 
+// Rows of 142 columns: direct normal at 24, diffuse horizontal at 30, water at 124.
+std::string tmy2_row(const std::string& hour, const std::string& direct,
+                     const std::string& diffuse) {
+  return " 99 621" + hour + "12001330 870I5" + direct + "I5" + diffuse + "I5" +
+         std::string(88, '0') + " 14E8" + std::string(14, '0') + "\n";
+}
+const std::string kTmy2 = " 12345 SOMEWHERE              CO  -7 N 40  0 W 105  0  1800\n" +
+                          tmy2_row("11", " 800", " 120") + tmy2_row("12", " 850", " 110");
+
 class WeatherFile : public ::testing::Test {
  protected:
   std::string hour_of(const std::string& text, const std::string& time) const {
@@ -47,7 +57,9 @@ class WeatherFile : public ::testing::Test {
 };
 
 TEST_F(WeatherFile, TheLayoutsGiveTheSameHour) {
-  for (const std::string& text : {kEpw, kWea, kTmy}) {
+  std::string tabs = kWea;
+  std::ranges::replace(tabs, ' ', '\t');
+  for (const std::string& text : {kEpw, kWea, tabs, kTmy, kTmy2}) {
     const WeatherHour hour = weather_hour(hour_of(text, "2026-06-21T11:20"));
     EXPECT_EQ(hour.direct_normal_w_m2, 850);
     EXPECT_EQ(hour.diffuse_horizontal_w_m2, 110);
@@ -56,6 +68,13 @@ TEST_F(WeatherFile, TheLayoutsGiveTheSameHour) {
     EXPECT_NEAR(hour.site.longitude, -105 * kRadiansPerDegree, 1e-12);
     EXPECT_EQ(hour.site.elevation_m, 1800);
   }
+}
+
+TEST_F(WeatherFile, KnowsTheWaterOfTmy2) {
+  EXPECT_EQ(weather_hour(hour_of(kTmy2, "2026-06-21T11:20")).precipitable_water_mm, 14);
+  // A line may end before it.
+  EXPECT_FALSE(weather_hour(hour_of(kTmy2.substr(0, kTmy2.size() - 30), "2026-06-21T11:20"))
+                   .precipitable_water_mm);
 }
 
 TEST_F(WeatherFile, IntervalsShorterThanAnHourHaveTheirOwnSun) {
@@ -96,7 +115,8 @@ TEST_F(WeatherFile, FaultsAreNamed) {
   std::string north = kEpw;
   north.replace(north.find("40.0"), 4, "91.0");
   EXPECT_THAT(complaint(north, "2026-06-21T11:20"), HasSubstr("latitude = 91"));
-  EXPECT_THAT(complaint("hello\n", "2026-06-21T11:20"), HasSubstr("expected EPW, WEA or TMY3"));
+  EXPECT_THAT(complaint("hello\n", "2026-06-21T11:20"),
+              HasSubstr("expected EPW, WEA, TMY2 or TMY3"));
   std::string bad = kEpw;
   bad.replace(bad.find(",950,850,"), 9, ",950,9999,");
   EXPECT_THAT(complaint(bad, "2026-06-21T11:20"),
