@@ -296,9 +296,11 @@ std::string as_rgbe(const std::filesystem::path& file) {
   return bytes;
 }
 
-Image pixels_of(const std::filesystem::path& file, const std::string& bytes = {}) {
+Image read_pixels(const std::filesystem::path& file, const std::string& bytes) {
   return module_named<ImageModule>("skyfit_image_module").read(file, bytes);
 }
+
+Image pixels_of(const std::filesystem::path& file) { return read_pixels(file, {}); }
 
 Reference load_sky_image(const std::filesystem::path& file, const ImportOptions& options) {
   ImportOptions facts = options;
@@ -308,7 +310,7 @@ Reference load_sky_image(const std::filesystem::path& file, const ImportOptions&
     header = read_radiance_header(file);
     facts = with_view(facts, header.view, file.string());
   }
-  Image image = pixels_of(file, header.is_xyz ? as_rgbe(file) : "");
+  Image image = read_pixels(file, header.is_xyz ? as_rgbe(file) : "");
   if (header.is_xyz && facts.lumen_per_watt)
     fail(file.string(), "lumen_per_watt: pixels in XYZE are luminances, expected unit = cd m-2");
   if (is_radiance_hdr) image = as_radiance_means(std::move(image), header, file.string());
