@@ -285,7 +285,15 @@ ImportOptions AeronetTable::facts(const AeronetLine& line) const {
   facts.longitude_deg = number(line, column(kLongitude));
   facts.elevation_m = number(line, column(kElevation));
   facts.sun_zenith_deg = number(line, column(kSunZenith));
-  return overlaid(facts, place_);
+  facts = overlaid(facts, place_);
+  for (const ImportOptionRow& row : import_option_table()) {
+    if (row.number == nullptr || !row.is_set(facts) || row.accepts_number(*(facts.*row.number)))
+      continue;
+    fail_at(
+        source_, line.number,
+        fmt::format("{} = {:.9g}: expected {}", row.name, *(facts.*row.number), row.expectation));
+  }
+  return facts;
 }
 
 }  // namespace skyfit::refs

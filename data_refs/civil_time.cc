@@ -19,16 +19,21 @@ const std::regex& offset_pattern() {
   return pattern;
 }
 
+// Of a match of the pattern; nothing where no clock is so far ahead of or behind UTC.
+std::optional<double> offset_h(const std::cmatch& match) {
+  if (!match[1].matched) return 0;
+  const int minutes = match[3].matched ? std::stoi(match[3]) : 0;
+  const double hours = std::stoi(match[2]) + minutes / 60.0;
+  if (minutes > 59 || hours > kMostUtcOffset_h) return {};
+  return match[1] == "-" ? -hours : hours;
+}
+
 }  // namespace
 
 std::optional<double> stated_utc_offset_h(std::string_view date_and_clock) {
   if (date_and_clock.find(':') == date_and_clock.npos) return {};
-  const auto found = first_match(date_and_clock, offset_pattern());
-  if (!found) return {};
-  const std::cmatch& match = *found;
-  if (!match[1].matched) return 0;
-  const double hours = std::stod(match[2]) + (match[3].matched ? std::stod(match[3]) / 60 : 0.0);
-  return match[1] == "-" ? -hours : hours;
+  const auto match = first_match(date_and_clock, offset_pattern());
+  return match ? offset_h(*match) : std::nullopt;
 }
 
 std::optional<Instant> instant(std::string_view date, std::string_view clock, double utc_offset_h) {
@@ -48,8 +53,12 @@ std::optional<Instant> instant(std::string_view date, std::string_view clock, do
 }
 
 std::optional<Instant> instant(std::string_view date_and_clock, double utc_offset_h) {
-  if (const auto offset = first_match(date_and_clock, offset_pattern()))
-    date_and_clock.remove_suffix(static_cast<std::size_t>(offset->length()));
+  if (date_and_clock.find(':') != date_and_clock.npos) {
+    if (const auto match = first_match(date_and_clock, offset_pattern())) {
+      if (!offset_h(*match)) return {};
+      date_and_clock.remove_suffix(static_cast<std::size_t>(match->length()));
+    }
+  }
   const std::size_t gap = date_and_clock.find_first_of("T ");
   if (gap == std::string_view::npos) return {};
   return instant(date_and_clock.substr(0, gap), date_and_clock.substr(gap + 1), utc_offset_h);

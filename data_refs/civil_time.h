@@ -9,6 +9,10 @@
 
 namespace skyfit::refs {
 
+// What a time is expected to look like.
+inline constexpr std::string_view kTimeForm = "YYYY-MM-DDTHH:MM:SS, also with Z or +HH:MM behind";
+inline constexpr double kMostUtcOffset_h = 14;  // of any clock, ahead of UTC or behind
+
 using Instant = std::chrono::sys_time<std::chrono::milliseconds>;
 
 // `date` YYYY-MM-DD (or with / or . between), `clock` HH:MM or HH:MM:SS with an optional fraction
@@ -17,7 +21,7 @@ using Instant = std::chrono::sys_time<std::chrono::milliseconds>;
 std::optional<Instant> instant(std::string_view date, std::string_view clock, double utc_offset_h);
 
 // The same from "2013-05-27T09:30:00", or with a space for the T; an offset that follows, such as
-// Z, +02:00 or -0530, is passed over.
+// Z, +02:00 or -0530, is passed over. Nothing where it is none, such as +09:75 or +99:00.
 std::optional<Instant> instant(std::string_view date_and_clock, double utc_offset_h);
 
 // The hours ahead of UTC that "2013-05-27T09:30:00+02:00" states; nothing where it states none.

@@ -44,12 +44,15 @@ class EkoReader {
   EkoHeader header() const {
     EkoHeader result;
     result.date = matched(3, R"(Date\s*,\s*(\d{4}[/-]\d{1,2}[/-]\d{1,2}).*)", "Date,YYYY/MM/DD")[1];
+    if (!instant(result.date, "00:00", 0)) fail_head(3, "Date,YYYY/MM/DD of a day that exists");
     ImportOptions& facts = result.header.facts;
-    facts.longitude_deg = angle(5, R"(Lon(?:g(?:itude)?)?)", "Lon140 d 8.0 m");
-    facts.latitude_deg = angle(6, R"(Lat?(?:itude)?)", "La36 d 3.0 m");
+    facts.longitude_deg = angle(5, R"(Lon(?:g(?:itude)?)?)", 360, "Lon140 d 8.0 m");
+    facts.latitude_deg = angle(6, R"(Lat?(?:itude)?)", 90, "La36 d 3.0 m");
     const std::cmatch zone = matched(
         7, R"(Time\s?zone\s*,\s*UTC\s*([+-]?)(\d{1,2})(?::(\d{2}))?.*)", "Timezone,UTC +9:00");
     const double hours = std::stod(zone[2]) + (zone[3].matched ? std::stod(zone[3]) / 60 : 0.0);
+    if (hours > kMostUtcOffset_h || (zone[3].matched && std::stoi(zone[3]) > 59))
+      fail_head(7, "an offset of hours and minutes up to 14:00");
     facts.utc_offset_h = zone[1] == "-" ? -hours : hours;
     facts.unit = matched(8, R"(Unit\s*,\s*([^,]*[^,\s]).*)", "Unit,kcd/m^2")[1];
     result.header.line_of = {{"unit", 8}};
@@ -63,11 +66,13 @@ class EkoReader {
     for (std::size_t i = kHeaderLines; i < lines_.size(); ++i) {
       const int line = static_cast<int>(i) + 1;
       if (lines_[i].find_first_not_of(" \t,") == std::string::npos) continue;
-      const std::vector<std::string> fields = csv_fields(lines_[i], source_, line);
-      if (fields[0] != "L" && fields[0] != "R")
-        fail_at(source_, line, fmt::format("\"{}\": expected a row L or R", fields[0]));
-      if (fields[0] == "L")
-        left_out.attempt([&] { scans.push_back(scan(fields, facts, date, line)); });
+      if (trim(std::string_view(lines_[i]).substr(0, lines_[i].find(','))) == "R") continue;
+      left_out.attempt([&] {
+        const std::vector<std::string> fields = csv_fields(lines_[i], source_, line);
+        if (fields[0] != "L")
+          fail_at(source_, line, fmt::format("{}: expected a row L or R", in_quotes(fields[0])));
+        scans.push_back(scan(fields, facts, date, line));
+      });
     }
     return scans;
   }
@@ -85,14 +90,17 @@ class EkoReader {
   std::cmatch matched(std::size_t line, const std::string& pattern,
                       std::string_view expectation) const {
     const auto match = whole_match(content(line), std::regex(pattern, std::regex::icase));
-    if (!match) {
-      fail_at(source_, static_cast<int>(line),
-              fmt::format("{}: expected {}", in_quotes(content(line)), expectation));
-    }
+    if (!match) fail_head(line, expectation);
     return *match;
   }
 
-  double angle(std::size_t line, const std::string& name, std::string_view expectation) const {
+  [[noreturn]] void fail_head(std::size_t line, std::string_view expectation) const {
+    fail_at(source_, static_cast<int>(line),
+            fmt::format("{}: expected {}", in_quotes(content(line)), expectation));
+  }
+
+  double angle(std::size_t line, const std::string& name, double most,
+               std::string_view expectation) const {
     const std::cmatch match =
         matched(line,
                 name + R"(\s*,?\s*([EWNS]?)\s*([+-]?)(\d{1,3})\s*d\s*,?\s*(\d+\.?\d*)\s*m)"
@@ -100,6 +108,11 @@ class EkoReader {
                 expectation);
     const double degrees = std::stod(match[3]) + std::stod(match[4]) / 60;
     const std::string side = match[1].length() > 0 ? match[1].str() : match[5].str();
+    if (degrees > most || std::stod(match[4]) >= 60 || (!side.empty() && match[2].length() > 0)) {
+      fail_head(line, fmt::format("{}, up to {:g} deg, minutes below 60, and a letter of the "
+                                  "hemisphere or a sign, not both",
+                                  expectation, most));
+    }
     const bool is_west_or_south = side.find_first_of("WSws") != side.npos;
     return match[2] == "-" || is_west_or_south ? -degrees : degrees;
   }

@@ -68,10 +68,10 @@ ImportOptionRow choice(std::string name, std::optional<std::string> Options::*me
 Rows time_and_place() {
   Rows rows = {
       text(
-          "local_time", &Options::local_time, "YYYY-MM-DDTHH:MM:SS",
+          "local_time", &Options::local_time, std::string(kTimeForm),
           [](const std::string& value) { return instant(value, 0).has_value(); },
           "Date and time of the scan on the clock of the site"),
-      number("utc_offset_h", &Options::utc_offset_h, -14, 14,
+      number("utc_offset_h", &Options::utc_offset_h, -kMostUtcOffset_h, kMostUtcOffset_h,
              "Hours that the clock of local_time is ahead of UTC"),
       number("latitude_deg", &Options::latitude_deg, -90, 90, "Latitude of the site, north > 0"),
       number("longitude_deg", &Options::longitude_deg, -180, 360,

@@ -28,6 +28,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 std::optional<Instant> time_of(const ImportOptions& facts, std::string_view place) {
   if (!facts.local_time) return {};
+  if (!instant(*facts.local_time, 0))
+    fail(place, fmt::format("local_time = {}: expected {}", *facts.local_time, kTimeForm));
   const std::optional<double> in_text = stated_utc_offset_h(*facts.local_time);
   if (!in_text && !facts.utc_offset_h)
     fail(place, "utc_offset_h: not stated, expected the hours that local_time is ahead of UTC");
@@ -35,11 +37,7 @@ std::optional<Instant> time_of(const ImportOptions& facts, std::string_view plac
     fail(place, fmt::format("utc_offset_h = {:.9g}: expected {:.9g}, as local_time = {} says",
                             *facts.utc_offset_h, *in_text, *facts.local_time));
   }
-  const std::optional<Instant> time =
-      instant(*facts.local_time, in_text.value_or(facts.utc_offset_h.value_or(0)));
-  if (!time)
-    fail(place, fmt::format("local_time = {}: expected YYYY-MM-DDTHH:MM:SS", *facts.local_time));
-  return time;
+  return instant(*facts.local_time, in_text.value_or(facts.utc_offset_h.value_or(0)));
 }
 
 // What to note of the stated sun; throws when it is another one.

@@ -195,6 +195,12 @@ TEST(AeronetCsv, TitlesAndNamesStateTheUnit) {
               StartsWith("sky.alm: unit = \"W m-2 sr-1 um-1\": expected \"W m-2 sr-1 nm-1\""));
 }
 
+TEST(AeronetCsv, APlaceThatIsNoneIsNamed) {
+  EXPECT_EQ(complaint(kHead + "Latitude(Degrees),Longitude(Degrees),-6.0,6.0\n" +
+                      line("11:11:49", "440", "60", "147.5,11,22,20")),
+            "sky.alm:5: latitude_deg = 147.5: expected -90 to 90");
+}
+
 TEST(AeronetCsv, AColumnOfRadiancesWithoutAnAngleIsNamed) {
   EXPECT_EQ(complaint(kHead + "-6.0,0.0x,6.0\n" + line("11:11:49", "440", "60", "22,20,2")),
             "sky.alm:4: column 10 = \"0.0x\": expected the angle of radiances from the sun, in "

@@ -101,6 +101,14 @@ TEST(EkoCsv, FaultsOfTheHeaderNameTheirLine) {
             "eko.csv:6: \"Lo36 d 3.0 m\": expected La36 d 3.0 m");
   EXPECT_EQ(complaint_of_header(7, "Timezone,JST"),
             "eko.csv:7: \"Timezone,JST\": expected Timezone,UTC +9:00");
+  EXPECT_EQ(complaint_of_header(3, "Date,2010/13/45"),
+            "eko.csv:3: \"Date,2010/13/45\": expected Date,YYYY/MM/DD of a day that exists");
+  EXPECT_THAT(complaint_of_header(7, "Timezone,UTC +10:75"),
+              StartsWith("eko.csv:7: \"Timezone,UTC +10:75\": expected an offset"));
+  for (const char* wrong : {"LaS133 d 30.0 m", "LaS33 d 90.0 m", "LaS-33 d 30.0 m"}) {
+    EXPECT_THAT(complaint_of_header(6, wrong), StartsWith(std::string("eko.csv:6: \"") + wrong +
+                                                          "\": expected La36 d 3.0 m, up to"));
+  }
   EXPECT_EQ(complaint_of_header(8, "Unit,lux"),
             "eko.csv:8: unit = \"lux\": expected one of cd m-2, kcd m-2");
   EXPECT_EQ(complaint_of_header(9, ",,,1,2,4"),
@@ -125,6 +133,20 @@ TEST(EkoCsv, FaultsOfARowNameLineAndField) {
   std::string late = row("L");
   late.replace(2, 8, "25:20:00");
   EXPECT_EQ(with(late), "eko.csv:10: time = \"25:20:00\": expected HH:MM:SS");
+}
+
+TEST(EkoCsv, ABadLineLeavesOutItsScanAlone) {
+  std::vector<std::string> lines = header();
+  std::string quote = row("L");
+  quote.insert(2, "\"");
+  for (const std::string& text : {row("L"), row("X"), quote, row("R"), row("L")})
+    lines.push_back(text);
+  const Reference sky = parse(lines);
+  EXPECT_EQ(sky.scans.size(), 2u);
+  EXPECT_THAT(sky.notes,
+              testing::IsSupersetOf(
+                  {HasSubstr("a scan is left out: eko.csv:11: \"X\": expected a row L or R"),
+                   HasSubstr("a scan is left out: eko.csv:12: expected a closing quote")}));
 }
 
 TEST(EkoCsv, TheStatedAltitudeTellsAWrongClock) {

@@ -58,6 +58,10 @@ TEST(FoundFiles, TimesMayStateTheirOffset) {
   EXPECT_EQ(stated_utc_offset_h("2024-05-15 09:30+05:30"), 5.5);
   EXPECT_EQ(stated_utc_offset_h("2024-05-15T09:30:00-0330"), -3.5);
   EXPECT_FALSE(stated_utc_offset_h("2024-05-15T09:30:00").has_value());
+  for (const char* wrong :
+       {"2024-05-15T09:30:00+09:75", "2024-05-15T09:30:00+99:00", "2024-05-15T09:30:00-14:30"}) {
+    EXPECT_FALSE(instant(wrong, 0).has_value()) << wrong;
+  }
   ImportOptions facts;
   facts.local_time = "2024-05-15T14:00:00+02:00";
   facts.latitude_deg = 47;

@@ -170,8 +170,10 @@ TEST(SpectralScan, FaultsNameLineAndField) {
             "scan.csv:3: radiance_5x: expected radiance_ and a wavelength in nm");
   EXPECT_EQ(complaint(kPlace + kUnit + "view_azimuth_deg,view_zenith_deg,radiance_500\n"),
             "scan.csv:3: expected a column sample");
-  EXPECT_EQ(complaint("# local_time=yesterday\n" + kUnit + kColumns + kRecords),
-            "scan.csv:1: local_time = yesterday: expected YYYY-MM-DDTHH:MM:SS");
+  EXPECT_EQ(
+      complaint("# local_time=yesterday\n" + kUnit + kColumns + kRecords),
+      "scan.csv:1: local_time = yesterday: expected YYYY-MM-DDTHH:MM:SS, also with Z or +HH:MM "
+      "behind");
   ImportOptions options;
   options.exclude_samples = {{7, "gone"}};
   EXPECT_EQ(complaint(kPlace + kUnit + kColumns + kRecords, options),
