@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::string_view kWater = "precipitable_water", kTime = "time",
                            kSunZenith = "sun_zenith_deg", kWaterColumn = "precipitable_water_mm",
-                           kSigma = "_sigma";
+                           kAltitude = "altitude_m", kSigma = "_sigma";
 
 // `most` is above what broken clouds and the sun give together.
 struct UnitRow {
@@ -314,6 +314,25 @@ const UnitRow& unit_of(const CsvTable& table) {
   return *found;
 }
 
+std::vector<std::string> known_columns(const UnitRow& unit) {
+  std::vector<std::string> names = {std::string(kTime), std::string(kSunZenith),
+                                    std::string(kWaterColumn), std::string(kAltitude)};
+  for (const std::string_view name : kIrradianceNames) {
+    names.push_back(fmt::format("{}_{}", name, unit.column));
+    names.push_back(names.back() + std::string(kSigma));
+  }
+  return names;
+}
+
+void expect_known_columns(const CsvTable& table, const UnitRow& unit) {
+  const std::vector<std::string> known = known_columns(unit);
+  for (const std::string& column : table.columns()) {
+    if (std::ranges::find(known, column) != known.end()) continue;
+    table.fail_header(fmt::format("{}: unknown column, expected one of {}", excerpt(column),
+                                  fmt::join(known, ", ")));
+  }
+}
+
 std::optional<double> field_of(const CsvTable& table, const CsvRecord& record,
                                const std::string& column) {
   if (!table.has(column) || table.text(record, column).empty()) return {};
@@ -335,6 +354,7 @@ Reference of_csv(const std::string& file, const ImportOptions& options) {
   const std::string text = read_csv_file(file, "a table of irradiances");
   const CsvTable table(text, file);
   const UnitRow& unit = unit_of(table);
+  expect_known_columns(table, unit);
   const ImportOptions facts = overlaid(options, scan_header(text, file).facts);
   if (!table.has(kSunZenith) && !table.has(kTime))
     table.fail_header(fmt::format("expected a column {} or {}", kSunZenith, kTime));
@@ -346,6 +366,7 @@ Reference of_csv(const std::string& file, const ImportOptions& options) {
       ImportOptions of_line = facts;
       if (table.has(kTime)) of_line.local_time = table.text(record, kTime);
       if (table.has(kSunZenith)) of_line.sun_zenith_deg = table.number(record, kSunZenith);
+      if (table.has(kAltitude)) of_line.elevation_m = table.number(record, kAltitude);
       irradiances.add(row_of(table, record, unit), sun_of_scan(of_line, place, false), place);
     });
   }

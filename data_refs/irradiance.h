@@ -13,9 +13,9 @@
 //
 // The CSV has columns of these names and the unit, direct_normal_lx or direct_normal_w_m2, and
 // optionally the same with _sigma behind. The sun is in sun_zenith_deg, or computed from the column
-// time and the site of the file's head or the options. precipitable_water_mm goes with W/m2. An
-// empty field was not measured. A line without a sun above the horizon or without a value is left
-// out and noted.
+// time and the site of the file's head or the options. precipitable_water_mm goes with W/m2,
+// altitude_m is the site's elevation. Another column is an error. An empty field was not measured.
+// A line without a sun above the horizon or without a value is left out and noted.
 #pragma once
 
 #include <filesystem>

@@ -65,7 +65,8 @@ double rms_log_percent(const refs::Reference& reference, const std::vector<doubl
 Errors errors_of(const refs::Reference& reference, const std::vector<double>& model,
                  const SpectralData& spectra, int scan) {
   constexpr double kShortestNm = 400, kLongestNm = 700, kAnySun = 10;
-  const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance;
+  const bool spectral = reference.quantity == refs::Quantity::kSpectralRadiance,
+             has_luminances = !spectral || refs::gives_luminance(reference);
   std::map<refs::DirectionFromSun, Pair> luminances;
   double difference2 = 0, value2 = 0;
   for (std::size_t i = 0; i < reference.samples.size(); ++i) {
@@ -81,7 +82,7 @@ Errors errors_of(const refs::Reference& reference, const std::vector<double>& mo
   }
   double sum = 0, squares = 0, count = 0;
   for (const auto& [direction, luminance] : luminances) {
-    if (!(luminance.value > 0)) continue;  // no visible wavelength
+    if (!has_luminances || !(luminance.value > 0)) continue;
     ++count;
     const double relative = luminance.model / luminance.value - 1;
     sum += relative;

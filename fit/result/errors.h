@@ -14,12 +14,12 @@ struct Errors {
   // scan subtracted: what is left with a free scale per scan. NaN where a value is not positive.
   double rms_log = 0;
   // Root mean square of model / value - 1 of the luminance of every direction; for spectra the sum
-  // of y_bar times radiance over the wavelengths at hand, both sides alike; NaN where none of them
-  // is visible.
+  // of y_bar times radiance over the wavelengths at hand, both sides alike; NaN where these give no
+  // luminance (refs::gives_luminance()).
   double luminance = 0;
   // |model - value| / |value|, 2-norms over all samples of 400 .. 700 nm; NaN for luminances.
   double spectral = 0;
-  double mean_bias = 0;  // mean of the luminances' model / value - 1
+  double mean_bias = 0;  // mean of the luminances' model / value - 1; NaN as they are
 };
 
 // Of the fitted readings of one kind of polarisation, in percentage points: root mean squares of

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -274,14 +275,18 @@ std::string downweighted_text(const Result& result) {
 std::string brief_report(const Result& result) {
   const auto open = std::ranges::count_if(result.unknowns,
                                           [](const UnknownRow& row) { return !row.identifiable; });
-  std::string errors = fmt::format("{} RMS log error ({} at the start)",
-                                   log_misfit_digits_with_unit(result.errors.rms_log, 3),
-                                   log_misfit_digits_with_unit(result.start_errors.rms_log, 3));
-  if (!relative(result)) {
-    errors = fmt::format("{} error {:.3g} %", value_name(result), result.errors.luminance);
-    if (std::isfinite(result.errors.spectral))
-      errors += fmt::format(", spectral error {:.3g} %", result.errors.spectral);
+  std::vector<std::string> absolute;
+  if (!relative(result) && std::isfinite(result.errors.luminance)) {
+    absolute.push_back(
+        fmt::format("{} error {:.3g} %", value_name(result), result.errors.luminance));
   }
+  if (!relative(result) && std::isfinite(result.errors.spectral))
+    absolute.push_back(fmt::format("spectral error {:.3g} %", result.errors.spectral));
+  const std::string errors =
+      absolute.empty() ? fmt::format("{} RMS log error ({} at the start)",
+                                     log_misfit_digits_with_unit(result.errors.rms_log, 3),
+                                     log_misfit_digits_with_unit(result.start_errors.rms_log, 3))
+                       : fmt::format("{}", fmt::join(absolute, ", "));
   return fmt::format(
       "{}: {}, {} samples, {}{}", result.preset.name, errors, result.samples,
       result.converged ? "converged" : "NOT CONVERGED",

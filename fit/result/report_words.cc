@@ -87,12 +87,15 @@ std::string value_name(const Result& result) {
 }
 
 std::string errors_meaning(const Result& result) {
+  std::string value_meaning =
+      fmt::format("of model / value - 1 over the {}",
+                  refs::is_irradiance(result.reference.quantity) ? "samples" : "directions");
+  if (!std::isfinite(result.errors.luminance)) value_meaning = "the wavelengths give none";
   return fmt::format(
       "RMS of log: root mean square of ln(model / value) with a free scale per scan, above {:g} %\n"
-      "its exponential as a factor; {}: of model / value - 1 over the {}; spectral:\n"
+      "its exponential as a factor; {}: {}; spectral:\n"
       "|model - value| over |value|, 2-norms over all samples of 400 to 700 nm.\n",
-      kMostPercent, value_name(result),
-      refs::is_irradiance(result.reference.quantity) ? "samples" : "directions");
+      kMostPercent, value_name(result), value_meaning);
 }
 
 std::string hold_outs_meaning() {

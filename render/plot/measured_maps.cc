@@ -205,7 +205,9 @@ void draw_names(Script& script, const Layout& layout, const MeasuredOutcome& out
                 const Row& row, double top) {
   const MeasuredScan& info = outcome.scans.at(static_cast<std::size_t>(row.scan - 1));
   const std::string sun = fmt::format("☉ {:.3g}°", row.sky.front().sun_zenith_deg),
-                    error = fmt::format("RMS {:.3g} %", info.luminance_error_percent),
+                    error = std::isfinite(info.luminance_error_percent)
+                                ? fmt::format("RMS {:.3g} %", info.luminance_error_percent)
+                                : "",
                     label = scan_label(outcome, row.scan);
   if (script.sheet().on_page()) {
     const std::string numbers = fmt::format("   {}   {}", sun, error);

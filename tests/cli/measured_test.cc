@@ -21,7 +21,7 @@ class MeasuredTest : public ProgramTest {
   // A scan of a preset's own sky in the layout of spectral scans, absolute and turned by 8 deg; a
   // few directions and wavelengths.
   void write_scan(const std::string& name, double sun_zenith_deg) {
-    const std::string views = "15,45,75", wavelengths = "440,500,550,600,670";
+    const std::string views = "15,45,75", wavelengths = "440,480,520,560,600,640,670";
     const Outcome sky = run({"sky", "--preset", "earth-clear", "--sun-zenith-deg",
                              fmt_number(sun_zenith_deg), "--view-zenith-deg", views,
                              "--azimuth-deg", "8:308:60", "--wavelength-nm", wavelengths});

@@ -145,6 +145,9 @@ TEST_F(IrradianceReference, WhatIsWrongIsNamed) {
               HasSubstr("the sun is not known: expected sun_zenith_deg, or local_time"));
   EXPECT_THAT(message_of(file_of("sun_zenith_deg,view\n40,1\n")),
               HasSubstr("irradiances.csv:1: expected a column NAME_lx or NAME_w_m2"));
+  EXPECT_THAT(message_of(file_of("sun_zenith_deg,dni,global_horizontal_lx\n40,80000,70000\n")),
+              HasSubstr("irradiances.csv:1: dni: unknown column, expected one of time, "
+                        "sun_zenith_deg, precipitable_water_mm, altitude_m, direct_normal_lx"));
   EXPECT_THAT(message_of(file_of("sun_zenith_deg,direct_normal_lx\n40,bright\n")),
               HasSubstr("irradiances.csv:2: direct_normal_lx"));
 }

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "fit/fit.h"
 #include "fit/result/report.h"
 #include "tests/fit/scans.h"
@@ -12,10 +15,15 @@
 namespace skyfit::fit {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 // Noise-free residuals end at the solver's relative cost tolerance of 1e-5.
 constexpr double kSolved = 2e-3;
+
+// Close enough for a luminance (refs::gives_luminance()).
+const std::vector<double> kVisible_nm = {440, 480, 520, 560, 600, 640, 680};
 
 FitOptions determined() {
   FitOptions options;
@@ -42,6 +50,7 @@ TEST(ScansFitTest, NoiseFreeScansReturnParametersAndPointing) {
   const Atmosphere<double> truth = true_atmosphere(1);
   SyntheticScans how;
   how.azimuth_offset_deg = {7, -4};
+  how.wavelength_nm = kVisible_nm;
   const Result result = fit_toy(synthetic_scans(ToySky(), truth, how), determined());
   EXPECT_TRUE(result.converged);
   EXPECT_LT(result.errors.luminance, 0.1);
@@ -134,7 +143,9 @@ TEST(ScansFitTest, RobustLossIgnoresADirection) {
 
 // The errors are those of their definition: a model that is 10 % too bright everywhere.
 TEST(ErrorsTest, UniformExcess) {
-  const refs::Reference reference = synthetic_scans(ToySky(), true_atmosphere(1), {});
+  SyntheticScans how;
+  how.wavelength_nm = kVisible_nm;
+  const refs::Reference reference = synthetic_scans(ToySky(), true_atmosphere(1), how);
   std::vector<double> model;
   for (const refs::Sample& sample : reference.samples) model.push_back(1.1 * sample.value);
   const Errors errors = errors_of(reference, model, refs::standard_spectral_data());
@@ -173,7 +184,9 @@ TEST(ScansFitTest, NothingFreeEvaluatesThePreset) {
   options.free = std::vector<Parameter>{};
   options.fix.clear();
   options.pointing = Pointing::kStated;
-  const Result result = fit_toy(synthetic_scans(ToySky(), truth, {}), options);
+  SyntheticScans how;
+  how.wavelength_nm = kVisible_nm;
+  const Result result = fit_toy(synthetic_scans(ToySky(), truth, how), options);
   EXPECT_TRUE(result.unknowns.empty());
   EXPECT_LT(result.errors.luminance, 1e-9);
 }
@@ -181,6 +194,7 @@ TEST(ScansFitTest, NothingFreeEvaluatesThePreset) {
 TEST(ScansFitTest, ReportsNameErrorsUnknownsAndPhysics) {
   SyntheticScans how;
   how.noise = 0.02;
+  how.wavelength_nm = kVisible_nm;
   const Result result = fit_toy(synthetic_scans(ToySky(), true_atmosphere(1), how), determined());
   const std::string text = full_report(result, {});
   for (const char* part : {"luminance", "spectral", "instrument.azimuth_offset[2]", "turbidity",
@@ -195,6 +209,27 @@ TEST(ScansFitTest, ReportsNameErrorsUnknownsAndPhysics) {
   EXPECT_NEAR(json["luminance_error_percent"], result.errors.luminance, 1e-12);
   EXPECT_EQ(json["unknowns"].size(), result.unknowns.size());
   EXPECT_TRUE(json["findings"]["turbidity"].contains("plausible_upper"));
+}
+
+TEST(ScansFitTest, ReportsStateALuminanceOnlyWhereThereIsOne) {
+  const auto result_of = [](std::vector<double> wavelength_nm) {
+    SyntheticScans how;
+    how.wavelength_nm = std::move(wavelength_nm);
+    const Atmosphere<double> truth = true_atmosphere(1);
+    FitOptions options = determined();
+    options.start = Preset{"truth", truth, {}};
+    options.free = std::vector<Parameter>{};
+    options.fix.clear();
+    options.pointing = Pointing::kStated;
+    return fit_toy(synthetic_scans(ToySky(), truth, how), options);
+  };
+  const Result visible = result_of(kVisible_nm);
+  EXPECT_THAT(brief_report(visible), HasSubstr("luminance error"));
+  EXPECT_THAT(full_report(visible, {}), Not(HasSubstr("the wavelengths give none")));
+  const Result green = result_of({550});
+  EXPECT_THAT(brief_report(green), AllOf(HasSubstr("spectral error"), Not(HasSubstr("luminance"))));
+  EXPECT_THAT(full_report(green, {}), HasSubstr("luminance: the wavelengths give none"));
+  EXPECT_THAT(brief_report(result_of({870})), HasSubstr("RMS log error"));
 }
 
 std::string message_of(const refs::Reference& reference, const FitOptions& options) {
