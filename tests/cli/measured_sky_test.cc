@@ -101,7 +101,7 @@ TEST_F(MeasuredSkyTest, UnusedOptionsAreSaid) {
 
 TEST_F(MeasuredSkyTest, FilesThatAreNoSkyAreRefused) {
   write("picture.png", std::string("\x89PNG\r\n\x1a\n\0\0", 10));
-  expect_refusal({"check", "picture.png"}, {"picture.png: no measured sky", "OpenEXR"});
+  expect_refusal({"check", "picture.png"}, {"picture.png: is an image of colours", "OpenEXR"});
   write("broken.exr", "\x76\x2f\x31\x01 nothing else");
   expect_refusal({"check", "broken.exr", "--projection", "equisolid"},
                  {"broken.exr: cannot be read"});
