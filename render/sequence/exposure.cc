@@ -6,7 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "render/image/gamut.h"
 #include "render/render.h"
 
 namespace skyfit {
@@ -15,7 +14,7 @@ namespace {
 // A picture whose mean logarithm is that of kOrdinary, cd/m^2, has middle grey as its mean;
 // brighter ones are shown brighter and darker ones darker, as to the eye.
 constexpr double kMiddleGrey = 0.18, kOrdinary = 500, kKeyPower = 0.15;
-// At most one pixel in a hundred becomes brighter than this.
+// At most one pixel in a hundred becomes brighter than this, which films and eyes see as white.
 constexpr double kHighlights = 0.99, kHighlightLevel = 3;
 // At most one in seven becomes brighter than this: land in the sun is not shown as snow.
 constexpr double kBrightPart = 0.86, kBrightLevel = 0.5;
@@ -38,15 +37,10 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-// Luminances with what glares, without the suns' discs.
+// Luminances without the suns' discs.
 void add_without_discs(const Frame& frame, std::vector<double>& luminances) {
   const std::size_t first = luminances.size();
   luminances.insert(luminances.end(), frame.luminance.begin(), frame.luminance.end());
-  for (std::size_t i = 0; 3 * i < frame.glare.size(); ++i) {
-    const float* const light = &frame.glare[3 * i];
-    luminances[first + i] +=
-        luminance_of({light[0], light[1], light[2]}, color_space(frame.primaries));
-  }
   for (const DiscPixel& disc : frame.discs) {
     double& luminance = luminances[first + disc.pixel];
     luminance = std::max(luminance - disc.luminance, 0.0);
