@@ -266,7 +266,7 @@ void expect_view_fills(const Image& image, const ImportOptions& facts, std::stri
   for (const auto& [name, stated] : {std::pair{"centre_x_px", facts.centre_x_px},
                                      {"centre_y_px", facts.centre_y_px},
                                      {"radius_px", facts.radius_px}}) {
-    constexpr double kRounded = 1;
+    constexpr double kRounded = 0.75;
     if (stated && std::abs(*stated - middle) > kRounded)
       fail(source,
            fmt::format("{} = {:.6g}: expected {:.6g}, as VIEW= says", name, *stated, middle));
