@@ -166,7 +166,7 @@ NodeValues Relief::material(const glm::dvec3& direction, double height_m, double
   soil = mix(soil, kRock, smoothstep(900 - blur, 1900 + blur, height_m + 500 * spots));
   soil = mix(soil, kRock, smoothstep(0.04, 0.14, steepness));
   // The crests beside a vertex are higher than what it stands for.
-  const double crests = std::min(0.2 * resolution, 700.0);
+  const double crests = std::min(0.2 * resolution, 400.0);
   const double snow = smoothstep(2100 - blur, 2700 + blur, height_m + crests + 500 * spots);
   soil = mix(soil, kSnow, snow * (1 - smoothstep(0.12, 0.35, steepness)));
   for (double& value : soil) value *= std::max(1 + 0.4 * grain + 0.15 * spots, 0.2);
