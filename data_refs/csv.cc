@@ -14,7 +14,6 @@
 namespace skyfit::refs {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 // Reads the quoted field at the front of `rest` and removes it, up to the comma or the end.
 std::string take_quoted(std::string_view& rest, std::string_view source, int line) {
   std::string field;
@@ -65,7 +64,7 @@ std::optional<double> csv_number(std::string_view field) {
 }
 
 CsvTable::CsvTable(std::string_view text, std::string_view source) : source_(source) {
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  text = without_byte_order_mark(text);
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
     const std::string_view content = trim(text.substr(0, end));
@@ -118,10 +117,6 @@ void CsvTable::fail_value(const CsvRecord& record, std::string_view column,
   fail_at(source_, record.line,
           fmt::format("{} = {}: expected {}", excerpt(column), in_quotes(text(record, column)),
                       expectation));
-}
-
-std::string read_csv_file(const std::filesystem::path& file, std::string_view expectation) {
-  return read_text_file(file, expectation);
 }
 
 }  // namespace skyfit::refs

@@ -58,8 +58,4 @@ std::optional<double> csv_number(std::string_view field);
 // Throws std::invalid_argument `source:line: message`, on one line and without control characters.
 [[noreturn]] void fail_at(std::string_view source, int line, std::string_view message);
 
-// The text of a file, without a byte order mark. Throws std::runtime_error, which names what was
-// expected, when it cannot be read.
-std::string read_csv_file(const std::filesystem::path& file, std::string_view expectation);
-
 }  // namespace skyfit::refs

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "data_refs/csv.h"
+#include "model/base/input_file.h"
 #include "model/base/preset_reader.h"
 #include "model/base/text.h"
 
@@ -92,7 +93,7 @@ ImportOptions parse_sidecar(std::string_view json, std::string_view source) {
 
 ImportOptions load_sidecar(const std::filesystem::path& sidecar, NamedFiles named) {
   ImportOptions options =
-      parse_sidecar(read_csv_file(sidecar, "a sidecar (JSON)"), sidecar.string());
+      parse_sidecar(read_text_file(sidecar, "a sidecar (JSON)"), sidecar.string());
   for (const ImportOptionRow& row : import_option_table()) {
     if (!row.is_file || !row.is_set(options)) continue;
     std::string& name = *(options.*row.text);

@@ -17,6 +17,7 @@
 #include "data_refs/measured_sky.h"
 #include "data_refs/scan_header.h"
 #include "data_refs/weather_file.h"
+#include "model/base/input_file.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
 
@@ -351,7 +352,7 @@ Row row_of(const CsvTable& table, const CsvRecord& record, const UnitRow& unit) 
 }
 
 Reference of_csv(const std::string& file, const ImportOptions& options) {
-  const std::string text = read_csv_file(file, "a table of irradiances");
+  const std::string text = read_text_file(file, "a table of irradiances");
   const CsvTable table(text, file);
   const UnitRow& unit = unit_of(table);
   expect_known_columns(table, unit);

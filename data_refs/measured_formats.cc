@@ -152,7 +152,7 @@ SkyFile::SkyFile(std::filesystem::path path)
 
 const std::string& SkyFile::text() const {
   if (!text_) {
-    text_ = read_csv_file(path_, "a measured sky");
+    text_ = read_text_file(path_, "a measured sky");
     if (text_->find('\0') != std::string::npos) {
       if (const auto other = other_format(*text_))
         throw std::invalid_argument(name() + ": " + *other);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "data_refs/csv.h"
+#include "model/base/input_file.h"
 #include "model/base/text.h"
 
 namespace skyfit::refs {
@@ -118,7 +119,7 @@ PomInstrument parse_pom_instrument(std::string_view text, std::string_view sourc
 }
 
 PomInstrument load_pom_instrument(const std::filesystem::path& file) {
-  return parse_pom_instrument(read_csv_file(file, "an ins.para of SKYRAD.pack"), file.string());
+  return parse_pom_instrument(read_text_file(file, "an ins.para of SKYRAD.pack"), file.string());
 }
 
 }  // namespace skyfit::refs

@@ -17,6 +17,7 @@
 
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
+#include "model/base/input_file.h"
 #include "model/base/pattern.h"
 #include "model/numerics/angles.h"
 
@@ -378,7 +379,7 @@ bool is_radiance_sky_file(std::string_view name) {
   if (!std::filesystem::is_regular_file(file, none) ||
       std::filesystem::file_size(file, none) > kMostBytes)
     return false;
-  return is_radiance_sky(read_csv_file(file, "a scene of Radiance"));
+  return is_radiance_sky(read_text_file(file, "a scene of Radiance"));
 }
 
 RadianceSky parse_radiance_sky(std::string_view text, std::string_view source) {

@@ -20,6 +20,7 @@
 #include "data_refs/sampling.h"
 #include "data_refs/truth.h"
 #include "data_refs/weather_file.h"
+#include "model/base/input_file.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
 
@@ -99,7 +100,7 @@ Reference weather_reference(std::string_view name, Sampling sampling) {
 Reference radiance_reference(const std::filesystem::path& file,
                              const std::vector<double>& sun_zenith, Sampling sampling) {
   const RadianceSky sky =
-      parse_radiance_sky(read_csv_file(file, "a scene of Radiance"), file.string());
+      parse_radiance_sky(read_text_file(file, "a scene of Radiance"), file.string());
   if (!sky.sun && sun_zenith.size() != 1) {
     throw std::invalid_argument(
         fmt::format("{}: a sky without a sun, of one time: expected one sun_zenith_deg, got {}",

@@ -16,6 +16,7 @@
 
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
+#include "model/base/input_file.h"
 #include "model/base/text.h"
 #include "model/photometry/photometry.h"
 
@@ -68,7 +69,7 @@ DirectionFiles direction_files(const fs::path& folder) {
 // Of a file of one direction.
 Spectrum read_spectrum(const fs::path& file) {
   const std::string source = file.string();
-  std::istringstream lines(read_csv_file(file, "the spectrum of a direction"));
+  std::istringstream lines(read_text_file(file, "the spectrum of a direction"));
   std::string content;
   std::getline(lines, content);  // names of the columns
   Spectrum spectrum;

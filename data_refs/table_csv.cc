@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "data_refs/csv.h"
+#include "model/base/input_file.h"
 #include "model/base/text.h"
 
 namespace skyfit::refs {
@@ -32,7 +33,7 @@ TwoColumns parse_table_csv(std::string_view text, std::string_view source,
 }
 
 TwoColumns load_table_csv(const std::filesystem::path& file, const TableFormat& format) {
-  return parse_table_csv(read_csv_file(file, "a CSV of a table"), file.string(), format);
+  return parse_table_csv(read_text_file(file, "a CSV of a table"), file.string(), format);
 }
 
 }  // namespace skyfit::refs

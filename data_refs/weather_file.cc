@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "data_refs/csv.h"
+#include "model/base/input_file.h"
 #include "model/base/pattern.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
@@ -253,7 +254,7 @@ WeatherHour weather_hour(std::string_view file_and_time) {
   const auto day = std::chrono::floor<std::chrono::days>(*wanted);
   const std::chrono::year_month_day date(day);
   const double clock = std::chrono::duration<double, std::ratio<3600>>(*wanted - day).count();
-  const std::vector<std::string> lines = lines_of(read_csv_file(file, "a weather file"));
+  const std::vector<std::string> lines = lines_of(read_text_file(file, "a weather file"));
   const Layout layout = layout_of(lines, file);
   WeatherHour found;
   double nearest = 0.5 * layout.interval_h + 1e-9;  // hours from the middle

@@ -85,12 +85,14 @@ std::string read_file(const fs::path& file, std::string_view expectation,
   return read_to_end(open.number(), file, expectation, most_bytes);
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
 std::string read_text_file(const fs::path& file, std::string_view expectation,
                            std::uintmax_t most_bytes) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  std::string text = read_file(file, expectation, most_bytes);
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  return text;
+  return std::string(without_byte_order_mark(read_file(file, expectation, most_bytes)));
 }
 
 std::string read_stdin(std::string_view expectation, std::uintmax_t most_bytes) {

@@ -25,6 +25,8 @@ void require_regular_file(const std::filesystem::path& file, std::string_view ex
 std::string read_file(const std::filesystem::path& file, std::string_view expectation,
                       std::uintmax_t most_bytes = kMostTextBytes);
 
+std::string_view without_byte_order_mark(std::string_view text);
+
 // Text, without a byte order mark. Throws std::runtime_error.
 std::string read_text_file(const std::filesystem::path& file, std::string_view expectation,
                            std::uintmax_t most_bytes = kMostTextBytes);

@@ -12,6 +12,7 @@
 
 #include "complaint.h"
 #include "data_refs/csv.h"
+#include "model/base/input_file.h"
 
 namespace skyfit::refs {
 namespace {
@@ -221,7 +222,7 @@ TEST(AeronetCsv, LinesOfAMegabyteAreNoDanger) {
 TEST(AeronetCsv, FilesOfBothVersionsHoldTheSameSky) {
   const auto read = [](const std::string& name) {
     const std::string file = std::string(SKYFIT_TEST_DATA) + "/" + name;
-    return parse_aeronet_csv(read_csv_file(file, "an almucantar"), file, {});
+    return parse_aeronet_csv(read_text_file(file, "an almucantar"), file, {});
   };
   const Reference third = read("aeronet_named_two_blocks.csv"), second = read("aeronet_v2.alm");
   ASSERT_EQ(third.samples.size(), 308u);
