@@ -45,12 +45,18 @@ Image within_display_window(const OIIO::ImageSpec& spec, std::vector<float> stor
 void expect_one_flat_picture(OIIO::ImageInput& input, const std::filesystem::path& file) {
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.depth > 1 || spec.deep) fail(file, "expected a flat image");
+  if (spec.full_width < 1 || spec.full_height < 1) fail(file, "expected a display window");
   constexpr std::size_t kMostValues = std::size_t{1} << 30;
+  constexpr std::size_t kMostWithout = std::size_t{1} << 26;  // pixels that the file does not hold
   const auto channels = static_cast<std::size_t>(std::max(spec.nchannels, 1));
-  const auto shown = static_cast<std::size_t>(std::max(spec.full_width, 1)) *
-                     static_cast<std::size_t>(std::max(spec.full_height, 1));
-  if (std::max<std::size_t>(spec.image_pixels(), shown) > kMostValues / channels)
-    fail(file, "expected at most 2^30 values");
+  const std::size_t stored = spec.image_pixels();
+  const auto shown =
+      static_cast<std::size_t>(spec.full_width) * static_cast<std::size_t>(spec.full_height);
+  if (std::max(stored, shown) > kMostValues / channels) fail(file, "expected at most 2^30 values");
+  if (shown > stored + kMostWithout)
+    fail(file, fmt::format("{} x {} pixels in the display window, {} of them stored: expected at "
+                           "most 2^26 without",
+                           spec.full_width, spec.full_height, stored));
   const float aspect = spec.get_float_attribute("PixelAspectRatio", 1);
   if (std::abs(aspect - 1) > 1e-3f)
     fail(file, fmt::format("PixelAspectRatio {:.6g}: expected square pixels, 1", aspect));
