@@ -76,16 +76,21 @@ TEST(TableModel, FollowsTheReferenceFromEveryHeight) {
   }
 }
 
+// Of a ray that misses the ground.
+NodeValues looked_up(const AtmosphereTables& tables, const SkyPoint& p) {
+  const double mu = std::cos(p.view_zenith), mu_s = std::cos(p.sun_zenith);
+  const double nu =
+      mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) * std::cos(p.relative_azimuth);
+  return lookup_radiance(tables, p.altitude_m, mu, mu_s, nu, false);
+}
+
 void expect_near_reference(const AtmosphereTables& tables, std::span<const SkyPoint> points,
                            double tolerance) {
   const SkyValues expected = make_sky_model("reference", refs::standard_spectral_data(), 2)
                                  ->radiance(tables.atmosphere, tables.color.nodes, points, {});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SkyPoint& p = points[i];
-    const double mu = std::cos(p.view_zenith), mu_s = std::cos(p.sun_zenith);
-    const double nu =
-        mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) * std::cos(p.relative_azimuth);
-    const NodeValues values = lookup_radiance(tables, p.altitude_m, mu, mu_s, nu, false);
+    const NodeValues values = looked_up(tables, p);
     for (int k = 0; k < 4; ++k) {
       EXPECT_NEAR(values[static_cast<std::size_t>(k)] / expected.at(static_cast<int>(i), k), 1,
                   tolerance)
@@ -173,6 +178,40 @@ Shells with_layers(std::vector<std::array<double, 2>> base_and_depth) {
     a.constituents.push_back(layer);
   }
   return shells_of(a, Keep::kAll);
+}
+
+// From above, rays about a cloud's own horizon: with a texel there the ninth decile of the error is
+// half of what it is with that texel at the ground's horizon.
+TEST(TableModel, KnowsTheHorizonOfACloudsTop) {
+  const Atmosphere<double> a =
+      parse_preset(refs::shipped_preset_json("overcast"), "overcast").atmosphere;
+  TableSizes sizes;
+  sizes.scattering_r = 16;
+  sizes.scattering_ground = sizes.outside_sky = sizes.outside_mu_s = sizes.outside_azimuth = 2;
+  sizes.scattering_mu_s = 32;
+  sizes.scattering_azimuth = 6;
+  const HeightAxis axis(shells_of(a, Keep::kWhatMatters), sizes.scattering_r);
+  std::vector<SkyPoint> points;
+  for (double view = 90.4; view < 91.9; view += 0.05)
+    points.push_back({3500, 60 * kDegree, view * kDegree, 90 * kDegree});
+  const ColorRule color = color_rule(refs::standard_spectral_data());
+  const SkyValues expected = make_sky_model("reference", refs::standard_spectral_data(), 2)
+                                 ->radiance(a, color.nodes, points, {});
+  const auto median_and_decile = [&](const HeightAxis& heights) {
+    const AtmosphereTables tables = compute_tables(a, color, sizes, 2, {}, {}, heights);
+    std::vector<double> off;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      off.push_back(
+          std::abs(looked_up(tables, points[i])[1] / expected.at(static_cast<int>(i), 1) - 1));
+    std::ranges::sort(off);
+    return std::pair{off[off.size() / 2], off[off.size() * 9 / 10]};
+  };
+  const auto [median, decile] = median_and_decile(axis);
+  const auto [median_without, decile_without] = median_and_decile(HeightAxis(axis.nodes(), 0));
+  std::printf("[ deck   ] median %.4f, ninth decile %.4f; without %.4f, %.4f\n", median, decile,
+              median_without, decile_without);
+  EXPECT_LT(decile, 0.5 * decile_without);
+  EXPECT_LT(median, 0.05);
 }
 
 double height_of_node(const HeightAxis& axis, std::size_t node) {
