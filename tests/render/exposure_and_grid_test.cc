@@ -128,6 +128,16 @@ TEST(MeteredExposure, DoesNotMakeAPlanetGrey) {
   EXPECT_NEAR(metered_exposure(frame), 1 / 3e4, 1e-9);
 }
 
+// One pixel in fifty, far brighter than the rest, is shown three times as bright as white.
+TEST(MeteredExposure, HighlightsMayBeThreeTimesWhite) {
+  Frame frame = grey(100, 100, 500);
+  for (std::size_t i = 0; i < 200; ++i) frame.luminance[i] = 2e4f;
+  EXPECT_NEAR(metered_exposure(frame) * 2e4, 3, 1e-6);
+  for (std::size_t i = 50; i < 200; ++i) frame.luminance[i] = 500;  // half of a hundredth
+  EXPECT_LT(metered_exposure(frame), 0.18 / 500 * 1.01);
+  EXPECT_GT(metered_exposure(frame), 0.17 / 500);
+}
+
 // A small disc does not count, for a large one the picture is exposed.
 TEST(MeteredExposure, FollowsTheSunInATelephotoPictureOnly) {
   Frame frame = grey(100, 100, 5000);

@@ -81,7 +81,36 @@ TEST(ViewTransform, KeepsTheHueAndTheDisplaysRange) {
   EXPECT_LT(worst, kHue);
 }
 
-// The other transform does not: the test above can fail.
+// No contour where a channel becomes full: along a ramp of exposure no step of what is shown
+// differs much from its neighbours.
+TEST(ViewTransform, HasNoKinkAlongARamp) {
+  constexpr double kStep = 1.01, kKink = 8e-4;
+  for (const ColorChannels& color :
+       {ColorChannels{1, 0.4, 0.05}, {0.15, 0.35, 1}, {1, 0.7, 0.4}, {0.9, 0.3, 0.2}}) {
+    std::vector<ColorChannels> shown;
+    for (double exposure = 0.05; exposure < 50; exposure *= kStep) {
+      ColorChannels scene = color;
+      for (double& channel : scene) channel *= exposure;
+      shown.push_back(display_light(scene, {}));
+    }
+    double worst = 0;
+    for (std::size_t i = 1; i + 1 < shown.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        worst = std::max(worst, std::abs(shown[i - 1][k] - 2 * shown[i][k] + shown[i + 1][k]));
+    }
+    std::printf("[ ramp   ] worst second difference %.2g\n", worst);
+    EXPECT_LT(worst, kKink);
+  }
+}
+
+// Films and eyes see lights of a hundred times white as white.
+TEST(ViewTransform, VeryBrightLightIsWhite) {
+  for (const ColorChannels& color : {ColorChannels{200, 80, 10}, {30, 70, 200}, {0, 300, 0}}) {
+    EXPECT_GT(std::ranges::min(display_light(color, {})), 0.9);
+  }
+}
+
+// The other transform does not keep it: the test of hues can fail.
 TEST(ViewTransform, OfChannelsTurnsOrangeIntoYellow) {
   const ColorSpace& srgb = color_space(Primaries::kRec709);
   const ColorChannels orange = {20, 6, 0.5};

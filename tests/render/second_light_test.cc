@@ -17,7 +17,7 @@ namespace skyfit {
 namespace {
 
 constexpr double kMatrixInFloat = 1e-5;  // relative to the brightest channel
-constexpr double kTurned = 3e-4;         // the same, of shadows under suns at turned azimuths
+constexpr double kTurned = 1e-4;         // the same, of shadows under suns at turned azimuths
 constexpr double kIlluminance = 0.01;
 
 double illuminance_of(const ColorRule& rule) {
