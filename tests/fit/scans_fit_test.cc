@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <utility>
 #include <vector>
 
 #include "fit/fit.h"
@@ -177,7 +176,8 @@ TEST(ScansFitTest, ConeAroundTheSunIsAboutTheTrueDirections) {
   EXPECT_EQ(weight_at(-17), 0);  // at the sun
 }
 
-TEST(ScansFitTest, NothingFreeEvaluatesThePreset) {
+// Of scans of the truth, with nothing free.
+Result evaluated_truth(const std::vector<double>& wavelength_nm) {
   const Atmosphere<double> truth = true_atmosphere(1);
   FitOptions options = determined();
   options.start = Preset{"truth", truth, {}};
@@ -185,8 +185,12 @@ TEST(ScansFitTest, NothingFreeEvaluatesThePreset) {
   options.fix.clear();
   options.pointing = Pointing::kStated;
   SyntheticScans how;
-  how.wavelength_nm = kVisible_nm;
-  const Result result = fit_toy(synthetic_scans(ToySky(), truth, how), options);
+  how.wavelength_nm = wavelength_nm;
+  return fit_toy(synthetic_scans(ToySky(), truth, how), options);
+}
+
+TEST(ScansFitTest, NothingFreeEvaluatesThePreset) {
+  const Result result = evaluated_truth(kVisible_nm);
   EXPECT_TRUE(result.unknowns.empty());
   EXPECT_LT(result.errors.luminance, 1e-9);
 }
@@ -212,24 +216,13 @@ TEST(ScansFitTest, ReportsNameErrorsUnknownsAndPhysics) {
 }
 
 TEST(ScansFitTest, ReportsStateALuminanceOnlyWhereThereIsOne) {
-  const auto result_of = [](std::vector<double> wavelength_nm) {
-    SyntheticScans how;
-    how.wavelength_nm = std::move(wavelength_nm);
-    const Atmosphere<double> truth = true_atmosphere(1);
-    FitOptions options = determined();
-    options.start = Preset{"truth", truth, {}};
-    options.free = std::vector<Parameter>{};
-    options.fix.clear();
-    options.pointing = Pointing::kStated;
-    return fit_toy(synthetic_scans(ToySky(), truth, how), options);
-  };
-  const Result visible = result_of(kVisible_nm);
+  const Result visible = evaluated_truth(kVisible_nm);
   EXPECT_THAT(brief_report(visible), HasSubstr("luminance error"));
   EXPECT_THAT(full_report(visible, {}), Not(HasSubstr("the wavelengths give none")));
-  const Result green = result_of({550});
+  const Result green = evaluated_truth({550});
   EXPECT_THAT(brief_report(green), AllOf(HasSubstr("spectral error"), Not(HasSubstr("luminance"))));
   EXPECT_THAT(full_report(green, {}), HasSubstr("luminance: the wavelengths give none"));
-  EXPECT_THAT(brief_report(result_of({870})), HasSubstr("RMS log error"));
+  EXPECT_THAT(brief_report(evaluated_truth({870})), HasSubstr("RMS log error"));
 }
 
 std::string message_of(const refs::Reference& reference, const FitOptions& options) {
