@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground's two materials, soil and rock, at all scales: grains near the eye, then stones, then crags far away. The textures are solid
-// noise in the planet's axes, so that no surface has a seam. What a user has of his own (OWN_SOIL_COLOR and so on) takes the
-// place of that.
+// The ground's two materials, soil and rock, at three scales: grains near the eye, stones, and crags far away. The textures
+// are solid noise in the planet's axes, so that no surface has a seam. What a user has of his own (OWN_SOIL_COLOR and so on)
+// takes the place of that.
 #include "render/shaders/view_ray.glsl"
 #ifdef OWN_MATERIALS
 #include "render/shaders/own_materials.glsl"
@@ -25,8 +25,8 @@ CONSTANTS(5, Materials, MATERIAL_CONSTANTS)
 // Of soil and of rock: the tangents of the steepest slopes, and how much of the textures' light and dark shows.
 const vec2 kGrainSlope = vec2(0.5, 0.7), kCragSlope = vec2(0.3, 0.8);
 const vec2 kGrainContrast = vec2(1.0, 0.8), kCragContrast = vec2(0.4, 0.5);
-// Stones are the crags' texture again, smaller by this, a whole number (the phase is known but for whole ones), and that
-// as steep and as light and dark as them.
+// Stones are the crags' texture again, smaller by this, a whole number (the phase is known but for whole ones); how steep they
+// are, and how light and dark, in units of the crags'.
 const float kStoneScale = 8.0;
 const vec4 kStones = vec4(vec3(0.9), 1.5);
 // Units by which the crags move the stones, whose repetition is not seen then.

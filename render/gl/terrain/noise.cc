@@ -141,7 +141,7 @@ double ridged_noise(const glm::dvec3& x, double longest, double shortest) {
   for_octaves(x, longest, 2 * shortest, [&](double wavelength, double amplitude, double noise) {
     // A crest is as round as samples half of `shortest` apart can show: a sharp one would become
     // teeth.
-    const double round = kCrestWidth * std::min(shortest / wavelength, 1.0);
+    const double round = kCrestWidth * shortest / wavelength;
     const double crest = 1 - std::min(std::sqrt(2.56 * noise * noise + round * round), 1.0);
     const double ridge = crest * crest * gain;
     gain = std::clamp(1.8 * ridge, 0.0, 1.0);
