@@ -26,6 +26,11 @@ void restrict_to_blender(EngineAtmosphere& engine);
 std::string blender_text(const EngineAtmosphere& engine, const ExportFacts& facts);
 std::optional<EngineAtmosphere> read_blender(std::string_view text, std::string_view source,
                                              std::vector<std::string>& notes);
+void restrict_to_blender_multiple(EngineAtmosphere& engine);
+std::string blender_multiple_text(const EngineAtmosphere& engine, const ExportFacts& facts);
+std::optional<EngineAtmosphere> read_blender_multiple(std::string_view text,
+                                                      std::string_view source,
+                                                      std::vector<std::string>& notes);
 
 // Of a field of an object, or a default where it has none; throws as PresetReader does, and unless
 // the numbers are finite and >= 0.
@@ -39,6 +44,9 @@ struct Script {
 
 // Whether the name is assigned anywhere in the script, comments not counted.
 bool is_assigned(const Script& script, std::string_view name);
+
+// What the last line assigns; empty where there is none.
+std::string assigned_text(const Script& script, std::string_view name);
 
 // The number that the last line `.. name .. = number` assigns. Throws std::invalid_argument
 // `source:line: name = text: expected a number from 0 to ..` where it is not one, and where the

@@ -44,15 +44,17 @@ std::vector<Parameter> amounts() {
 
 constexpr PhaseType kHg = PhaseType::kHenyeyGreenstein, kCs = PhaseType::kCornetteShanks;
 
-constexpr std::array<Engine, 4> kEngines = {{
+constexpr std::array<Engine, 5> kEngines = {{
     {"unreal", "Unreal Engine, component SkyAtmosphere (JSON of its properties)", ".json", kHg,
      [](EngineAtmosphere&) {}, aerosol, unreal_text, false, read_unreal},
     {"unity", "Unity HDRP, Physically Based Sky (JSON of its properties)", ".json", kCs,
      restrict_to_unity, grey_aerosol, unity_text, false, read_unity},
     {"bruneton", "Bruneton 2017, atmosphere among the arguments of Model (JSON)", ".json", kCs,
      [](EngineAtmosphere&) {}, aerosol, bruneton_text, true, read_bruneton},
-    {"blender", "Blender, sky texture node of the Nishita type (Python)", ".py", kCs,
+    {"blender", "Blender, sky texture node, single scattering or Nishita (Python)", ".py", kCs,
      restrict_to_blender, amounts, blender_text, false, read_blender},
+    {"blender-multiple", "Blender 5, sky texture node, multiple scattering (Python)", ".py", kHg,
+     restrict_to_blender_multiple, amounts, blender_multiple_text, false, read_blender_multiple},
 }};
 
 }  // namespace
@@ -109,6 +111,10 @@ Assignment last_assignment(const Script& script, std::string_view name) {
 
 bool is_assigned(const Script& script, std::string_view name) {
   return last_assignment(script, name).line > 0;
+}
+
+std::string assigned_text(const Script& script, std::string_view name) {
+  return last_assignment(script, name).value;
 }
 
 double assigned_number(const Script& script, std::string_view name, double highest) {

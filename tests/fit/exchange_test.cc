@@ -104,6 +104,33 @@ TEST(Exchange, UnrealsDefaultsAreHillaires) {
   EXPECT_THAT(notes, ::testing::Contains(HasSubstr("MultiScatteringFactor")));
 }
 
+// Of both versions' names; values of another kind of sky are not taken for this one's.
+TEST(Exchange, BlendersSkiesAreToldByTheirType) {
+  const auto densities = [](std::string_view type, std::string_view dust) {
+    return fmt::format(
+        "sky.sky_type = \"{}\"\nsky.air_density = 2\nsky.{} = 3\n"
+        "sky.ozone_density = 1\n",
+        type, dust);
+  };
+  struct Case {
+    std::string text;
+    std::string_view program;
+    double dust;  // 1/m at 550 nm for a density of 1
+  };
+  for (const Case& c :
+       {Case{densities("NISHITA", "dust_density"), "blender", 2e-5},
+        {densities("SINGLE_SCATTERING", "aerosol_density"), "blender", 2e-5},
+        {densities("MULTIPLE_SCATTERING", "aerosol_density"), "blender-multiple", 2.478e-5}}) {
+    const Program* program = program_of(c.text);
+    ASSERT_NE(program, nullptr) << c.text;
+    EXPECT_EQ(program->name, c.program);
+    std::vector<std::string> notes;
+    EXPECT_NEAR(engine_named(c.program).read(c.text, "a.py", notes)->mie_scattering[1], 3 * c.dust,
+                1e-9);
+    EXPECT_TRUE(notes.empty());
+  }
+}
+
 TEST(Exchange, StrangersFilesAreRefusedByField) {
   std::vector<std::string> notes;
   EXPECT_THAT(
@@ -136,6 +163,8 @@ TEST(Exchange, StrangersFilesAreRefusedByField) {
                 ThrowsMessage<std::invalid_argument>(HasSubstr("air_density")))
         << wrong;
   }
+  EXPECT_THAT([&] { blender("sky.sky_type = 'PREETHAM'\nsky.air_density = 1"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("d.py: sky_type = PREETHAM")));
   EXPECT_EQ(program_of("{\"skyfit_preset\": 2}"), nullptr);
   EXPECT_THAT([] { program_named("quake"); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("unreal, unity")));
