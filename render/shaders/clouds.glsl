@@ -3,17 +3,16 @@
 // rough white surface seen from both sides. No scattering inside, one crossing of a ray with each sheet.
 #include "render/shaders/view_ray.glsl"
 #include "render/shaders/surface_light.glsl"
+#include "render/shaders/cloud_octaves.glsl"
 
-layout(binding = 14) uniform sampler3D cloud_noise;  // mean 1/2, deviation 1/6
+layout(binding = 14) uniform sampler3D cloud_noise;  // mean 1/2, deviation kCloudDeviation
 
 layout(std140, binding = 4) uniform Clouds {
-  // In the order in which rays from the eye meet them: height, km; opacity of the densest; threshold of the noise, for the
-  // cover.
+  // In the order in which rays from the eye meet them: height, km; opacity of the densest; noise in the middle of their edge,
+  // for the cover.
   vec4 cloud_sheets[CLOUDS];
 };
 
-const vec4 kCloudLengths = vec4(1400.0, 170.0, 37.0, 9.0);  // km, periods of the noise
-const vec4 kCloudWeights = vec4(0.30, 0.40, 0.22, 0.08);
 // A turn about (1, 2, 3) by 1.1 rad: the lattices of the octaves do not line up with one another.
 const mat3 kCloudTurn = mat3(0.492624970, 0.792613254, -0.359283826, -0.636497861, 0.609711515, 0.472358277, 0.593456917, -0.004012095, 0.804855758);
 
@@ -21,22 +20,27 @@ const mat3 kCloudTurn = mat3(0.492624970, 0.792613254, -0.359283826, -0.63649786
 const vec3 kSheetShift = vec3(0.61, 0.37, 0.23);
 
 // At a point above or below a sheet, relative to the planet's centre, seen along the vertical: the mean over about `width_km`.
+// Every octave bends the smaller ones along an axis of its own, so that clouds are drawn out and the noise, which repeats, does
+// not show it.
 float cloud_opacity_at(vec4 sheet, vec3 from_centre, float width_km) {
+  const float kBend = 0.2, kEdge = 0.07;
   vec3 place = planet_from_site * normalize(from_centre) * bottom_km;
-  float noise = 0.0, kept = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    float level = log2(max(64.0 * width_km / kCloudLengths[i], 1.0));
-    noise += kCloudWeights[i] * textureLod(cloud_noise, place / kCloudLengths[i] + vec3(0.37 * float(i)) + sheet.x * kSheetShift, level).x;
-    float part = kCloudWeights[i] * clamp(1.0 - 0.25 * level, 0.0, 1.0);  // of its deviation; the fifth mipmap is flat
-    kept += part * part;
-    place = kCloudTurn * place;
+  float period = kLongestCloud_km, noise = 0.0, averaged = 0.0;
+  for (int i = 0; i < kCloudOctaves; ++i) {
+    float level = log2(max(64.0 * width_km / period, 1.0));
+    float own = 0.5;
+    float kept = clamp(1.0 - 0.25 * level, 0.0, 1.0);  // of its deviation; the fifth mipmap is flat
+    if (kept > 0.0) own = textureLod(cloud_noise, place / period + vec3(0.37 * float(i)) + sheet.x * kSheetShift, level).x;
+    noise += own / float(kCloudOctaves);
+    averaged += 1.0 - kept * kept;
+    place = kCloudTurn * (place + vec3(kBend * period * (own - 0.5), 0.0, 0.0));
+    period /= kCloudRatio;
   }
   // The mean of the clouds' edge, as wide as kEdge, over what of the noise was averaged: variances add, and a smoothstep is
   // the integral of a density whose variance is a 20th of its width squared.
-  const float kEdge = 0.09, kDeviation = 1.0 / 6.0;
-  float averaged = kDeviation * kDeviation * max(dot(kCloudWeights, kCloudWeights) - kept, 0.0);
-  float reach = 0.5 * sqrt(kEdge * kEdge + 20.0 * averaged), middle = sheet.z + 0.025;
-  return sheet.y * smoothstep(middle - reach, middle + reach, noise);
+  float deviation = kCloudDeviation / float(kCloudOctaves);
+  float reach = 0.5 * sqrt(kEdge * kEdge + 20.0 * deviation * deviation * averaged);
+  return sheet.y * smoothstep(sheet.z - reach, sheet.z + reach, noise);
 }
 
 // Of a sheet that a ray crosses at a slant.

@@ -16,11 +16,10 @@ namespace {
 
 constexpr int kSide = 64, kLevels = 7;
 static_assert(1 << (kLevels - 1) == kSide);
-constexpr double kDeviation = 1.0 / 6;
-// Of the sum of four octaves with the weights of clouds.glsl.
-const double kSumDeviation =
-    kDeviation * std::sqrt(0.30 * 0.30 + 0.40 * 0.40 + 0.22 * 0.22 + 0.08 * 0.08);
-constexpr double kMiddleOfEdge = 0.025;  // of the smoothstep in clouds.glsl, above its threshold
+#include "render/shaders/cloud_octaves.glsl"
+
+// Of the mean of the octaves.
+const double kMeanDeviation = double{kCloudDeviation} / std::sqrt(double{kCloudOctaves});
 
 // The value that a share `part` of a normal distribution exceeds, in deviations from its mean.
 double exceeded_by(double part) {
@@ -57,7 +56,7 @@ std::vector<std::uint16_t> cloud_noise() {
   for (const double value : values) square += (value - mean) * (value - mean) / count;
   std::vector<std::uint16_t> texels;
   for (const double value : values) {
-    const double normal = 0.5 + kDeviation * (value - mean) / std::sqrt(square);
+    const double normal = 0.5 + double{kCloudDeviation} * (value - mean) / std::sqrt(square);
     texels.push_back(static_cast<std::uint16_t>(std::lround(65535 * std::clamp(normal, 0.0, 1.0))));
   }
   return texels;
@@ -87,7 +86,7 @@ void Clouds::bind(std::span<const CloudLayer> sheets, double eye_m, GLuint progr
   std::vector<glm::vec4> values;
   for (const CloudLayer& clouds : in_order)
     values.emplace_back(1e-3 * clouds.altitude_m, clouds.opacity,
-                        0.5 + kSumDeviation * exceeded_by(clouds.cover) - kMiddleOfEdge, 0);
+                        0.5 + kMeanDeviation * exceeded_by(clouds.cover), 0);
   glBindTextureUnit(unit, noise_.id());
   UniformBlock block(program, "Clouds");
   block.set("cloud_sheets", std::span<const glm::vec4>(values));
