@@ -25,21 +25,22 @@ const vec3 kSheetShift = vec3(0.61, 0.37, 0.23);
 float cloud_opacity_at(vec4 sheet, vec3 from_centre, float width_km) {
   const float kBend = 0.2, kEdge = 0.07;
   vec3 place = planet_from_site * normalize(from_centre) * bottom_km;
+  float weight = (kCloudGain - 1.0) / (pow(kCloudGain, float(kCloudOctaves)) - 1.0);  // the sum is 1
   float period = kLongestCloud_km, noise = 0.0, averaged = 0.0;
   for (int i = 0; i < kCloudOctaves; ++i) {
     float level = log2(max(64.0 * width_km / period, 1.0));
     float own = 0.5;
     float kept = clamp(1.0 - 0.25 * level, 0.0, 1.0);  // of its deviation; the fifth mipmap is flat
     if (kept > 0.0) own = textureLod(cloud_noise, place / period + vec3(0.37 * float(i)) + sheet.x * kSheetShift, level).x;
-    noise += own / float(kCloudOctaves);
-    averaged += 1.0 - kept * kept;
+    noise += weight * own;
+    averaged += weight * weight * (1.0 - kept * kept);
     place = kCloudTurn * (place + vec3(kBend * period * (own - 0.5), 0.0, 0.0));
     period /= kCloudRatio;
+    weight *= kCloudGain;
   }
   // The mean of the clouds' edge, as wide as kEdge, over what of the noise was averaged: variances add, and a smoothstep is
   // the integral of a density whose variance is a 20th of its width squared.
-  float deviation = kCloudDeviation / float(kCloudOctaves);
-  float reach = 0.5 * sqrt(kEdge * kEdge + 20.0 * deviation * deviation * averaged);
+  float reach = 0.5 * sqrt(kEdge * kEdge + 20.0 * kCloudDeviation * kCloudDeviation * averaged);
   return sheet.y * smoothstep(sheet.z - reach, sheet.z + reach, noise);
 }
 

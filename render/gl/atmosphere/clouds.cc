@@ -18,8 +18,16 @@ constexpr int kSide = 64, kLevels = 7;
 static_assert(1 << (kLevels - 1) == kSide);
 #include "render/shaders/cloud_octaves.glsl"
 
-// Of the mean of the octaves.
-const double kMeanDeviation = double{kCloudDeviation} / std::sqrt(double{kCloudOctaves});
+// Of the octaves' mean with their weights.
+double mean_deviation() {
+  double squares = 0, sum = 0, weight = 1;
+  for (int i = 0; i < kCloudOctaves; ++i) {
+    squares += weight * weight;
+    sum += weight;
+    weight *= double{kCloudGain};
+  }
+  return double{kCloudDeviation} * std::sqrt(squares) / sum;
+}
 
 // The value that a share `part` of a normal distribution exceeds, in deviations from its mean.
 double exceeded_by(double part) {
@@ -86,7 +94,7 @@ void Clouds::bind(std::span<const CloudLayer> sheets, double eye_m, GLuint progr
   std::vector<glm::vec4> values;
   for (const CloudLayer& clouds : in_order)
     values.emplace_back(1e-3 * clouds.altitude_m, clouds.opacity,
-                        0.5 + kMeanDeviation * exceeded_by(clouds.cover), 0);
+                        0.5 + mean_deviation() * exceeded_by(clouds.cover), 0);
   glBindTextureUnit(unit, noise_.id());
   UniformBlock block(program, "Clouds");
   block.set("cloud_sheets", std::span<const glm::vec4>(values));
