@@ -178,6 +178,16 @@ TEST_F(ObjFiles, ErrorsNameTheFileAndTheLine) {
   EXPECT_THROW(read_object_mesh(directory_, 0.3, rule()), std::runtime_error);
 }
 
+TEST_F(ObjFiles, AColourIsThreeNumbers) {
+  for (const char* wrong : {"Kd 0.5", "Kd 1 x 0", "Kd spectral leaf.rfl 1"}) {
+    write("own.mtl", std::string("newmtl leaf\n") + wrong + "\n");
+    EXPECT_THAT([&] { read("mtllib own.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl leaf\nf 1 2 3\n"); },
+                ::testing::ThrowsMessage<std::runtime_error>(
+                    HasSubstr("own.mtl:2: expected three finite numbers, got ")))
+        << wrong;
+  }
+}
+
 TEST_F(ObjFiles, AMaterialThatIsMissingIsGreyAndNamed) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   const std::string file = (directory_ / "mesh.obj").string();

@@ -27,6 +27,24 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
+[[noreturn]] void fail_at(const std::filesystem::path& file, int line, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}:{}: {}", file.string(), line, what));
+}
+
+// Takes them off the line. Throws as fail_at() does.
+void expect_three_numbers(const std::filesystem::path& file, int line, std::string_view& words) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string_view word = next_word(words);
+    const std::string_view digits = word.substr(word.starts_with('+'));
+    double value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error == std::errc() && end == digits.data() + digits.size() &&
+        std::isfinite(static_cast<float>(value)))
+      continue;
+    fail_at(file, line, "expected three finite numbers, got " + in_quotes(word));
+  }
+}
+
 class Checker {
  public:
   explicit Checker(const std::filesystem::path& file) : file_(file) {}
@@ -57,9 +75,7 @@ class Checker {
     }
   };
 
-  [[noreturn]] void fail(int line, const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line, what));
-  }
+  [[noreturn]] void fail(int line, const std::string& what) const { fail_at(file_, line, what); }
   [[noreturn]] void fail_file(const std::string& what) const {
     throw std::runtime_error(fmt::format("{}: {}", file_.string(), what));
   }
@@ -73,17 +89,7 @@ class Checker {
   }
 
   void check_vector(std::string_view line, Elements& elements) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::string_view word = next_word(line);
-      const std::string_view digits = word.substr(word.starts_with('+'));
-      double value = 0;
-      const auto [end, error] =
-          std::from_chars(digits.data(), digits.data() + digits.size(), value);
-      if (error == std::errc() && end == digits.data() + digits.size() &&
-          std::isfinite(static_cast<float>(value)))
-        continue;
-      fail(line_, "expected three finite numbers, got " + in_quotes(word));
-    }
+    expect_three_numbers(file_, line_, line);
     ++elements.count;
   }
 
@@ -150,6 +156,14 @@ std::string with_joined_lines(std::string_view obj) {
     }
   }
   return text;
+}
+
+void check_mtl(const std::filesystem::path& file, std::string_view text) {
+  int number = 0;
+  for (std::string_view line : split(text, '\n')) {
+    ++number;
+    if (next_word(line) == "Kd") expect_three_numbers(file, number, line);
+  }
 }
 
 MaterialUses check_obj(const std::filesystem::path& file, std::string_view text) {

@@ -23,4 +23,8 @@ std::string with_joined_lines(std::string_view obj);
 // triangles.
 MaterialUses check_obj(const std::filesystem::path& file, std::string_view text);
 
+// Of a file of materials: throws `file:line: ..` unless every diffuse colour, Kd, is three finite
+// numbers.
+void check_mtl(const std::filesystem::path& file, std::string_view text);
+
 }  // namespace skyfit

@@ -44,7 +44,9 @@ class MaterialFiles : public tinyobj::MaterialReader {
       missing_.push_back(excerpt(name));
       return false;
     }
-    std::istringstream text(read_text_file(*file, "a file of materials"));
+    std::string materials_text = read_text_file(*file, "a file of materials");
+    check_mtl(*file, materials_text);
+    std::istringstream text(std::move(materials_text));
     tinyobj::LoadMtl(numbers, materials, &text, warning, error);
     return true;
   }
