@@ -46,6 +46,14 @@ struct DiscPixel {
   float luminance;           // cd/m^2: of Frame::luminance
 };
 
+// A pixel on the line between sky and ground. A display shows its parts apart, as those of a
+// DiscPixel: the mean of the ground and of a sky that is much brighter is as bright as the sky.
+struct EdgePixel {
+  std::size_t pixel;
+  float sky_share;                   // 0 .. 1
+  std::array<float, 3> sky, ground;  // cd/m^2, of each by itself, as Frame::rgb
+};
+
 struct PassTime {
   std::string pass;
   double milliseconds;
@@ -68,7 +76,6 @@ struct FrameStatistics {
 // Row 0 is the top row; width varies fastest. Luminous quantities are those of the sun at 1 au.
 struct Frame {
   int width = 0, height = 0;
-  int samples_per_side = 0;  // of a pixel, that were drawn; 0: unknown
   Primaries primaries = Primaries::kRec709;
   // [pixel][3] red, green, blue or X, Y, Z, cd/m^2, not negative: light outside the gamut of the
   // primaries is less saturated, of the same luminance and hue
@@ -79,6 +86,7 @@ struct Frame {
   std::vector<float>
       depth_m;  // [pixel] nearest distance from the camera along the ray, infinite for sky
   std::vector<DiscPixel> discs;  // in the order of the pixels
+  std::vector<EdgePixel> edges;  // in the order of the pixels
   std::vector<float> glare;      // [pixel][3] cd/m^2, or empty; not part of rgb
   std::optional<FrameLayers> layers;
   std::optional<FramePolarisation> polarisation;  // of add_polarisation()

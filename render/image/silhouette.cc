@@ -9,12 +9,12 @@ namespace {
 // A picture or its transpose.
 class Plane {
  public:
-  Plane(const std::vector<bool>& is_sky, int width, int height, bool transposed)
+  Plane(std::span<const std::uint8_t> is_sky, int width, int height, bool transposed)
       : is_sky_(is_sky), width_(width), height_(height), transposed_(transposed) {}
 
   int width() const { return transposed_ ? height_ : width_; }
   int height() const { return transposed_ ? width_ : height_; }
-  std::size_t pixel(int x, int y) const {
+  std::size_t sample(int x, int y) const {
     if (transposed_) std::swap(x, y);
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);
@@ -22,11 +22,11 @@ class Plane {
   // Between the rows y and y + 1: 1 with the sky above, -1 below, 0 none.
   int edge(int x, int y) const {
     if (x < 0 || x >= width() || y < 0 || y + 1 >= height()) return 0;
-    return static_cast<int>(is_sky_[pixel(x, y)]) - static_cast<int>(is_sky_[pixel(x, y + 1)]);
+    return is_sky_[sample(x, y)] - is_sky_[sample(x, y + 1)];
   }
 
  private:
-  const std::vector<bool>& is_sky_;
+  std::span<const std::uint8_t> is_sky_;
   int width_, height_;
   bool transposed_;
 };
@@ -41,19 +41,19 @@ int step_at(const Plane& plane, int x, int y, int edge) {
 // Columns first..last of one edge below row y. The line begins and ends half a row off where it
 // steps, and is on the edge in the run's middle.
 void add_run(const Plane& plane, int first, int last, int y, int edge,
-             std::vector<SilhouettePixel>& found) {
+             std::vector<SilhouetteSample>& found) {
   const double left = 0.5 * step_at(plane, first - 1, y, edge),
                right = 0.5 * step_at(plane, last + 1, y, edge);
   const double count = last - first + 1;
   for (int x = first; x <= last; ++x) {
     const double t = (x - first + 0.5) / count;
     const double above = t < 0.5 ? left * (1 - 2 * t) : right * (2 * t - 1);
-    if (above > 0) found.push_back({plane.pixel(x, y), plane.pixel(x, y + 1), above});
-    if (above < 0) found.push_back({plane.pixel(x, y + 1), plane.pixel(x, y), -above});
+    if (above > 0) found.push_back({plane.sample(x, y), plane.sample(x, y + 1), above});
+    if (above < 0) found.push_back({plane.sample(x, y + 1), plane.sample(x, y), -above});
   }
 }
 
-void add_runs(const Plane& plane, std::vector<SilhouettePixel>& found) {
+void add_runs(const Plane& plane, std::vector<SilhouetteSample>& found) {
   for (int y = 0; y + 1 < plane.height(); ++y) {
     for (int x = 0; x < plane.width();) {
       const int edge = plane.edge(x, y), first = x++;
@@ -67,8 +67,9 @@ void add_runs(const Plane& plane, std::vector<SilhouettePixel>& found) {
 
 }  // namespace
 
-std::vector<SilhouettePixel> silhouette(const std::vector<bool>& is_sky, int width, int height) {
-  std::vector<SilhouettePixel> found;
+std::vector<SilhouetteSample> silhouette(std::span<const std::uint8_t> is_sky, int width,
+                                         int height) {
+  std::vector<SilhouetteSample> found;
   add_runs(Plane(is_sky, width, height, false), found);
   add_runs(Plane(is_sky, width, height, true), found);
   return found;

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "render/image/gamut.h"
-#include "render/image/silhouette.h"
 #include "render/image/view_transform.h"
 
 namespace skyfit {
@@ -40,6 +39,11 @@ class Display {
 
   ColorChannels pixel(std::size_t pixel) const { return display_light(scene_light(pixel), tone_); }
 
+  ColorChannels pixel_with(const EdgePixel& edge) const {
+    return mixed(display_light(scene_light(edge.pixel, edge.ground), tone_),
+                 display_light(scene_light(edge.pixel, edge.sky), tone_), edge.sky_share);
+  }
+
   // The parts of a pixel that a disc does and does not cover, each by itself.
   ColorChannels pixel_with(const DiscPixel& disc) const {
     const ColorChannels light = scene_light(disc.pixel);
@@ -49,15 +53,16 @@ class Display {
       around[k] = std::max(light[k] - sun[k], 0.0);
       covered[k] = around[k] + sun[k] / disc.cover;
     }
-    around = display_light(around, tone_);
-    covered = display_light(covered, tone_);
-    ColorChannels mixed;
-    for (std::size_t k = 0; k < 3; ++k)
-      mixed[k] = std::lerp(around[k], covered[k], static_cast<double>(disc.cover));
-    return mixed;
+    return mixed(display_light(around, tone_), display_light(covered, tone_), disc.cover);
   }
 
  private:
+  static ColorChannels mixed(const ColorChannels& a, const ColorChannels& b, double share_of_b) {
+    ColorChannels mean;
+    for (std::size_t k = 0; k < 3; ++k) mean[k] = std::lerp(a[k], b[k], share_of_b);
+    return mean;
+  }
+
   // In linear sRGB, without a negative channel.
   ColorChannels exposed(ColorChannels light) const {
     for (double& channel : light) channel *= exposure_;
@@ -66,9 +71,15 @@ class Display {
   }
 
   ColorChannels scene_light(std::size_t pixel) const {
+    const float* rgb = &frame_.rgb[3 * pixel];
+    return scene_light(pixel, {rgb[0], rgb[1], rgb[2]});
+  }
+
+  // Of a part of a pixel with the pixel's glare.
+  ColorChannels scene_light(std::size_t pixel, const std::array<float, 3>& rgb) const {
     ColorChannels light;
     for (std::size_t k = 0; k < 3; ++k) {
-      light[k] = frame_.rgb[3 * pixel + k];
+      light[k] = rgb[k];
       if (!frame_.glare.empty()) light[k] += frame_.glare[3 * pixel + k];
     }
     return exposed(light);
@@ -79,16 +90,6 @@ class Display {
   const ColorSpace& space_;
   double exposure_;
 };
-
-void smooth_silhouette(const Frame& frame, std::vector<ColorChannels>& light) {
-  std::vector<bool> is_sky;
-  for (const float depth : frame.depth_m) is_sky.push_back(std::isinf(depth));
-  const std::vector<ColorChannels> steps = light;
-  for (const SilhouettePixel& at : silhouette(is_sky, frame.width, frame.height)) {
-    for (std::size_t k = 0; k < 3; ++k)
-      light[at.pixel][k] = std::lerp(light[at.pixel][k], steps[at.beside][k], at.share);
-  }
-}
 
 }  // namespace
 
@@ -107,8 +108,8 @@ std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& ton
   std::vector<ColorChannels> light(frame.luminance.size());
   tbb::parallel_for(std::size_t{0}, light.size(),
                     [&](std::size_t pixel) { light[pixel] = display.pixel(pixel); });
+  for (const EdgePixel& edge : frame.edges) light[edge.pixel] = display.pixel_with(edge);
   for (const DiscPixel& disc : frame.discs) light[disc.pixel] = display.pixel_with(disc);
-  if (frame.samples_per_side == 1) smooth_silhouette(frame, light);
   std::vector<std::uint8_t> bytes(frame.rgb.size());
   tbb::parallel_for(std::size_t{0}, bytes.size(), [&](std::size_t i) {
     const auto index = static_cast<std::uint32_t>(i);

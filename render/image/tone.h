@@ -15,9 +15,8 @@ namespace skyfit {
 ColorChannels display_light(const ColorChannels& scene, const ToneOptions& tone);
 
 // [pixel][3], with an exposure that is set: display_light() of the light with the frame's glare, of
-// the parts of a pixel that a disc does and does not cover each by itself; the sRGB transfer
-// function (IEC 61966-2-1), dithered with triangular noise of one step. With one sample to a pixel
-// the line between sky and ground is smoothed, render/image/silhouette.h.
+// the parts of a pixel that a disc does and does not cover, and of sky and ground, each by itself;
+// the sRGB transfer function (IEC 61966-2-1), dithered with triangular noise of one step.
 std::vector<std::uint8_t> tone_mapped(const Frame& frame, const ToneOptions& tone);
 
 }  // namespace skyfit

@@ -67,10 +67,14 @@ void add(const Frame& frame, std::size_t corner, Frame& whole) {
     whole.glare.resize(whole.rgb.size());
     add(frame.glare, 3, whole.glare);
   }
-  for (DiscPixel disc : frame.discs) {
-    disc.pixel = corner + disc.pixel / frame.width * whole.width + disc.pixel % frame.width;
-    whole.discs.push_back(disc);
-  }
+  const auto add_pixels = [&](const auto& from, auto& to) {
+    for (auto part : from) {
+      part.pixel = corner + part.pixel / frame.width * whole.width + part.pixel % frame.width;
+      to.push_back(part);
+    }
+  };
+  add_pixels(frame.discs, whole.discs);
+  add_pixels(frame.edges, whole.edges);
 }
 
 std::optional<double> number_in(const std::string& text) {
@@ -141,10 +145,10 @@ Frame joined(const FrameGrid& grid) {
   whole.metadata = first.metadata;
   whole.metadata.insert(whole.metadata.end(), grid.metadata.begin(), grid.metadata.end());
   whole.primaries = first.primaries;
-  whole.samples_per_side = first.samples_per_side;
   for (std::size_t i = 0; i < grid.frames.size(); ++i)
     add(grid.frames[i], corner_of(i, grid, whole), whole);
   std::ranges::sort(whole.discs, {}, &DiscPixel::pixel);
+  std::ranges::sort(whole.edges, {}, &EdgePixel::pixel);
   return whole;
 }
 

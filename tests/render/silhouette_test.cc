@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A straight horizon that one sample to a pixel shows as steps has the coverage of its pixels
+// A straight horizon that one sample to a pixel shows as steps has the coverage of its samples
 // again.
 #include "render/image/silhouette.h"
 
@@ -26,18 +26,18 @@ double ground_share(double height, double slope, int x, int y) {
 }
 
 double rms(double height, double slope, bool smooth) {
-  std::vector<bool> is_sky;
+  std::vector<std::uint8_t> is_sky;
   std::vector<double> ground;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      is_sky.push_back(y + 0.5 <= height + slope * (x + 0.5));
-      ground.push_back(is_sky.back() ? 0 : 1);
+      is_sky.push_back(y + 0.5 <= height + slope * (x + 0.5) ? 1 : 0);
+      ground.push_back(1 - is_sky.back());
     }
   }
   const std::vector<double> steps = ground;
   if (smooth) {
-    for (const SilhouettePixel& at : silhouette(is_sky, kWidth, kHeight))
-      ground[at.pixel] = std::lerp(ground[at.pixel], steps[at.beside], at.share);
+    for (const SilhouetteSample& at : silhouette(is_sky, kWidth, kHeight))
+      ground[at.sample] = std::lerp(ground[at.sample], steps[at.beside], at.share);
   }
   double sum = 0;
   int count = 0;
@@ -65,8 +65,8 @@ TEST(Silhouette, OfASlantedHorizonIsSmooth) {
 }
 
 TEST(Silhouette, OfALevelHorizonStays) {
-  std::vector<bool> is_sky(static_cast<std::size_t>(kWidth) * kHeight, false);
-  for (int i = 0; i < 45 * kWidth; ++i) is_sky[static_cast<std::size_t>(i)] = true;
+  std::vector<std::uint8_t> is_sky(static_cast<std::size_t>(kWidth) * kHeight, 0);
+  for (int i = 0; i < 45 * kWidth; ++i) is_sky[static_cast<std::size_t>(i)] = 1;
   EXPECT_TRUE(silhouette(is_sky, kWidth, kHeight).empty());
 }
 

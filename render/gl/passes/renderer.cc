@@ -108,7 +108,6 @@ class GlRenderer final : public FrameDrawer {
     frame.primaries = options.primaries;
     frame.width = options.width;
     frame.height = options.height;
-    frame.samples_per_side = samples;
     resolve_light(graph_, samples, frame);
     if (options.layers) frame.layers = resolve_layers(graph_, samples, frame);
     add_directions(options.camera, frame);

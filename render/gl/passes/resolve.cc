@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 #include <numbers>
@@ -16,16 +17,18 @@
 #include "render/gl/atmosphere/atmosphere_pass.h"
 #include "render/gl/passes/view_basis.h"
 #include "render/image/gamut.h"
+#include "render/image/silhouette.h"
 
 namespace skyfit {
 namespace {
 
-// Calls f(pixel, values) with the `channels` values of every sample of a target, those of a pixel
-// in the same order whatever the threads; OpenGL's rows run upward, a frame's downward. The target
-// is read in bands: as a whole it may be larger than all else that a frame needs.
+// Calls f(pixel, sample, values) with the `channels` values of every sample of a target, those of a
+// pixel in the same order whatever the threads; OpenGL's rows run upward, those of samples and of a
+// frame downward. The target is read in bands: as a whole it may be larger than all else that a
+// frame needs.
 template <class F>
-void for_samples(const FrameGraph& graph, const std::string& target, GLenum format, int channels,
-                 const Frame& frame, int samples_per_side, F&& f) {
+void for_numbered_samples(const FrameGraph& graph, const std::string& target, GLenum format,
+                          int channels, const Frame& frame, int samples_per_side, F&& f) {
   constexpr int kBand = 64;  // rows of pixels
   const auto columns = static_cast<std::size_t>(frame.width) * samples_per_side;
   for (int low = 0; low < frame.height; low += kBand) {
@@ -36,12 +39,23 @@ void for_samples(const FrameGraph& graph, const std::string& target, GLenum form
       const std::size_t first =
           static_cast<std::size_t>(frame.height - 1 - low - row) * frame.width;
       for (int y = row * samples_per_side; y < (row + 1) * samples_per_side; ++y) {
-        const float* sample = &values[static_cast<std::size_t>(y) * columns * channels];
-        for (std::size_t x = 0; x < columns; ++x, sample += channels)
-          f(first + x / samples_per_side, sample);
+        const float* value = &values[static_cast<std::size_t>(y) * columns * channels];
+        const std::size_t sample =
+            static_cast<std::size_t>((frame.height - low) * samples_per_side - 1 - y) * columns;
+        for (std::size_t x = 0; x < columns; ++x, value += channels)
+          f(first + x / samples_per_side, sample + x, value);
       }
     });
   }
+}
+
+// Without the sample's number.
+template <class F>
+void for_samples(const FrameGraph& graph, const std::string& target, GLenum format, int channels,
+                 const Frame& frame, int samples_per_side, F&& f) {
+  for_numbered_samples(
+      graph, target, format, channels, frame, samples_per_side,
+      [&](std::size_t pixel, std::size_t, const float* values) { f(pixel, values); });
 }
 
 // No light is negative. `values`: [pixel][3], in units of `unit` in each channel.
@@ -107,26 +121,122 @@ void resolve_discs(const FrameGraph& graph, int samples_per_side, Frame& frame) 
   }
 }
 
+// The pixels on the line between sky and ground, which is smoothed from sample to sample.
+class Edges {
+ public:
+  Edges(const Frame& frame, int samples_per_side)
+      : width_(frame.width),
+        side_(static_cast<std::size_t>(samples_per_side)),
+        columns_(side_ * width_),
+        is_sky_(columns_ * side_ * frame.height),
+        index_(width_ * frame.height, kNone) {}
+
+  // By several threads.
+  void set(std::size_t sample, bool is_sky) { is_sky_[sample] = is_sky ? 1 : 0; }
+
+  // After all samples are set.
+  void find() {
+    std::vector<std::uint8_t> sky(index_.size(), 0);
+    for (std::size_t i = 0; i < is_sky_.size(); ++i)
+      sky[pixel_of(i)] = static_cast<std::uint8_t>(sky[pixel_of(i)] + is_sky_[i]);
+    const auto part_of = [&](std::size_t pixel) -> Part& {
+      if (index_[pixel] == kNone) {
+        index_[pixel] = static_cast<std::uint32_t>(parts_.size());
+        parts_.push_back({pixel, pixel, double(sky[pixel]), {}, {}});
+      }
+      return parts_[index_[pixel]];
+    };
+    for (std::size_t pixel = 0; pixel < sky.size(); ++pixel) {
+      if (sky[pixel] > 0 && sky[pixel] < side_ * side_) part_of(pixel);
+    }
+    for (const SilhouetteSample& at : silhouette(is_sky_, static_cast<int>(columns_),
+                                                 static_cast<int>(is_sky_.size() / columns_))) {
+      Part& part = part_of(pixel_of(at.sample));
+      part.beside = pixel_of(at.beside);
+      part.sky_samples += is_sky_[at.sample] != 0 ? -at.share : at.share;
+    }
+  }
+
+  // After find(), for every sample; by several threads, of a pixel by one.
+  void add(std::size_t pixel, std::size_t sample, const float* light) {
+    if (index_[pixel] == kNone) return;
+    Part& part = parts_[index_[pixel]];
+    Mean& mean = is_sky_[sample] != 0 ? part.sky : part.ground;
+    for (std::size_t k = 0; k < 3; ++k) mean.sum[k] += light[k];
+    mean.count += 1;
+  }
+
+  // After all samples are added; the frame's light is resolved. What a pixel has no sample of has
+  // the light of the pixel across the line.
+  std::vector<EdgePixel> pixels(const Frame& frame) const {
+    const auto light = [&](const Part& part, Mean Part::*side) {
+      const std::uint32_t across = index_[part.beside];
+      const Mean& mean =
+          (part.*side).count > 0 || across == kNone ? part.*side : parts_[across].*side;
+      const float* pixel = &frame.rgb[3 * part.beside];
+      std::array<float, 3> rgb = {pixel[0], pixel[1], pixel[2]};
+      if (mean.count > 0)
+        for (std::size_t k = 0; k < 3; ++k) rgb[k] = std::max(mean.sum[k] / mean.count, 0.0f);
+      return rgb;
+    };
+    std::vector<EdgePixel> found;
+    for (const Part& part : parts_) {
+      const double share = part.sky_samples / static_cast<double>(side_ * side_);
+      found.push_back({part.pixel, static_cast<float>(std::clamp(share, 0.0, 1.0)),
+                       light(part, &Part::sky), light(part, &Part::ground)});
+    }
+    std::ranges::sort(found, {}, &EdgePixel::pixel);
+    return found;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~0u;
+  struct Mean {
+    std::array<float, 3> sum{};
+    float count = 0;
+  };
+  struct Part {
+    std::size_t pixel, beside;
+    double sky_samples;
+    Mean sky, ground;
+  };
+
+  std::size_t pixel_of(std::size_t sample) const {
+    return sample / columns_ / side_ * width_ + sample % columns_ / side_;
+  }
+
+  std::size_t width_, side_, columns_;
+  std::vector<std::uint8_t> is_sky_;  // [sample]
+  std::vector<std::uint32_t> index_;  // [pixel] in parts_
+  std::vector<Part> parts_;
+};
+
 }  // namespace
 
 void resolve_light(const FrameGraph& graph, int samples_per_side, Frame& frame) {
   const auto pixels = static_cast<std::size_t>(frame.width) * frame.height;
   const float part = 1.0f / static_cast<float>(samples_per_side * samples_per_side);
+  frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
+  Edges edges(frame, samples_per_side);
+  for_numbered_samples(graph, "distance", GL_RED, 1, frame, samples_per_side,
+                       [&](std::size_t pixel, std::size_t sample, const float* kilometres) {
+                         frame.depth_m[pixel] =
+                             std::min(frame.depth_m[pixel], 1e3f * kilometres[0]);
+                         edges.set(sample, std::isinf(kilometres[0]));
+                       });
+  edges.find();
   frame.rgb.assign(3 * pixels, 0);
   frame.luminance.assign(pixels, 0);
-  for_samples(graph, "light", GL_RGBA, 4, frame, samples_per_side,
-              [&](std::size_t pixel, const float* sample) {
-                for (std::size_t k = 0; k < 3; ++k) frame.rgb[3 * pixel + k] += part * sample[k];
-                frame.luminance[pixel] += part * sample[3];
-              });
-  const ColorSpace& space = color_space(frame.primaries);
-  bring_into_gamut(space, {1, 1, 1}, frame.rgb);
+  for_numbered_samples(graph, "light", GL_RGBA, 4, frame, samples_per_side,
+                       [&](std::size_t pixel, std::size_t sample, const float* light) {
+                         for (std::size_t k = 0; k < 3; ++k)
+                           frame.rgb[3 * pixel + k] += part * light[k];
+                         frame.luminance[pixel] += part * light[3];
+                         edges.add(pixel, sample, light);
+                       });
+  bring_into_gamut(color_space(frame.primaries), {1, 1, 1}, frame.rgb);
   resolve_discs(graph, samples_per_side, frame);
-  frame.depth_m.assign(pixels, std::numeric_limits<float>::infinity());
-  for_samples(graph, "distance", GL_RED, 1, frame, samples_per_side,
-              [&](std::size_t pixel, const float* sample) {
-                frame.depth_m[pixel] = std::min(frame.depth_m[pixel], 1e3f * sample[0]);
-              });
+  frame.edges = edges.pixels(frame);
 }
 
 FrameLayers resolve_layers(const FrameGraph& graph, int samples_per_side, const Frame& frame) {
