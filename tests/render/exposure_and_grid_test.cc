@@ -54,11 +54,13 @@ TEST(JoinedGrid, PixelsStandWhereTheyBelong) {
   EXPECT_EQ(whole.metadata[1].first, "skyfit:rows");
 }
 
-TEST(JoinedGrid, DiscsAndGlareMoveWithTheirPixels) {
+TEST(JoinedGrid, DiscsEdgesAndGlareMoveWithTheirPixels) {
   FrameGrid grid;
   grid.frames = {grey(3, 2, 100), grey(3, 2, 200)};  // one below the other
   grid.frames[0].discs = {{4, 0.5f, {1, 1, 1}, 1}};
   grid.frames[1].discs = {{1, 0.5f, {2, 2, 2}, 2}, {5, 1, {3, 3, 3}, 3}};
+  grid.frames[0].edges = {{2, 0.5f, {1, 1, 1}, {0, 0, 0}}};
+  grid.frames[1].edges = {{3, 0.5f, {1, 1, 1}, {0, 0, 0}}};
   grid.frames[1].glare.assign(18, 7);
   const Frame whole = joined(grid);
   constexpr std::size_t kBelow = 3 * (2 + kGridGap);
@@ -66,6 +68,9 @@ TEST(JoinedGrid, DiscsAndGlareMoveWithTheirPixels) {
   EXPECT_EQ(whole.discs[0].pixel, 4u);
   EXPECT_EQ(whole.discs[1].pixel, kBelow + 1);
   EXPECT_EQ(whole.discs[2].pixel, kBelow + 5);
+  ASSERT_EQ(whole.edges.size(), 2u);
+  EXPECT_EQ(whole.edges[0].pixel, 2u);
+  EXPECT_EQ(whole.edges[1].pixel, kBelow + 3);
   ASSERT_EQ(whole.glare.size(), whole.rgb.size());
   EXPECT_EQ(whole.glare[3 * kBelow - 1], 0);
   EXPECT_EQ(whole.glare[3 * kBelow], 7);

@@ -234,5 +234,38 @@ TEST(Views, AreFoundByNameOrListed) {
   }
 }
 
+// Of each column the height of the sky, in pixels, with the shares of the pixels on the line.
+std::vector<double> sky_heights(const Frame& frame) {
+  std::vector<double> sky(frame.depth_m.size()), heights(static_cast<std::size_t>(frame.width), 0);
+  for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = is_sky(frame, i) ? 1 : 0;
+  for (const EdgePixel& edge : frame.edges) sky[edge.pixel] = double{edge.sky_share};
+  for (std::size_t i = 0; i < sky.size(); ++i) heights[i % heights.size()] += sky[i];
+  return heights;
+}
+
+// The curved horizon from 100 km has the same place with one sample to a pixel as with 16, and no
+// steps; without the shares it has.
+TEST(Horizon, HasNoStepsAtAnySampling) {
+  FrameOptions options = options_at({1e5, 100 * kDegree, 0.4, 0.6}, 60 * kDegree, 96, 64);
+  const auto rms = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum / static_cast<double>(a.size()));
+  };
+  options.samples_per_side = 4;
+  const std::vector<double> fine = sky_heights(renderer().draw(options));
+  for (const int samples : {1, 2}) {
+    options.samples_per_side = samples;
+    Frame frame = renderer().draw(options);
+    const double smooth = rms(sky_heights(frame), fine);
+    frame.edges.clear();
+    const double steps = rms(sky_heights(frame), fine);
+    std::printf("[ line   ] %d samples: off by %.3f pixels rms, without shares %.3f\n",
+                samples * samples, smooth, steps);
+    EXPECT_LT(smooth, 0.12);
+    EXPECT_GT(steps, 0.25);
+  }
+}
+
 }  // namespace
 }  // namespace skyfit

@@ -208,5 +208,23 @@ TEST(ViewTransform, ClipCutsChannelsOff) {
   EXPECT_EQ(display_light({3, 1, 0.25}, tone), (ColorChannels{1, 1, 0.25}));
 }
 
+// A pixel half of a sky of 50 times white and half of black ground is half as light as the sky, not
+// as white as their mean.
+TEST(EdgePixel, IsMixedAsTheDisplayShowsItsParts) {
+  Frame frame;
+  frame.width = 2;
+  frame.height = 1;
+  frame.rgb = {50, 50, 50, 25, 25, 25};
+  frame.luminance = {50, 25};
+  ToneOptions tone;
+  tone.exposure = 1;
+  const std::vector<std::uint8_t> mean = tone_mapped(frame, tone);
+  frame.edges = {{1, 0.5f, {50, 50, 50}, {0, 0, 0}}};
+  const std::vector<std::uint8_t> parts = tone_mapped(frame, tone);
+  EXPECT_GT(mean[3], 245);
+  EXPECT_NEAR(parts[3], 188, 2);  // sRGB of half the display's light
+  EXPECT_EQ(parts[0], mean[0]);
+}
+
 }  // namespace
 }  // namespace skyfit
