@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "model/photometry/srgb_transfer.h"
+
 namespace skyfit {
 namespace {
 
@@ -41,12 +43,6 @@ Frame transmittance(const Frame& frame) {
 }
 Frame albedo(const Frame& frame) { return picture_of(frame, layers_of(frame).albedo); }
 
-// Linear light that the sRGB transfer function turns into the value.
-float shown_as(double value) {
-  return static_cast<float>(value <= 0.04045 ? value / 12.92
-                                             : std::pow((value + 0.055) / 1.055, 2.4));
-}
-
 // As in normal maps: a component from -1 to 1 is a channel from 0 to 1.
 Frame normal(const Frame& frame) {
   const std::vector<float>& normals = layers_of(frame).normal;
@@ -54,7 +50,7 @@ Frame normal(const Frame& frame) {
   for (std::size_t pixel = 0; pixel < rgb.size() / 3; ++pixel) {
     if (std::isinf(frame.depth_m[pixel])) continue;  // black, as nothing is there
     for (std::size_t k = 3 * pixel; k < 3 * pixel + 3; ++k)
-      rgb[k] = shown_as(0.5 + 0.5 * normals[k]);
+      rgb[k] = static_cast<float>(srgb_decoded(0.5 + 0.5 * double{normals[k]}));
   }
   return picture_of(frame, std::move(rgb));
 }
@@ -75,7 +71,7 @@ Frame depth(const Frame& frame) {
     const double grey = std::isinf(d) ? 1
                         : range > 0   ? kFarthest * std::log(d / nearest) / range
                                       : 0;
-    rgb.insert(rgb.end(), 3, shown_as(grey));
+    rgb.insert(rgb.end(), 3, static_cast<float>(srgb_decoded(grey)));
   }
   return picture_of(frame, std::move(rgb));
 }

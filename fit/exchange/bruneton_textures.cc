@@ -154,6 +154,7 @@ BrunetonTextures bruneton_textures(const EngineAtmosphere& engine, const Star& s
             (static_cast<std::size_t>(k) * sizes.scattering_mu + j) * width + i;
         put(parts[0], {phase * sun[0], phase * sun[1], phase * sun[2]}, texel, made.scattering);
         if (parts.size() > 1) put(parts[1], sun, texel, made.single_mie);
+        made.scattering[4 * texel + 3] = made.single_mie[4 * texel];
       }
     }
   });

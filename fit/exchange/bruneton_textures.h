@@ -21,7 +21,8 @@ struct BrunetonSizes {
   int scattering_r = 32, scattering_mu = 128, scattering_mu_s = 32, scattering_nu = 8;
 };
 
-// [texel][4] of 680, 550 and 440 nm and 0, x fastest: transmittance to the top (mu by r); diffuse
+// [texel][4] of 680, 550 and 440 nm and 0, but in `scattering` single Mie scattering of 680 nm, x
+// fastest: transmittance to the top (mu by r); diffuse
 // irradiance of a level surface, W m^-2 nm^-1 (mu_s by r); radiance over the Rayleigh phase
 // function and of single Mie scattering over its own, W m^-2 nm^-1 sr^0 (nu and mu_s, mu, r), whose
 // sum times the phase functions 3 (1 + nu^2) / (16 pi) and Cornette & Shanks' is the sky.

@@ -30,7 +30,8 @@ void expect_within_format(const Atmosphere<double>& a) {
         "top_radius_m = {:g}: CalcMySky holds atmospheres of at most 1000 km", a.top_radius_m));
 }
 
-// What an .atmo file says: entries of the file, or of a section with its code.
+// What an .atmo file says: entries of the file, or of a section with its code. Keys in lower case;
+// CalcMySky takes them in any.
 struct Section {
   std::string kind, name;  // "Scatterer", "Absorber"; empty: the file's own
   std::map<std::string, std::string> values;
@@ -50,7 +51,7 @@ class AtmoReader {
         if (key.empty()) fail("expected a key before a code block");
         in_code = !in_code;
       } else if (in_code) {
-        if (!line.empty()) sections_.back().codes[key].emplace_back(line);
+        if (!line.empty()) sections_.back().codes[lower_case(key)].emplace_back(line);
       } else if (line == "}") {
         sections_.push_back({});
       } else if (!line.empty() && line != "{") {
@@ -66,14 +67,19 @@ class AtmoReader {
                            const std::string& key) const {
     for (const Section& s : sections_) {
       if (s.kind != kind || s.name != name) continue;
-      if (const auto found = s.values.find(key); found != s.values.end() && !found->second.empty())
+      if (const auto found = s.values.find(lower_case(key));
+          found != s.values.end() && !found->second.empty())
         return found->second;
     }
     throw std::invalid_argument(fmt::format("{}: {}{}: not there", source_, of(kind, name), key));
   }
 
+  bool has(const Section& s, const std::string& key) const {
+    return s.values.contains(lower_case(key));
+  }
+
   const Code& code(const Section& s, const std::string& key) const {
-    const auto found = s.codes.find(key);
+    const auto found = s.codes.find(lower_case(key));
     if (found == s.codes.end()) fail_value(s, key, "", "GLSL between lines of three backticks");
     return found->second;
   }
@@ -137,13 +143,13 @@ class AtmoReader {
     if (colon == line.npos) fail(in_quotes(line) + ": expected KEY: VALUE");
     std::string key(trim(line.substr(0, colon)));
     for (const std::string_view kind : {"Scatterer", "Absorber"}) {
-      if (!key.starts_with(kind)) continue;
+      if (!lower_case(key).starts_with(lower_case(kind))) continue;
       const std::size_t open = key.find('"'), close = key.rfind('"');
       if (open == key.npos || close <= open) fail(in_quotes(key) + ": expected a name in quotes");
       sections_.push_back({std::string(kind), key.substr(open + 1, close - open - 1), {}, {}});
       return key;
     }
-    sections_.back().values[key] = std::string(trim(line.substr(colon + 1)));
+    sections_.back().values[lower_case(key)] = std::string(trim(line.substr(colon + 1)));
     return key;
   }
 
@@ -288,7 +294,8 @@ const std::map<std::string, double> kAreas = {{"am^2", 1e-36}, {"fm^2", 1e-30}, 
 const std::map<std::string, double> kPure = {{"", 1}};
 
 std::vector<double> read_wavelengths(const AtmoReader& reader) {
-  const std::string& text = reader.value("", "", "wavelengths");
+  std::string text = reader.value("", "", "wavelengths");
+  std::erase(text, ' ');
   double first, last;
   int count = 0, length = 0;
   if (std::sscanf(text.c_str(), "min=%lfnm,max=%lfnm,count=%d%n", &first, &last, &count, &length) !=
@@ -332,6 +339,13 @@ std::optional<Atmosphere<double>> read_calcmysky(std::string_view text, std::str
       c.amount = density.factor * reader.quantity(s.kind, s.name, "cross section at 1 um", kAreas);
       c.angstrom_exponent = reader.quantity(s.kind, s.name, "angstrom exponent", kPure);
       c.phase = read_phase(reader, s);
+      if (const std::string key = "single scattering albedo"; reader.has(s, key)) {
+        for (const double share : reader.spectrum(s.kind, s.name, key, nm.size())) {
+          if (share != 1)
+            reader.fail_value(s, key, reader.value(s.kind, s.name, key),
+                              "1 at every wavelength; absorption is an Absorber's");
+        }
+      }
       absorption_of[s.name + std::string(kAbsorption)] = a.constituents.size();
       a.constituents.push_back(c);
       continue;

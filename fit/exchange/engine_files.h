@@ -11,9 +11,7 @@ std::string unreal_text(const EngineAtmosphere& engine, const ExportFacts& facts
 std::optional<EngineAtmosphere> read_unreal(std::string_view text, std::string_view source,
                                             std::vector<std::string>& notes);
 
-// Absorption at the tip of its ozone layer, 1/m; Hillaire 2020.
-inline constexpr Rgb kUnityOzone = {0.650e-6, 1.881e-6, 0.085e-6};
-
+void restrict_to_unity(EngineAtmosphere& engine);
 std::string unity_text(const EngineAtmosphere& engine, const ExportFacts& facts);
 std::optional<EngineAtmosphere> read_unity(std::string_view text, std::string_view source,
                                            std::vector<std::string>& notes);
@@ -50,7 +48,8 @@ std::string assigned_text(const Script& script, std::string_view name);
 
 // The number that the last line `.. name .. = number` assigns. Throws std::invalid_argument
 // `source:line: name = text: expected a number from 0 to ..` where it is not one, and where the
-// name is missing.
-double assigned_number(const Script& script, std::string_view name, double highest);
+// name is missing, unless there is an `if_none`.
+double assigned_number(const Script& script, std::string_view name, double highest,
+                       std::optional<double> if_none = {});
 
 }  // namespace skyfit::fit

@@ -22,18 +22,6 @@ std::vector<Parameter> aerosol() {
           Parameter::kMieScaleHeight};
 }
 
-// Unity's aerosol is grey.
-void restrict_to_unity(EngineAtmosphere& engine) {
-  const double extinction = engine.mie_scattering[1] + engine.mie_absorption[1],
-               scattering = engine.mie_scattering[1];
-  engine.mie_scattering.fill(scattering);
-  engine.mie_absorption.fill(extinction - scattering);
-  // Its ozone cannot be set; it is taken for Hillaire's.
-  engine.absorption = kUnityOzone;
-  engine.tent_peak_m = EngineAtmosphere{}.tent_peak_m;
-  engine.tent_half_width_m = EngineAtmosphere{}.tent_half_width_m;
-}
-
 std::vector<Parameter> grey_aerosol() {
   return {Parameter::kMieScattering, Parameter::kMiePhaseG, Parameter::kMieScaleHeight};
 }
@@ -101,8 +89,11 @@ Assignment last_assignment(const Script& script, std::string_view name) {
   for (std::string_view row : split(script.text, '\n')) {
     ++line;
     row = row.substr(0, row.find(script.comment));
-    if (const auto match = first_match(row, pattern))
-      found = {line, std::string(trim((*match)[3].str()))};
+    const auto match = first_match(row, pattern);
+    if (!match) continue;
+    const std::string value(trim((*match)[3].str()));
+    // `name = settings.name` refers to a line that has the value.
+    if (!value.ends_with(fmt::format(".{}", name))) found = {line, value};
   }
   return found;
 }
@@ -117,8 +108,10 @@ std::string assigned_text(const Script& script, std::string_view name) {
   return last_assignment(script, name).value;
 }
 
-double assigned_number(const Script& script, std::string_view name, double highest) {
+double assigned_number(const Script& script, std::string_view name, double highest,
+                       std::optional<double> if_none) {
   const Assignment found = last_assignment(script, name);
+  if (found.line == 0 && if_none) return *if_none;
   if (found.line == 0) {
     throw std::invalid_argument(fmt::format("{}: {}: not there, expected a number from 0 to {:g}",
                                             script.source, name, highest));

@@ -17,6 +17,8 @@
 #include "fit/exchange/formula_sky.h"
 #include "fit/exchange/programs.h"
 #include "model/atmosphere/ground_spectrum.h"
+#include "model/numerics/angles.h"
+#include "model/photometry/srgb_transfer.h"
 
 namespace skyfit::fit {
 namespace {
@@ -76,11 +78,8 @@ FormulaFit<kCount> fit_of(double brightness) {
 }
 
 std::string color_text(const Rgb& linear) {
-  const auto encoded = [](double v) {
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-  };
-  return fmt::format("Color({:.6g}, {:.6g}, {:.6g}, 1)", encoded(linear[0]), encoded(linear[1]),
-                     encoded(linear[2]));
+  return fmt::format("Color({:.6g}, {:.6g}, {:.6g}, 1)", srgb_encoded(linear[0]),
+                     srgb_encoded(linear[1]), srgb_encoded(linear[2]));
 }
 
 // Coefficients as a number and a colour whose largest channel is 1.
@@ -130,15 +129,24 @@ Exported export_godot(const ExportRequest& request) {
     const double seen = std::pow(std::max(ground_light[k], 0.0) / std::exp(x[7]), 1 / kGamma);
     ground[k] = horizon > 0 ? std::min(seen / horizon, 1.0) : 0;
   }
+  constexpr double kMostEnergy = 128;  // its range
+  const double energy = std::exp(x[7]) * kPi / beam;
+  if (energy > kMostEnergy)
+    throw std::invalid_argument(fmt::format(
+        "the direct light of this sun is {:.3g} lx: beside a light of energy 1 Godot's sky wants "
+        "an "
+        "energy_multiplier of {:.3g}, expected at most {:g}, as of a higher sun or thinner air",
+        beam, energy, kMostEnergy));
   const Split rayleigh = split_color(x, 0, kRayleighUnit), mie = split_color(x, 3, kMieUnit);
   constexpr double kMieCoefficient = 0.005, kMostTurbidity = 1000;  // its default, its range
   const double mie_coefficient = std::max(kMieCoefficient, mie.amount / kMostTurbidity);
-  return {{{request.file,
-            fmt::format(
-                R"([gd_resource type="PhysicalSkyMaterial" format=3]
+  return {
+      {{request.file, fmt::format(
+                          R"([gd_resource type="PhysicalSkyMaterial" format=3]
 
 ; Sky of the preset {}, for Godot 4. Loss: {}
-; Of a DirectionalLight3D with light_energy 1, whose direct light is then {:.4g} lx.
+; Of a DirectionalLight3D with light_energy 1, whose direct light is then {:.4g} lx, and
+; light_angular_distance {:.4g}, which gives the sun's disc its size.
 [resource]
 rayleigh_coefficient = {:.6g}
 rayleigh_color = {}
@@ -150,11 +158,12 @@ sun_disk_scale = 1.0
 ground_color = {}
 energy_multiplier = {:.6g}
 )",
-                plain_line(request.preset.name), loss, beam, rayleigh.amount,
-                color_text(rayleigh.color), mie_coefficient, x[6], color_text(mie.color),
-                mie.amount / mie_coefficient, color_text(ground), std::exp(x[7]) * kPi / beam)}},
-          {},
-          loss};
+                          plain_line(request.preset.name), loss, beam,
+                          2 * a.star.angular_radius_rad() * kDegreesPerRadian, rayleigh.amount,
+                          color_text(rayleigh.color), mie_coefficient, x[6], color_text(mie.color),
+                          mie.amount / mie_coefficient, color_text(ground), energy)}},
+      {},
+      loss};
 }
 
 }  // namespace skyfit::fit

@@ -107,7 +107,7 @@ std::string text_of(const pugi::xml_document& document) {
 // Luminance, cd/m^2, of a radiance of 1 W m^-2 sr^-1 nm^-1 at all wavelengths: 683 lm/W times the
 // integral of y_bar over wavelength, nm, by which Mitsuba divides what it shows
 // (include/mitsuba/core/spectrum.h).
-constexpr double kSunskyUnit = 683 * 106.856895;
+constexpr double kSunskyUnit = 683 * 106.7502593994140625;
 
 constexpr double kMostTurbidity = 10;
 

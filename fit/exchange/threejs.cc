@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// three.js' object Sky (three.js, examples/jsm/objects/Sky.js, MIT). It is no atmosphere, so its
+// three.js' object Sky (three.js from r183 on, examples/jsm/objects/Sky.js, MIT; before, a power
+// 1 / 2.4 of the light came last). It is no atmosphere, so its
 // own formula is fitted to the preset's sky: formula_light() with beta_R at 680, 550 and 450 nm
 // times `rayleigh`, beta_M = 0.434 0.2 turbidity 1e-17 M times `mieCoefficient`, the air mass of
 // Kasten (cosine + 0.15 (93.885 - zenith in deg)^-1.253) and E = 1000 (1 - exp(-(pi / 1.95 - sun
-// zenith) / 1.5)); a tenth of the transmittance is added, the sum times 0.04 and a blue of the
-// night raised to 1 / 2.4.
+// zenith) / 1.5)); a tenth of the transmittance is added, the sum times 0.04, and a blue of the
+// night.
 #include <fmt/format.h>
 
 #include "fit/exchange/engine_files.h"
@@ -31,7 +32,7 @@ constexpr int kCount = 4;
 struct ThreejsColor {
   template <class T>
   T operator()(const std::array<T, kCount>& x, std::size_t channel, const SkyPoint& p) const {
-    using std::exp, std::pow;
+    using std::exp;
     const FormulaAir<T> air{exp(x[0]) * kRayleigh[channel], exp(x[1]) * kMie * kMieConst[channel],
                             x[2]};
     const double zenith = std::min(p.view_zenith, 0.5 * std::numbers::pi),
@@ -41,7 +42,7 @@ struct ThreejsColor {
                      1000 *
                      std::max(0.0, 1 - std::exp(-(std::numbers::pi / 1.95 - p.sun_zenith) / 1.5));
     const T light = formula_light(air, energy, mass, p) + 0.1 * exp(-air.depth(mass));
-    return exp(x[3]) * pow(0.04 * light + kNight[channel], 1 / 2.4);
+    return exp(x[3]) * (0.04 * light + kNight[channel]);
   }
 };
 
@@ -70,12 +71,13 @@ Exported export_threejs(const ExportRequest& request) {
   const std::string loss = loss_text(color_loss(points, truth, shown));
   return {{{request.file,
             fmt::format(
-                R"(// Sky of the preset {}, for three.js. Loss: {}
-// Its light 1, before tone mapping, is {:.4g} cd/m^2.
-import {{ MathUtils, Vector3 }} from 'three';
+                R"(// Sky of the preset {}, for three.js r183 or later. Loss: {}
+// Its light 1, before tone mapping, is {:.4g} cd/m^2. North is -z.
+import {{ MathUtils, REVISION }} from 'three';
 import {{ Sky }} from 'three/addons/objects/Sky.js';
 
 export function makeSky() {{
+  if (parseInt(REVISION) < 183) console.warn('Before r183 Sky has another formula than these numbers are for.');
   const sky = new Sky();
   sky.scale.setScalar(450000);
   const uniforms = sky.material.uniforms;
@@ -83,6 +85,7 @@ export function makeSky() {{
   uniforms['rayleigh'].value = {:.6g};
   uniforms['mieCoefficient'].value = {:.6g};
   uniforms['mieDirectionalG'].value = {:.6g};
+  if (uniforms['cloudCoverage']) uniforms['cloudCoverage'].value = 0;
   uniforms['sunPosition'].value.setFromSphericalCoords(
       1, MathUtils.degToRad({:.9g}), MathUtils.degToRad({:.9g}));
   return sky;
@@ -100,10 +103,13 @@ std::optional<Atmosphere<double>> read_threejs(std::string_view text, std::strin
   const Script script{text, source, "//"};
   if (!is_assigned(script, "mieCoefficient") && !is_assigned(script, "mieDirectionalG")) return {};
   constexpr double kMost = 1000, kGround = 0.1;
-  const double turbidity = assigned_number(script, "turbidity", kMost),
-               rayleigh = assigned_number(script, "rayleigh", kMost),
-               mie = assigned_number(script, "mieCoefficient", kMost),
-               g = assigned_number(script, "mieDirectionalG", 1);
+  // Without a value the object's own.
+  const double turbidity = assigned_number(script, "turbidity", kMost, 2),
+               rayleigh = assigned_number(script, "rayleigh", kMost, 1),
+               mie = assigned_number(script, "mieCoefficient", kMost, 0.005),
+               g = assigned_number(script, "mieDirectionalG", 1, 0.8);
+  if (assigned_number(script, "cloudCoverage", 1, 0) > 0)
+    notes.emplace_back("cloudCoverage: the clouds of the object are not read");
   EngineAtmosphere engine;
   engine.rayleigh_scale_height_m = kAirHeight;
   engine.mie_scale_height_m = kAerosolHeight;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "model/photometry/srgb_transfer.h"
 #include "render/plot/header.h"
 #include "render/plot/script.h"
 
@@ -53,10 +54,8 @@ double exposure_of(const FisheyeRow& row) {
   return 0.5 / values[values.size() / 2];
 }
 
-int byte_of(double linear) {  // sRGB, IEC 61966-2-1
-  const double x = std::clamp(linear, 0.0, 1.0);
-  const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-  return static_cast<int>(std::lround(255 * s));
+int byte_of(double linear) {
+  return static_cast<int>(std::lround(255 * srgb_encoded(std::clamp(linear, 0.0, 1.0))));
 }
 
 // Rows `x y r g b` of the pixels inside the disc; the sun's side is to the right.

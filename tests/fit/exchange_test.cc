@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "fit/exchange/engines.h"
 #include "fit/exchange/programs.h"
@@ -129,6 +130,105 @@ TEST(Exchange, BlendersSkiesAreToldByTheirType) {
                 1e-9);
     EXPECT_TRUE(notes.empty());
   }
+}
+
+// As the editor copies it: what differs from the defaults, among other things of the actor.
+TEST(Exchange, UnrealsCopiedTextIsRead) {
+  const std::string text =
+      "Begin Map\n"
+      "   Begin Actor Class=/Script/Engine.SkyAtmosphere Name=SkyAtmosphere_0\n"
+      "      Begin Object Name=\"SkyAtmosphereComponent\"\n"
+      "         MieScatteringScale=0.008000\n"
+      "         RayleighScattering=(R=0.200000,G=0.400000,B=1.000000,A=1.000000)\n"
+      "         GroundAlbedo=(B=0,G=108,R=255,A=255)\n"
+      "         OtherTentDistribution=(TipAltitude=20.0,TipValue=0.5,Width=10.0)\n"
+      "         RelativeLocation=(X=0.000000,Y=0.000000,Z=150.000000)\n"
+      "         MieAnisotropy=0.700000\n"
+      "      End Object\n   End Actor\nEnd Map\n";
+  ASSERT_NE(program_of(text), nullptr);
+  EXPECT_EQ(program_of(text)->name, "unreal");
+  std::vector<std::string> notes;
+  const auto read = engine_named("unreal").read(text, "sky.t3d", notes);
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(notes.empty());
+  expect_near(read->rayleigh_scattering, {6.62e-6, 13.24e-6, 33.1e-6}, "rayleigh");
+  expect_near(read->mie_scattering, {8e-6, 8e-6, 8e-6}, "mie");
+  EXPECT_NEAR(read->ground_albedo[0], 1, 1e-12);
+  EXPECT_NEAR(read->ground_albedo[1], 0.15, 1e-3);
+  EXPECT_EQ(read->ground_albedo[2], 0);
+  EXPECT_NEAR(read->absorption[1], 0.5 * 1.881e-6, 1e-12);
+  EXPECT_EQ(read->tent_half_width_m, 10e3);
+  EXPECT_EQ(read->g, 0.7);
+  std::string wrong = text;
+  wrong.replace(wrong.find("0.008000"), 8, "thick");
+  EXPECT_THAT([&] { engine_named("unreal").read(wrong, "sky.t3d", notes); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("sky.t3d:4: SkyAtmosphere.MieScatteringScale = \"thick\"")));
+}
+
+// Model takes increasing wavelengths, of any number.
+TEST(Exchange, BrunetonsSpectraAreInIncreasingOrder) {
+  const Engine& engine = engine_named("bruneton");
+  const EngineAtmosphere written = restricted(shipped("earth-clear"), engine);
+  std::string text = engine.write(written, {"earth-clear", "", 0.5, 1, {}});
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json.at("wavelengths"), (std::vector<double>{440, 550, 680}));
+  EXPECT_GT(json.at("rayleigh_scattering").at(0), json.at("rayleigh_scattering").at(2));
+  const auto changed = [&](const char* field, const nlohmann::json& value) {
+    auto other = json;
+    other[field] = value;
+    std::vector<std::string> notes;
+    return engine.read(other.dump(), "a.json", notes);
+  };
+  auto more = json;
+  more["wavelengths"] = {400, 500, 600, 700};
+  for (const char* field : {"rayleigh_scattering", "mie_scattering", "mie_extinction",
+                            "absorption_extinction", "ground_albedo"})
+    more[field] = {4e-6, 3e-6, 2e-6, 1e-6};
+  std::vector<std::string> notes;
+  expect_near(engine.read(more.dump(), "a.json", notes)->rayleigh_scattering,
+              {1.2e-6, 2.5e-6, 3.6e-6}, "four wavelengths");
+  EXPECT_THAT(
+      [&] {
+        changed("wavelengths", {680, 550, 440});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("increasing numbers")));
+  EXPECT_THAT(
+      [&] {
+        changed("mie_scattering", {1e-6, 1e-6});
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("3 numbers")));
+  EXPECT_THAT([&] { changed("mie_densty", 1); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("mie_densty")));
+  auto steep = json.at("absorption_density");
+  steep[1]["linear_term"] = 2 * steep[1]["linear_term"].get<double>();
+  EXPECT_THAT([&] { changed("absorption_density", steep); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("falls as steeply")));
+  auto layers = json.at("mie_density");
+  layers.insert(layers.begin(), layers[0]);
+  layers[0]["width"] = 2000;
+  EXPECT_THAT([&] { changed("mie_density", layers); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("one layer")));
+}
+
+// Of the types for the Earth the air is the program's own; ozone in a tent.
+TEST(Exchange, UnitysTypesAreObeyed) {
+  std::vector<std::string> notes;
+  const auto read = [&](const std::string& fields) {
+    notes.clear();
+    return *engine_named("unity").read("{\"PhysicallyBasedSky\": {" + fields + "}}", "b.json",
+                                       notes);
+  };
+  const EngineAtmosphere own = read(R"("type": "Custom", "airDensityG": 0.5)"),
+                         earth = read(R"("type": "EarthAdvanced", "airDensityG": 0.5)");
+  EXPECT_NEAR(own.rayleigh_scattering[1], std::log(2) / 8000, 1e-12);
+  EXPECT_NEAR(earth.rayleigh_scattering[1], 13.5e-6, 1e-12);
+  EXPECT_THAT(notes, ::testing::Contains(HasSubstr("EarthAdvanced")));
+  EXPECT_EQ(own.tent_peak_m, 30e3);
+  EXPECT_EQ(own.tent_half_width_m, 10e3);
+  EXPECT_EQ(read(R"("ozoneMinimumAltitude": 10000, "ozoneLayerWidth": 30000)").tent_peak_m, 25e3);
+  EXPECT_THAT([&] { read(R"("type": "Mars")"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("EarthSimple")));
 }
 
 TEST(Exchange, StrangersFilesAreRefusedByField) {

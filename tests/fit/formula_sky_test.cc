@@ -118,7 +118,7 @@ TEST(Threejs, UniformsGiveTheSkyWithinTheLoss) {
                         (r + m);
       const double light =
           std::pow(in * (1 - through), 1.5) * std::lerp(1.0, std::sqrt(in * through), low);
-      rgb[k] = brightness * std::pow((light + 0.1 * through) * 0.04 + kNight[k], 1 / 2.4);
+      rgb[k] = brightness * ((light + 0.1 * through) * 0.04 + kNight[k]);
     }
     shown.push_back(xyz_of_srgb(rgb));
   }
@@ -127,7 +127,7 @@ TEST(Threejs, UniformsGiveTheSkyWithinTheLoss) {
   double rms = 0;
   ASSERT_EQ(std::sscanf(written.loss.c_str(), "luminance RMS %lf %%", &rms), 1) << written.loss;
   EXPECT_NEAR(loss.rms_percent, rms, 0.05);
-  EXPECT_LT(rms, 30);
+  EXPECT_LT(rms, 42);  // more than before r183, whose last power made skies flatter
 
   std::vector<std::string> notes;
   ASSERT_TRUE(read_threejs(text, "sky.js", notes));
@@ -181,7 +181,8 @@ TEST(MitsubaSunsky, ReadBackIsTheSkyWithinTheLoss) {
   EXPECT_NEAR(z, std::cos(zenith), 1e-8);
   Rgb rgb{};
   irradiance >> rgb[0] >> rgb[1] >> rgb[2];
-  constexpr double kUnit = 683 * 106.856895;  // lx of 1 W/(m^2 nm), the integral of y_bar in nm
+  constexpr double kUnit =
+      683 * 106.7502593994140625;  // lx of 1 W/(m^2 nm), the integral of y_bar in nm
   const double lux =
       irradiance_color(scalar().irradiance(preset.atmosphere, rule.nodes, 0, zenith, {}),
                        kDirectNormal, rule, std::vector<double>(rule.nodes.size(), 1))[1];

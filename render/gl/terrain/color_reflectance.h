@@ -5,18 +5,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "model/tables/tables.h"
 
 namespace skyfit {
-
-// Of a coded value 0..1 (IEC 61966-2-1).
-inline double linear_from_srgb(double x) {
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
 
 class ColorReflectance {
  public:

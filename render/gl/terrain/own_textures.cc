@@ -13,6 +13,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "model/photometry/srgb_transfer.h"
 #include "render/gl/passes/site_axes.h"
 
 namespace skyfit {
@@ -113,8 +114,8 @@ glm::dmat3 field_axes(const glm::dvec3& place) {
 
 OwnPicture read_own_color(const fs::path& file, const ColorReflectance& colors) {
   return converted<4>(read_picture(file), [&](const glm::vec3& coded, std::size_t) {
-    const NodeValues value = colors.at(
-        {linear_from_srgb(coded.x), linear_from_srgb(coded.y), linear_from_srgb(coded.z)});
+    const NodeValues value =
+        colors.at({srgb_decoded(coded.x), srgb_decoded(coded.y), srgb_decoded(coded.z)});
     return std::array{static_cast<float>(value[0]), static_cast<float>(value[1]),
                       static_cast<float>(value[2]), static_cast<float>(value[3])};
   });

@@ -14,6 +14,7 @@
 #include <typeinfo>
 #include <vector>
 
+#include "model/photometry/srgb_transfer.h"
 #include "render/gl/terrain/color_reflectance.h"
 #include "render/gl/terrain/cubic_spline.h"
 #include "render/gl/terrain/map_file.h"
@@ -30,7 +31,7 @@ class Code {
     if constexpr (kCoded) {
       meaning_.resize(static_cast<std::size_t>(kLargest) + 1);
       for (std::size_t i = 0; i < meaning_.size(); ++i)
-        meaning_[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / kLargest));
+        meaning_[i] = static_cast<float>(srgb_decoded(static_cast<double>(i) / kLargest));
     }
   }
   double meaning(T stored) const {
