@@ -55,6 +55,7 @@ struct Column {
 
 struct Columns {
   std::size_t date = 0, time = 0;
+  AeronetDate order = AeronetDate::kDayFirst;
   std::optional<std::size_t> latitude, longitude;
   std::vector<Column> values;
 };
@@ -73,6 +74,7 @@ std::optional<Columns> columns_of(const std::vector<std::string>& names) {
     // The first of each: a file may go on with the date of its processing.
     if (!has_date && is_named(name, "date")) {
       columns.date = i;
+      columns.order = aeronet_date(name);
       has_date = true;
     } else if (!has_time && is_named(name, "time")) {
       columns.time = i;
@@ -104,11 +106,12 @@ class RecordReader {
 
   // `head` has the site where no column has.
   AerosolRecord record(const std::optional<Site>& head) const {
-    const auto time = aeronet_instant(field(columns_.date), field(columns_.time));
+    const auto time = aeronet_instant(field(columns_.date), field(columns_.time), columns_.order);
     if (!time)
       fail_at(source_, line_,
-              fmt::format("date and time \"{}\", \"{}\": expected dd:mm:yyyy and hh:mm:ss",
-                          field(columns_.date), field(columns_.time)));
+              fmt::format("date and time \"{}\", \"{}\": expected {} and hh:mm:ss",
+                          field(columns_.date), field(columns_.time),
+                          aeronet_date_form(columns_.order)));
     AerosolRecord record{*time, {}, {}, {}};
     for (const Column& column : columns_.values) {
       const Product& product = column.product;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <regex>
 #include <sstream>
@@ -33,7 +34,7 @@ std::string plain_name(std::string_view column) {
 bool holds_columns(std::string_view line) {
   const std::string text = lower_case(line);
   return text.find("date(") != text.npos && text.find("time(") != text.npos &&
-         text.find("wavelength") != text.npos &&
+         text.find("wavelength") != text.npos && text.find("aod_") == text.npos &&
          (text.find("solar_zenith_angle") != text.npos || text.find(kSunZenith) != text.npos);
 }
 
@@ -53,9 +54,16 @@ bool is_of_scattering(const std::string& column, const std::string& title) {
   return lower_case(title + column).find("scatter") != std::string::npos;
 }
 
-// The angle that a column's name holds, if it is one of radiances.
-std::optional<double> angle_of(const std::string& column, const std::string& title) {
+bool is_of_radiance(std::string_view title) {
+  static const std::regex pattern(R"(\s*(sky[ _]?)?radiance.*)");
+  return whole_match(lower_case(title), pattern).has_value();
+}
+
+// The angle that a column's name holds, if it is one of radiances. `titled`: titles speak of
+// radiances; those of other blocks, as of the parts P1, P2 and P3 of polarised light, are none.
+std::optional<double> angle_of(const std::string& column, const std::string& title, bool titled) {
   if (is_of_scattering(column, title)) return {};
+  if (titled && !is_of_radiance(title)) return {};
   if (!lower_case(column).starts_with(kRadiance)) return finite_number(without_unit(column));
   return finite_number(without_unit(after_last(column, '_')));
 }
@@ -112,12 +120,34 @@ std::string without_tags(const std::string& line) {
   return result;
 }
 
-std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock) {
-  static const std::regex day_first(R"((\d{1,2})[:/.-](\d{1,2})[:/.-](\d{4}))");
-  const auto match = whole_match(date, day_first);
+AeronetDate aeronet_date(std::string_view column) {
+  const std::string name = lower_case(column.substr(std::min(column.find('('), column.size())));
+  if (name.starts_with("(mm")) return AeronetDate::kMonthFirst;
+  return name.starts_with("(yyyy") ? AeronetDate::kYearFirst : AeronetDate::kDayFirst;
+}
+
+std::string_view aeronet_date_form(AeronetDate order) {
+  switch (order) {
+    case AeronetDate::kMonthFirst:
+      return "mm:dd:yyyy";
+    case AeronetDate::kYearFirst:
+      return "yyyy:mm:dd";
+    case AeronetDate::kDayFirst:
+      break;
+  }
+  return "dd:mm:yyyy";
+}
+
+std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock,
+                                       AeronetDate order) {
+  static const std::regex year_last(R"((\d{1,2})[:/.-](\d{1,2})[:/.-](\d{4}))"),
+      year_first(R"((\d{4})[:/.-](\d{1,2})[:/.-](\d{1,2}))");
+  const auto match = whole_match(date, order == AeronetDate::kYearFirst ? year_first : year_last);
   if (!match) return {};
-  return instant(fmt::format("{}-{}-{}", (*match)[3].str(), (*match)[2].str(), (*match)[1].str()),
-                 clock, 0);
+  std::array<std::string, 3> parts = {(*match)[1].str(), (*match)[2].str(), (*match)[3].str()};
+  if (order == AeronetDate::kDayFirst) std::swap(parts[0], parts[2]);
+  if (order == AeronetDate::kMonthFirst) std::ranges::rotate(parts, parts.begin() + 2);
+  return instant(fmt::format("{}-{:0>2}-{:0>2}", parts[0], parts[1], parts[2]), clock, 0);
 }
 
 bool AeronetTable::is_in(std::string_view text) {
@@ -140,6 +170,8 @@ AeronetTable::AeronetTable(std::string_view text, std::string_view source) : sou
     while (!fields.empty() && fields.back().empty()) fields.pop_back();
     if (fields.empty()) continue;
     if (holds_columns(content)) {
+      if (const std::string_view other = other_delimiter(content); !other.empty())
+        fail_at(source_, number, fmt::format("columns between {}: expected commas", other));
       if (!columns_.empty() && fields != columns_)
         fail_at(source_, number, "expected the columns once, or again the same");
       if (columns_.empty()) read_columns(std::move(fields), titles, number);
@@ -156,11 +188,14 @@ void AeronetTable::read_columns(std::vector<std::string> columns,
                                 const std::vector<std::string>& titles, int number) {
   columns_ = std::move(columns);
   header_line_ = number;
+  const bool titled = std::ranges::any_of(titles, [](const std::string& title) {
+    return lower_case(title).find("radiance") != title.npos;
+  });
   for (const std::string& name : columns_) names_.push_back(plain_name(name));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const std::string title = i < titles.size() ? titles[i] : "";
     titled_.push_back(lower_case(title.empty() ? columns_[i] : title + "_" + columns_[i]));
-    if (const auto angle = angle_of(columns_[i], title)) {
+    if (const auto angle = angle_of(columns_[i], title, titled)) {
       expect_no_gap(i, titles);
       angles_.push_back({i, *angle});
     }
@@ -173,6 +208,8 @@ void AeronetTable::read_columns(std::vector<std::string> columns,
   }
   if (!column(kNominal) && !column(kExact) && !column(kWavelength))
     fail_at(source_, number, "expected a column Nominal_Wavelength or Wavelength");
+  read_unit_of_head();
+  date_ = aeronet_date(columns_[*column(kDate)]);
   place_.longitude_deg = head_number(head_, "long");
   place_.latitude_deg = head_number(head_, "lat");
   place_.elevation_m = head_number(head_, "elev");
@@ -189,9 +226,23 @@ void AeronetTable::expect_no_gap(std::size_t column, const std::vector<std::stri
   }
 }
 
+// A line of version 2, "Level 1.5 sky radiances, units uW/cm^2/sr/nm".
+void AeronetTable::read_unit_of_head() {
+  static const std::regex pattern(
+      R"(radiance[^\n]*\bunits?\b[ :=(\[]*([^\s,;)\]]*/sr[^\s,;)\]]*))");
+  if (unit_) return;
+  const auto match = first_match(head_, pattern);
+  if (!match) return;
+  std::string unit = (*match)[1].str();
+  std::ranges::replace(unit, 'w', 'W');  // the head is in lower case
+  add_unit(unit, header_line_);
+}
+
 void AeronetTable::read_unit(std::string_view name, int number) {
-  const std::string text = unit_in(name);
-  if (text.empty()) return;
+  if (const std::string text = unit_in(name); !text.empty()) add_unit(text, number);
+}
+
+void AeronetTable::add_unit(const std::string& text, int number) {
   const std::optional<Unit> unit = find_unit(text);
   if (!unit || unit->quantity != Quantity::kSpectralRadiance) {
     fail_at(source_, number,
@@ -271,8 +322,9 @@ std::string AeronetTable::site(const AeronetLine& line) const {
 
 Instant AeronetTable::time(const AeronetLine& line) const {
   const std::size_t clock = *column(kTime), date = *column(kDate);
-  const auto time = aeronet_instant(line.fields[date], line.fields[clock]);
-  if (!aeronet_instant(line.fields[date], "00:00:00")) fail(line, date, "dd:mm:yyyy");
+  const auto time = aeronet_instant(line.fields[date], line.fields[clock], date_);
+  if (!aeronet_instant(line.fields[date], "00:00:00", date_))
+    fail(line, date, aeronet_date_form(date_));
   if (!time) fail(line, clock, "hh:mm:ss of a day that exists");
   return *time;
 }

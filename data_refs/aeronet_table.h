@@ -6,7 +6,8 @@
 //              AERONET_Site, Latitude, Longitude, Elevation
 //   version 2: Date, Time, Wavelength, SolarZenithAngle; the site in a line `Location=..,long=..`
 // A column of radiances is named by its angle, `-6.000000` or `Radiance_for_.._-6.000`. A line of
-// group titles may stand above; titles or names may state the unit, `Radiance_for_..(W/m^2/sr/um)`;
+// group titles may stand above; titles, names or a line of the head, `.. radiances, units
+// W/m^2/sr/um`, may state the unit, `Radiance_for_..(W/m^2/sr/um)`;
 // columns of scattering angles, which follow in some files with the same names, are none of
 // radiances.
 #pragma once
@@ -24,8 +25,14 @@ namespace skyfit::refs {
 // What the web service adds to a line is taken away.
 std::string without_tags(const std::string& line);
 
+// The order that a column's name states, Date(dd:mm:yyyy) or another; else the first.
+enum class AeronetDate { kDayFirst, kMonthFirst, kYearFirst };
+AeronetDate aeronet_date(std::string_view column);
+std::string_view aeronet_date_form(AeronetDate order);  // "dd:mm:yyyy"
+
 // Of "15:05:2024" and "06:30:00", UTC; nothing when they are no such instant.
-std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock);
+std::optional<Instant> aeronet_instant(const std::string& date, const std::string& clock,
+                                       AeronetDate order);
 
 // 11 of "long=11.000" in the head of version 2, `line` in lower case.
 std::optional<double> head_number(const std::string& line, const std::string& name);
@@ -72,6 +79,8 @@ class AeronetTable {
                     int number);
   void expect_no_gap(std::size_t column, const std::vector<std::string>& titles) const;
   void read_unit(std::string_view name, int number);
+  void read_unit_of_head();
+  void add_unit(const std::string& text, int number);
   std::optional<std::size_t> column(std::string_view name) const;
   double nanometres(const AeronetLine& line, std::optional<std::size_t> column) const;
   Instant time(const AeronetLine& line) const;
@@ -83,6 +92,7 @@ class AeronetTable {
   ImportOptions place_;
   std::optional<std::string_view> unit_;  // one of units()
   int header_line_ = 0;
+  AeronetDate date_ = AeronetDate::kDayFirst;
   std::vector<std::string> columns_, names_;  // as in the file; without unit, case and underscores
   std::vector<std::string> titled_;           // lower case, after the title of their group
   std::vector<AeronetAngle> angles_;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data_refs/netcdf_header.h"
 #include "data_refs/photometer_scans.h"
 #include "fit/exchange/netcdf/netcdf_module.h"
 #include "model/base/module_file.h"
@@ -125,6 +126,7 @@ bool is_netcdf(const std::filesystem::path& file) {
 
 Reference load_arm_csphot(const std::filesystem::path& file, const ImportOptions& options) {
   const std::string source = file.string();
+  require_sound_netcdf(file);
   const NetcdfFile content =
       module_named<fit::NetcdfModule>("skyfit_netcdf_module").read(std::filesystem::absolute(file));
   const Almucantars data = almucantars_of({content, source});

@@ -26,18 +26,12 @@ char delimiter_of(const ColumnMapping& mapping) {
       ->second;
 }
 
-std::vector<std::string> fields_of(const std::string& line, char delimiter) {
+std::vector<std::string> fields_of(const std::string& line, char delimiter, std::string_view source,
+                                   int number) {
+  if (delimiter != ' ') return csv_fields(line, source, number, delimiter);
   std::vector<std::string> fields;
-  if (delimiter == ' ') {
-    std::istringstream words(line);
-    for (std::string word; words >> word;) fields.push_back(word);
-    return fields;
-  }
-  for (const std::string_view field : split(line, delimiter)) fields.emplace_back(trim(field));
-  for (std::string& field : fields) {
-    if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-      field = field.substr(1, field.size() - 2);
-  }
+  std::istringstream words(line);
+  for (std::string word; words >> word;) fields.push_back(word);
   return fields;
 }
 
@@ -52,6 +46,12 @@ std::vector<std::size_t> places(const ColumnMapping& mapping, const std::vector<
       continue;
     }
     const auto found = std::ranges::find(names, column.source);
+    if (std::ranges::count(names, column.source) > 1)
+      fail_at(source, line,
+              fmt::format("{} columns {} (columns.{} of the sidecar): expected one, or its number "
+                          "such as #3",
+                          std::ranges::count(names, column.source), in_quotes(column.source),
+                          column.name));
     if (found == names.end())
       fail_at(source, line,
               fmt::format("expected a column {} (columns.{} of the sidecar), got {}",
@@ -64,6 +64,11 @@ std::vector<std::size_t> places(const ColumnMapping& mapping, const std::vector<
 
 std::string value_of(const ColumnMapping::Column& column, std::string field, bool decimal_comma,
                      std::string_view source, int line) {
+  if (decimal_comma && field.find('.') != field.npos &&
+      field.find_first_not_of("+-0123456789.,") == field.npos)
+    fail_at(source, line,
+            fmt::format("{} = {}: expected a decimal comma and no points, as decimal_comma says",
+                        column.source, in_quotes(field)));
   if (decimal_comma) std::ranges::replace(field, ',', '.');
   const std::optional<double> number = csv_number(field);
   if (!number) {
@@ -157,7 +162,7 @@ std::string mapped_text(std::string_view text, std::string_view source,
       result += skipped ? "#\n" : std::string(content) + "\n";
       continue;
     }
-    const std::vector<std::string> fields = fields_of(line, delimiter);
+    const std::vector<std::string> fields = fields_of(line, delimiter, source, number);
     if (!named) {
       place = places(mapping, fields, source, number);
       named = true;
@@ -175,7 +180,7 @@ std::string mapped_text(std::string_view text, std::string_view source,
       if (place[i] >= fields.size())
         fail_at(source, number,
                 fmt::format("expected at least {} columns, got {}", place[i] + 1, fields.size()));
-      if (!row.empty()) row += ',';
+      if (numbered || i > 0) row += ',';
       row += value_of(mapping.columns[i], fields[place[i]], mapping.decimal_comma, source, number);
     }
     for (const auto& [name, value] : constants) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -14,8 +15,10 @@
 namespace skyfit::refs {
 namespace {
 
-// Reads the quoted field at the front of `rest` and removes it, up to the comma or the end.
-std::string take_quoted(std::string_view& rest, std::string_view source, int line) {
+constexpr std::string_view kBlank = " \r";  // a tab may be the delimiter
+
+// Reads the quoted field at the front of `rest` and removes it, up to the delimiter or the end.
+std::string take_quoted(std::string_view& rest, std::string_view source, int line, char delimiter) {
   std::string field;
   std::size_t i = 1;
   for (;; ++i) {
@@ -27,10 +30,16 @@ std::string take_quoted(std::string_view& rest, std::string_view source, int lin
     }
     field += rest[i];
   }
-  rest = trim(rest.substr(i + 1));
-  if (!rest.empty() && rest.front() != ',')
-    fail_at(source, line, "expected a comma after a closing quote");
+  rest.remove_prefix(i + 1);
+  rest.remove_prefix(std::min(rest.find_first_not_of(kBlank), rest.size()));
+  if (!rest.empty() && rest.front() != delimiter)
+    fail_at(source, line, fmt::format("expected \"{}\" after a closing quote", delimiter));
   return field;
+}
+
+// Spreadsheets end lines with the commas of columns without a name or a value.
+void drop_empty(std::vector<std::string>& fields, std::size_t least) {
+  while (fields.size() > least && fields.back().empty()) fields.pop_back();
 }
 
 }  // namespace
@@ -39,20 +48,30 @@ void fail_at(std::string_view source, int line, std::string_view message) {
   throw std::invalid_argument(fmt::format("{}:{}: {}", source, line, printable(message)));
 }
 
-std::vector<std::string> csv_fields(std::string_view rest, std::string_view source, int line) {
+std::vector<std::string> csv_fields(std::string_view rest, std::string_view source, int line,
+                                    char delimiter) {
   std::vector<std::string> fields;
   for (;;) {
-    rest = trim(rest);
-    if (!rest.empty() && rest.front() == '"') {
-      fields.push_back(take_quoted(rest, source, line));
+    const std::size_t start = rest.find_first_not_of(kBlank);
+    if (start != rest.npos && rest[start] == '"') {
+      rest.remove_prefix(start);
+      fields.push_back(take_quoted(rest, source, line, delimiter));
     } else {
-      const std::size_t comma = rest.find(',');
-      fields.emplace_back(trim(rest.substr(0, comma)));
-      rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma);
+      const std::size_t end = rest.find(delimiter);
+      fields.emplace_back(trim(rest.substr(0, end)));
+      rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end);
     }
     if (rest.empty()) return fields;
-    rest.remove_prefix(1);  // the comma
+    rest.remove_prefix(1);  // the delimiter
   }
+}
+
+std::string_view other_delimiter(std::string_view line) {
+  const auto semicolons = std::ranges::count(line, ';'), tabs = std::ranges::count(line, '\t'),
+             commas = std::ranges::count(line, ',');
+  constexpr int kFew = 2;
+  if (semicolons >= kFew) return "semicolons";
+  return tabs >= kFew && tabs > commas ? "tabs" : "";
 }
 
 std::optional<double> csv_number(std::string_view field) {
@@ -73,8 +92,10 @@ CsvTable::CsvTable(std::string_view text, std::string_view source) : source_(sou
     CsvRecord record{line, csv_fields(content, source_, line)};
     if (header_.line == 0) {
       header_ = std::move(record);
+      drop_empty(header_.fields, 1);
       continue;
     }
+    drop_empty(record.fields, header_.fields.size());
     if (record.fields.size() != header_.fields.size()) {
       fail_at(
           source_, line,

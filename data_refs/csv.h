@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A strict reader of comma-separated values (RFC 4180 on one line per record) for every table that
 // skyfit reads. The first record names the columns. Accepted: CRLF, a byte order mark, blank lines,
-// lines that start with #, quoted fields with "" for a quote, spaces around fields. Every complaint
+// lines that start with #, quoted fields with "" for a quote, spaces around fields, empty fields
+// without a name at the end of a line. Every complaint
 // is one std::invalid_argument of one line, `source:line: column = value: expected ...`.
 #pragma once
 
@@ -50,7 +51,11 @@ class CsvTable {
 };
 
 // The fields of one line, for files that are no table. Throws as CsvTable does.
-std::vector<std::string> csv_fields(std::string_view content, std::string_view source, int line);
+std::vector<std::string> csv_fields(std::string_view content, std::string_view source, int line,
+                                    char delimiter = ',');
+
+// "semicolons" or "tabs" where they separate the fields of a line; empty where it is commas.
+std::string_view other_delimiter(std::string_view line);
 
 // The number that is the whole of a field, nan and inf included; nothing when it is none.
 std::optional<double> csv_number(std::string_view field);

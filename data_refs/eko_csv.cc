@@ -66,7 +66,9 @@ class EkoReader {
     for (std::size_t i = kHeaderLines; i < lines_.size(); ++i) {
       const int line = static_cast<int>(i) + 1;
       if (lines_[i].find_first_not_of(" \t,") == std::string::npos) continue;
-      if (trim(std::string_view(lines_[i]).substr(0, lines_[i].find(','))) == "R") continue;
+      std::string side(trim(std::string_view(lines_[i]).substr(0, lines_[i].find(','))));
+      std::erase(side, '"');
+      if (side == "R") continue;
       left_out.attempt([&] {
         const std::vector<std::string> fields = csv_fields(lines_[i], source_, line);
         if (fields[0] != "L")

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,28 @@
 namespace skyfit::refs {
 namespace {
 
+// Facts that sun_of_scan() takes.
+bool is_about_sun(const ImportOptionRow& row) {
+  constexpr std::array kAbout = {"local_time",  "utc_offset_h",   "latitude_deg",   "longitude_deg",
+                                 "elevation_m", "sun_zenith_deg", "sun_azimuth_deg"};
+  return std::ranges::find(kAbout, row.name) != kAbout.end();
+}
+
+// A CSV of samples has columns for its facts: what its comments state would change its values, or
+// is not needed.
+void check_comments(const SkyFile& file, std::vector<std::string>& notes) {
+  const ScanHeader header = scan_header(file.text(), file.name());
+  for (const ImportOptionRow& row : import_option_table()) {
+    if (!row.is_set(header.facts)) continue;
+    const std::string what = header.place(file.name(), row.name) + ": " + row.name;
+    if (!is_about_sun(row))
+      throw std::invalid_argument(
+          what +
+          ": expected none in a CSV of samples, whose columns say unit, direction and weight");
+    notes.push_back(what + " is not used: a CSV of samples has columns of suns and times");
+  }
+}
+
 Reference read_samples(const SkyFile& file, const ImportOptions& facts) {
   constexpr auto kNone = std::string_view::npos;
   const std::string_view line = file.line();
@@ -42,7 +65,15 @@ Reference read_samples(const SkyFile& file, const ImportOptions& facts) {
     if (const auto other = other_format(file.text()))
       throw std::invalid_argument(file.name() + ": " + *other);
   }
-  return parse_sample_csv(file.text(), file.name(), facts.exclude_samples);
+  if (const std::string_view other = other_delimiter(line); !other.empty())
+    throw std::invalid_argument(fmt::format(
+        "{}: columns between {}: expected commas, or a sidecar with \"delimiter\" and \"columns\"",
+        file.name(), other));
+  std::vector<std::string> notes;
+  check_comments(file, notes);
+  Reference sky = parse_sample_csv(file.text(), file.name(), facts.exclude_samples);
+  std::ranges::move(notes, std::back_inserter(sky.notes));
+  return sky;
 }
 
 template <Reference parse(std::string_view, std::string_view, const ImportOptions&)>
@@ -107,6 +138,11 @@ std::optional<ScanSun> missing_sun(const ImportOptions& facts, std::string_view 
   const bool has_values = mapping.has("luminance_cd_m2") || mapping.has("relative_luminance") ||
                           mapping.has("spectral_radiance_w_m2_sr_nm");
   if (!has_values || mapping.has("sun_zenith_deg")) return {};
+  if (mapping.has(sample_csv::kTime))
+    throw std::invalid_argument(fmt::format(
+        "{}: columns.{}: expected columns.sun_zenith_deg beside it; without one the scan has one "
+        "sun, that of local_time",
+        source, sample_csv::kTime));
   return sun_of_scan(facts, source, mapping.has("view_azimuth_deg"));
 }
 
@@ -130,13 +166,6 @@ std::vector<std::pair<std::string, std::string>> sun_columns(const std::optional
   }
   if (sun->elevation_m) add(kElevation, fmt::format("{}", *sun->elevation_m));
   return columns;
-}
-
-// Facts that sun_of_scan() takes.
-bool is_about_sun(const ImportOptionRow& row) {
-  constexpr std::array kAbout = {"local_time",  "utc_offset_h",   "latitude_deg",   "longitude_deg",
-                                 "elevation_m", "sun_zenith_deg", "sun_azimuth_deg"};
-  return std::ranges::find(kAbout, row.name) != kAbout.end();
 }
 
 const MeasuredFormat& format_of(const SkyFile& file) {
@@ -186,8 +215,13 @@ Reference load_measured_sky(const std::filesystem::path& path, const ImportOptio
   check_suns(facts, sky);
   for (const ImportOptionRow& row : import_option_table()) {
     const bool is_used = (row.formats & format.format) != 0 || (sun && is_about_sun(row));
-    if (row.is_set(facts) && !is_used)
-      sky.notes.push_back(row.name + " is not used: it is not about this format");
+    if (!row.is_set(facts) || is_used) continue;
+    if (facts.columns && !is_about_sun(row))
+      throw std::invalid_argument(fmt::format(
+          "{}: {}: expected none beside columns of luminance; \"times\" and \"plus\" of a column "
+          "change its values",
+          file.name(), row.name));
+    sky.notes.push_back(row.name + " is not used: it is not about this format");
   }
   return sky;
 }

@@ -17,13 +17,18 @@
 namespace skyfit::refs {
 namespace {
 
+// Without the commas that spreadsheets end it with.
+std::string_view without_end(std::string_view line) {
+  return line.substr(0, line.find_last_not_of(", \t\r") + 1);
+}
+
 std::vector<double> read_values(std::string_view text, std::string_view source) {
   std::vector<double> values;
   std::istringstream lines{std::string(text)};
   std::string content;
   for (int line = 1; std::getline(lines, content); ++line) {
     if (first_line(content).empty()) continue;
-    for (const std::string& field : csv_fields(content, source, line)) {
+    for (const std::string& field : csv_fields(without_end(content), source, line)) {
       const std::optional<double> value = csv_number(field);
       if (!value) {
         fail_at(source, line,
@@ -45,7 +50,7 @@ std::vector<double> read_values(std::string_view text, std::string_view source) 
 
 bool is_patch_csv(std::string_view line) {
   if (line.empty() || line.find('"') != line.npos) return false;
-  return std::ranges::all_of(csv_fields(line, {}, 0), [](const std::string& field) {
+  return std::ranges::all_of(csv_fields(without_end(line), {}, 0), [](const std::string& field) {
     return csv_number(field).has_value();
   });
 }

@@ -62,6 +62,8 @@ void read_variable(const std::string& line, const std::string& source, RadianceH
     for (std::size_t k = 0; k < 8; ++k) (*header.primaries)[k] = static_cast<float>(xy[k]);
   } else if (name == "PIXASPECT") {
     if (numbers_of(line, 1, source)[0] != 1) fail(source, line, "square pixels, 1");
+  } else if (name == "GAMMA") {
+    if (numbers_of(line, 1, source)[0] != 1) fail(source, line, "linear light, 1");
   } else if (name == "FORMAT") {
     header.is_xyz = line == "FORMAT=32-bit_rle_xyze";
     if (!header.is_xyz && line != "FORMAT=32-bit_rle_rgbe")

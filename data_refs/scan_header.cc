@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <sstream>
 
 #include "data_refs/csv.h"
+#include "model/base/pattern.h"
 
 namespace skyfit::refs {
 namespace {
@@ -14,11 +16,12 @@ namespace {
 constexpr std::string_view kBlank = " \t\r";
 
 void read_facts(const CommentLine& comment, std::string_view source, ScanHeader& header) {
-  std::istringstream words(comment.text);
-  for (std::string word; words >> word;) {
-    const std::size_t equals = word.find('=');
-    if (equals == std::string::npos) continue;
-    const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
+  static const std::regex fact(R"((\w+)[ \t]*=[ \t]*(\S+))");
+  std::string_view text = comment.text;
+  while (const auto match = first_match(text, fact)) {
+    const std::string name = (*match)[1], value = (*match)[2];
+    text = match->suffix().matched ? std::string_view(match->suffix().first, match->suffix().second)
+                                   : std::string_view{};
     for (const ImportOptionRow& row : import_option_table()) {
       if (row.name != name) continue;
       if (!row.set(value, header.facts)) {

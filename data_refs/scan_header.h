@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the head of a file of measurements says of its scan, as `# name=value name=value` in comment
-// lines with the names of import_option_table(); other words are for the reader.
+// What the head of a file of measurements says of its scan, as `# name=value name = value` in
+// comment lines with the names of import_option_table(); other words are for the reader.
 #pragma once
 
 #include <map>

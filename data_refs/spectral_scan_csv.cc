@@ -107,6 +107,13 @@ Reference parse_spectral_scan(std::string_view text, std::string_view source,
   for (const std::string_view column : {kSample, kViewAzimuth, kViewZenith}) {
     if (!table.has(column)) table.fail_header("expected a column " + std::string(column));
   }
+  for (const std::string& column : table.columns()) {
+    if (!column.starts_with(kRadiance) && column != kSample && column != kViewAzimuth &&
+        column != kViewZenith)
+      table.fail_header(in_quotes(column) +
+                        ": unknown column, expected one of sample, view_azimuth_deg, "
+                        "view_zenith_deg and radiance_ with a wavelength in nm");
+  }
   ScanHeader header = scan_header(text, source);
   read_unit(header);
   const Unit unit = stated_unit(header, options, source, {Quantity::kSpectralRadiance});

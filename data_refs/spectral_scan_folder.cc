@@ -25,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kFirst_nm = 360, kLast_nm = 830;  // the visible
 constexpr double kDefaultBand_nm = 5;  // of the solar irradiance that the model is multiplied with
 constexpr std::string_view kNameExpected =
     "DATE___HH.MM.SS_-_INDEX____AZIMUTH___ALTITUDE.asd.rad.txt";
@@ -38,14 +39,18 @@ struct DirectionFile {
 // By number.
 using DirectionFiles = std::map<int, DirectionFile>;
 
-DirectionFiles direction_files(const fs::path& folder) {
+// `others`: files of spectra by their names, which do not tell direction and time.
+DirectionFiles direction_files(const fs::path& folder, std::vector<std::string>& others) {
   static const std::regex pattern(
       R"((\d{4}-\d{2}-\d{2})_+(\d{2}\.\d{2}\.\d{2})_+-_+(\d{1,6})_+(-?\d+\.?\d*)_+(-?\d+\.?\d*)\.asd\.rad\.txt)");
   DirectionFiles files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     std::smatch match;
-    if (!std::regex_match(name, match, pattern)) continue;
+    if (!std::regex_match(name, match, pattern)) {
+      if (lower_case(name).find(".rad") != name.npos) others.push_back(name);
+      continue;
+    }
     const int number = std::stoi(match[3]);
     DirectionFile file{entry.path(), match[1].str() + "T" + match[2].str(), std::stod(match[4]),
                        std::stod(match[5])};
@@ -88,6 +93,11 @@ Spectrum read_spectrum(const fs::path& file) {
     spectrum.value.push_back(*value);
   }
   if (spectrum.wavelength_nm.size() < 2) fail_at(source, 2, "expected at least 2 wavelengths");
+  if (spectrum.wavelength_nm.back() < kFirst_nm || spectrum.wavelength_nm.front() > kLast_nm)
+    fail_at(source, 2,
+            fmt::format("wavelengths {:g} to {:g}: expected some of {:g} to {:g} nm",
+                        spectrum.wavelength_nm.front(), spectrum.wavelength_nm.back(), kFirst_nm,
+                        kLast_nm));
   return spectrum;
 }
 
@@ -109,7 +119,6 @@ double band_mean(const Spectrum& spectrum, double nm, double band_nm) {
 // The multiples of the band's width whose band lies within the spectrum and 360 to 830 nm, the
 // visible.
 std::vector<double> band_centres(const Spectrum& spectrum, double band_nm) {
-  constexpr double kFirst_nm = 360, kLast_nm = 830;
   const double low = std::max(kFirst_nm, spectrum.wavelength_nm.front()) + band_nm / 2;
   const double high = std::min(kLast_nm, spectrum.wavelength_nm.back()) - band_nm / 2;
   std::vector<double> centres;
@@ -135,7 +144,8 @@ std::vector<std::string> times_of_scan(const DirectionFiles& files, const fs::pa
 }  // namespace
 
 Reference load_spectral_scan_folder(const fs::path& folder, const ImportOptions& options) {
-  const DirectionFiles files = direction_files(folder);
+  std::vector<std::string> others;
+  const DirectionFiles files = direction_files(folder, others);
   const std::vector<std::string> times = times_of_scan(files, folder);
   ImportOptions facts = options;
   if (!facts.local_time) facts.local_time = times[times.size() / 2];
@@ -162,6 +172,10 @@ Reference load_spectral_scan_folder(const fs::path& folder, const ImportOptions&
     }
   }
   for (const std::string& note : left_out.notes()) sky.note(note);
+  if (!others.empty())
+    sky.note(fmt::format("{} of .rad left out, as {}: expected a name {}",
+                         others.size() == 1 ? "a file" : fmt::format("{} files", others.size()),
+                         in_quotes(*std::ranges::min_element(others)), kNameExpected));
   return sky.finish();
 }
 

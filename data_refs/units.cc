@@ -8,6 +8,8 @@
 #include <array>
 #include <map>
 #include <regex>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "model/base/pattern.h"
@@ -16,13 +18,17 @@ namespace skyfit::refs {
 namespace {
 
 constexpr auto kSpectral = Quantity::kSpectralRadiance;
-constexpr std::array kUnits = {Unit{"W m-2 sr-1 nm-1", kSpectral, 1},
-                               Unit{"mW m-2 sr-1 nm-1", kSpectral, 1e-3},
-                               Unit{"W m-2 sr-1 um-1", kSpectral, 1e-3},
-                               Unit{"uW cm-2 sr-1 nm-1", kSpectral, 1e-2},
-                               Unit{"cd m-2", Quantity::kLuminance, 1},
-                               Unit{"kcd m-2", Quantity::kLuminance, 1e3},
-                               Unit{"relative", Quantity::kRelativeLuminance, 1}};
+constexpr std::array kUnits = {
+    Unit{"W m-2 sr-1 nm-1", kSpectral, 1},      Unit{"mW m-2 sr-1 nm-1", kSpectral, 1e-3},
+    Unit{"W m-2 sr-1 um-1", kSpectral, 1e-3},   Unit{"uW cm-2 sr-1 nm-1", kSpectral, 1e-2},
+    Unit{"mW cm-2 sr-1 um-1", kSpectral, 1e-2}, Unit{"cd m-2", Quantity::kLuminance, 1},
+    Unit{"kcd m-2", Quantity::kLuminance, 1e3}, Unit{"relative", Quantity::kRelativeLuminance, 1}};
+
+// What is written otherwise: the micro sign and the Greek letter, superscripts, a slash the wrong
+// way round.
+constexpr std::pair<std::string_view, std::string_view> kSpellings[] = {
+    {"\u00b5", "u"}, {"\u03bc", "u"}, {"\u00b2", "^2"}, {"\u207b", "^-"}, {"^-^", "^-"},
+    {"\u00b9", "1"}, {"\\", "/"},     {"\u00b7", " "},  {"**", "^"}};
 
 using Exponents = std::map<std::string, int>;
 
@@ -78,7 +84,12 @@ std::string unit_names(std::initializer_list<Quantity> quantities) {
 }
 
 std::optional<Unit> find_unit(std::string_view text) {
-  const std::optional<Exponents> wanted = exponents(text);
+  std::string plain(text);
+  for (const auto& [spelling, ours] : kSpellings) {
+    for (std::size_t at = plain.find(spelling); at != plain.npos; at = plain.find(spelling))
+      plain.replace(at, spelling.size(), ours);
+  }
+  const std::optional<Exponents> wanted = exponents(plain);
   if (!wanted) return {};
   const auto unit = std::ranges::find_if(
       kUnits, [&](const Unit& candidate) { return exponents(candidate.name) == wanted; });

@@ -33,13 +33,17 @@ std::vector<std::string> words_of(std::string_view line, std::string_view = {}, 
   return words;
 }
 
+std::vector<std::string> comma_fields(std::string_view line, std::string_view source, int number) {
+  return csv_fields(line, source, number);
+}
+
 // What a file says of itself and how its rows are read.
 struct Layout {
   Site site = {};
   double utc_offset_h = 0;
   int first_row = 0;  // line
   std::vector<std::string> (*fields)(std::string_view line, std::string_view source,
-                                     int number) = csv_fields;
+                                     int number) = comma_fields;
   double interval_h = 1;
   std::size_t direct = 0, diffuse = 0;    // fields of a row
   std::optional<std::size_t> water = {};  // precipitable water
@@ -78,6 +82,8 @@ Site site_of(double latitude_deg, double longitude_deg, double elevation_m, doub
 Clock epw_clock(const std::vector<std::string>& fields, double interval_h, std::string_view source,
                 int line) {
   const double hour = number_of(fields, 3, "hour", source, line);
+  if (!(hour >= 1 && hour <= 24))
+    fail_at(source, line, fmt::format("hour = {:.9g}: expected 1 to 24, the hour that ends", hour));
   const double minute = interval_h < 1 ? number_of(fields, 4, "minute", source, line) : 60;
   return {static_cast<unsigned>(number_of(fields, 1, "month", source, line)),
           static_cast<unsigned>(number_of(fields, 2, "day", source, line)),
@@ -137,7 +143,13 @@ Layout wea_layout(const std::vector<std::string>& lines, std::string_view source
     return number_of(words, 1, name, source, static_cast<int>(line) + 1);
   };
   const double latitude = header(1, "latitude"), longitude = -header(2, "longitude");
-  layout.utc_offset_h = -header(3, "time_zone") / 15;
+  const double meridian = header(3, "time_zone");
+  if (constexpr double kQuarter = 3.75; std::remainder(meridian, kQuarter) != 0)
+    fail_at(source, 4,
+            fmt::format("time_zone = {:.9g}: expected the meridian of the clock, degrees west, a "
+                        "multiple of {:g}, 15 for an hour",
+                        meridian, kQuarter));
+  layout.utc_offset_h = -meridian / 15;
   layout.site =
       site_of(latitude, longitude, header(4, "site_elevation"), layout.utc_offset_h, source);
   if (header(5, "weather_data_file_units") != 1)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "data_refs/netcdf_header.h"
 #include "model/base/module_file.h"
 #include "model/base/whole_file.h"
 #include "model/version.h"
@@ -29,7 +30,10 @@ void write_netcdf(const std::filesystem::path& file, const NetcdfFile& content) 
   write_whole_file(file, module().bytes(file, content));
 }
 
-NetcdfFile read_netcdf(const std::filesystem::path& file) { return module().read(file); }
+NetcdfFile read_netcdf(const std::filesystem::path& file) {
+  refs::require_sound_netcdf(file);
+  return module().read(file);
+}
 
 template <class Values>
 const Values& netcdf_values(const NetcdfFile& file, std::string_view variable,

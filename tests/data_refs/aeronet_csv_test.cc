@@ -166,6 +166,43 @@ TEST(AeronetCsv, ScatteringAnglesAreNoRadiances) {
   EXPECT_EQ(parse(titled).samples.size(), 3u);
 }
 
+// A block under another title, before or behind, is none of radiances.
+TEST(AeronetCsv, OtherBlocksAreNoRadiances) {
+  const auto titled = [&](const std::string& titles, const std::string& angles,
+                          const std::string& values) {
+    const std::size_t columns = kHead.find("AERONET_Site");
+    return kHead.substr(0, columns) + ",,,,,,,," + titles + "\n" + kHead.substr(columns) + angles +
+           "\n" + line("11:11:49", "440", "60", values);
+  };
+  const Reference sky =
+      parse(titled("Elevation_Angle,,Radiance,", "-6.0,6.0,-6.0,6.0", "30,31,22,20"));
+  ASSERT_EQ(sky.samples.size(), 2u);
+  EXPECT_NEAR(sky.samples[0].value, 0.22, kRounding);
+  EXPECT_THAT(complaint(titled("P1_Radiance,,P2_Radiance,", "-6.0,6.0,-6.0,6.0", "30,31,22,20")),
+              testing::HasSubstr("expected columns of radiances"));
+}
+
+TEST(AeronetCsv, DatesStandAsTheirColumnSays) {
+  const auto time_of = [&](const std::string& form, const std::string& date) {
+    std::string text = kBare + line("11:11:49", "440", "60", "22,,,20,2");
+    text.replace(text.find("dd:mm:yyyy"), 10, form);
+    const std::size_t row = text.find(kBare.back(), text.find("-6.000000")) + 1,
+                      comma = text.find(',', row);
+    text.replace(comma + 1, text.find(',', comma + 1) - comma - 1, date);
+    return parse(text).scans[0].time_utc;
+  };
+  const std::string day_first = time_of("dd:mm:yyyy", "15:05:2024");
+  EXPECT_THAT(day_first, StartsWith("2024-05-15T11:11:49"));
+  EXPECT_EQ(time_of("mm:dd:yyyy", "05:15:2024"), day_first);
+  EXPECT_EQ(time_of("yyyy-mm-dd", "2024-05-15"), day_first);
+}
+
+TEST(AeronetCsv, TheHeadMayStateTheUnit) {
+  std::string text = kBare + line("11:11:49", "440", "60", "22,,,20,2");
+  text.insert(text.find("free text"), "Level 1.5 sky radiances, units W/m^2/sr/um\n");
+  EXPECT_NEAR(parse(text).samples[0].value, 0.022, kRounding);
+}
+
 // 1 uW/cm^2 is 0.01 W/m^2, 1/um is 0.001/nm.
 TEST(AeronetCsv, TitlesAndNamesStateTheUnit) {
   const std::string values = line("11:11:49", "440", "60", "22,20");

@@ -114,7 +114,7 @@ TEST_F(ArmFiles, OthersAreNamed) {
 
 TEST_F(ArmFiles, ADamagedOneIsAnError) {
   std::ofstream(file_, std::ios::binary) << "CDF\1 and nothing more";
-  EXPECT_THROW(load_measured_sky(file_, {}), std::runtime_error);
+  EXPECT_THROW(load_measured_sky(file_, {}), std::invalid_argument);
   std::ofstream(file_, std::ios::binary) << "\x89HDF";
   EXPECT_THROW(load_measured_sky(file_, {}), std::runtime_error);
 }

@@ -96,6 +96,30 @@ TEST_F(ColumnMappingTest, NamesLinesOfTheFile) {
   EXPECT_THAT(complaint("head\nAzi\tZen\tL\n1\t95\t3\n", sidecar), HasSubstr("sky.txt:3: "));
 }
 
+// What would be read as something else.
+TEST_F(ColumnMappingTest, WhatMeansSomethingElseIsRefused) {
+  const auto sidecar = [](const std::string& more) {
+    return R"({"columns": {"view_azimuth_deg": "Azi", "view_zenith_deg": "Zen",
+                           "luminance_cd_m2": "L"}, "delimiter": ";", "decimal_comma": true,
+               "sun_zenith_deg": 30, "sun_azimuth_deg": 180)" +
+           more + "}";
+  };
+  const std::string head = "Azi;Zen;L\n", rows = "10;20;4,5\n";
+  EXPECT_EQ(read(head + rows, sidecar("")).samples[0].value, 4.5);
+  EXPECT_EQ(read(head + "\"10\";20;\"4,5\"\n", sidecar("")).samples[0].value, 4.5);
+  EXPECT_THAT(complaint(head + "10;20;4.500\n", sidecar("")),
+              HasSubstr("sky.txt:2: L = \"4.500\": expected a decimal comma and no points"));
+  EXPECT_THAT(complaint("Azi;Zen;L;L\n10;20;4,5;5\n", sidecar("")),
+              HasSubstr("sky.txt:1: 2 columns \"L\""));
+  EXPECT_THAT(complaint(head + rows, sidecar(R"(, "unit": "kcd m-2")")),
+              HasSubstr("unit: expected none beside columns of luminance"));
+  EXPECT_THAT(complaint(head + "10;20;\n", sidecar("")), HasSubstr("sky.txt:2: luminance_cd_m2"));
+  std::string timed = sidecar("");
+  timed.insert(timed.find("\"view_zenith"), "\"time_utc\": \"T\", ");
+  EXPECT_THAT(complaint("Azi;Zen;T;L\n10;20;2024-06-21T12:00:00Z;4,5\n", timed),
+              HasSubstr("columns.time_utc: expected columns.sun_zenith_deg beside it"));
+}
+
 TEST_F(ColumnMappingTest, BadMappingsAreRefusedInALine) {
   const auto with = [&](const std::string& fields) {
     return complaint("a,b\n1,2\n", R"({"columns": {"view_zenith_deg": "a"}, )" + fields + "}");

@@ -44,9 +44,26 @@ TEST(Csv, FaultsNameTheirLine) {
   EXPECT_EQ(complaint("a,b\n1,2,3\n"), "t.csv:2: expected 2 fields, got 3");
   EXPECT_EQ(complaint("a,a\n"), "t.csv:1: column a: expected once, found twice");
   EXPECT_EQ(complaint("a\n\x1b[2J\n"), "t.csv:2: a = \"?[2J\": expected a finite number");
-  EXPECT_EQ(complaint("a,\n"), "t.csv:1: column 2 has no name");
+  EXPECT_EQ(complaint("a,,b\n"), "t.csv:1: column 2 has no name");
   EXPECT_EQ(complaint("a\n\"1\n"), "t.csv:2: expected a closing quote before the end of the line");
-  EXPECT_EQ(complaint("a\n\"1\"2\n"), "t.csv:2: expected a comma after a closing quote");
+  EXPECT_EQ(complaint("a\n\"1\"2\n"), "t.csv:2: expected \",\" after a closing quote");
+}
+
+// As spreadsheets end them.
+TEST(Csv, EmptyColumnsAtTheEndAreNone) {
+  const CsvTable table("a,b,,\n1,2,,\n3,,,\n", "t.csv");
+  EXPECT_EQ(table.columns().size(), 2u);
+  EXPECT_EQ(table.text(table.records()[1], "b"), "");
+  EXPECT_EQ(complaint("a,\n1,2\n"), "t.csv:2: expected 1 fields, got 2");
+}
+
+TEST(Csv, KnowsOtherDelimiters) {
+  EXPECT_EQ(other_delimiter("a;b;c"), "semicolons");
+  EXPECT_EQ(other_delimiter("1,5;2,5;3,5"), "semicolons");
+  EXPECT_EQ(other_delimiter("a\tb\tc"), "tabs");
+  EXPECT_EQ(other_delimiter("a,b;c,d"), "");
+  EXPECT_EQ(csv_fields("\"a;b\"; c;\"\"", "t", 1, ';'), (std::vector<std::string>{"a;b", "c", ""}));
+  EXPECT_EQ(csv_fields("\"a\"\tb\t", "t", 1, '\t'), (std::vector<std::string>{"a", "b", ""}));
 }
 
 TEST(Csv, OnlyFiniteNumbersAreNumbers) {

@@ -64,6 +64,23 @@ TEST(SpectralScan, IsRecognisedByItsColumns) {
   EXPECT_FALSE(is_spectral_scan("sun_zenith_deg,view_zenith_deg,view_azimuth_deg,luminance_cd_m2"));
 }
 
+// A band, a weight or a sun that nobody reads would be missed.
+TEST(SpectralScan, UnknownColumnsAreNamed) {
+  std::string columns = kColumns;
+  columns.erase(columns.rfind('_'), 1);
+  EXPECT_THAT(complaint(kPlace + kUnit + columns + kRecords),
+              testing::HasSubstr("unknown column, expected one of sample"));
+}
+
+// Blanks around the sign change nothing.
+TEST(SpectralScan, FactsMayHaveBlanks) {
+  std::string spaced = kPlace;
+  for (std::size_t at = 0; (at = spaced.find('=', at)) != spaced.npos; at += 3)
+    spaced.replace(at, 1, " = ");
+  EXPECT_EQ(parse(spaced + kUnit + kColumns + kRecords).samples[0].sun_zenith,
+            parse(kPlace + kUnit + kColumns + kRecords).samples[0].sun_zenith);
+}
+
 TEST(SpectralScan, UnitsAreConverted) {
   for (const auto& [unit, value] : {std::pair{"mW m-2 sr-1 nm-1", 1e-4},
                                     {"W/(m^2 sr um)", 1e-4},
@@ -77,7 +94,8 @@ TEST(SpectralScan, UnitsAreConverted) {
 
 TEST(SpectralScan, UnitIsStatedByTheFileOrTheOptions) {
   const std::string accepted =
-      "expected one of W m-2 sr-1 nm-1, mW m-2 sr-1 nm-1, W m-2 sr-1 um-1, uW cm-2 sr-1 nm-1";
+      "expected one of W m-2 sr-1 nm-1, mW m-2 sr-1 nm-1, W m-2 sr-1 um-1, uW cm-2 sr-1 nm-1, "
+      "mW cm-2 sr-1 um-1";
   const std::string bare = kPlace + kColumns + kRecords;
   EXPECT_EQ(complaint(bare), "scan.csv: unit: not stated, " + accepted);
   EXPECT_EQ(complaint(kPlace + "# radiance_<nm> in cd/m^2\n" + kColumns + kRecords),

@@ -28,10 +28,20 @@ TEST(Units, OthersAreNothing) {
   }
 }
 
+TEST(Units, OtherSpellingsAreTheSame) {
+  for (const char* text :
+       {"uW/cm\u00b2/sr/nm", "\u00b5W cm\u207b\u00b2 sr\u207b\u00b9 nm\u207b\u00b9",
+        "\u03bcW/cm^2/sr/nm", "uW/cm^2/sr\\nm", "uW cm**-2 sr**-1 nm**-1"}) {
+    ASSERT_TRUE(find_unit(text)) << text;
+    EXPECT_EQ(find_unit(text)->name, "uW cm-2 sr-1 nm-1") << text;
+  }
+  EXPECT_EQ(find_unit("mW/cm^2/sr/um")->factor, find_unit("uW/cm^2/sr/nm")->factor);
+}
+
 TEST(Units, AreListedByQuantity) {
   EXPECT_EQ(unit_names({Quantity::kLuminance, Quantity::kRelativeLuminance}),
             "cd m-2, kcd m-2, relative");
-  EXPECT_EQ(units().size(), 7u);
+  EXPECT_EQ(units().size(), 8u);
 }
 
 }  // namespace

@@ -117,6 +117,10 @@ TEST_F(WeatherFile, FaultsAreNamed) {
   EXPECT_THAT(complaint(north, "2026-06-21T11:20"), HasSubstr("latitude = 91"));
   EXPECT_THAT(complaint("hello\n", "2026-06-21T11:20"),
               HasSubstr("expected EPW, WEA, TMY2 or TMY3"));
+  std::string zone = kWea;
+  const std::size_t at = zone.find("time_zone ") + 10;
+  zone.replace(at, zone.find('\n', at) - at, "7");
+  EXPECT_THAT(complaint(zone, "2026-06-21T11:20"), HasSubstr("weather.txt:4: time_zone = 7"));
   std::string bad = kEpw;
   bad.replace(bad.find(",950,850,"), 9, ",950,9999,");
   EXPECT_THAT(complaint(bad, "2026-06-21T11:20"),

@@ -144,6 +144,7 @@ std::string with_joined_lines(std::string_view obj) {
   while (!obj.empty()) {
     std::string_view line = obj.substr(0, obj.find('\n'));
     obj.remove_prefix(std::min(line.size() + 1, obj.size()));
+    line = line.substr(0, line.find('#'));  // a comment
     if (line.ends_with('\r')) line.remove_suffix(1);
     const bool goes_on = line.ends_with('\\');
     if (goes_on) line.remove_suffix(1);
