@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "data_refs/csv.h"
+#include "data_refs/sample_csv_columns.h"
 #include "model/base/text.h"
 
 namespace skyfit::refs {
@@ -62,6 +63,34 @@ std::vector<std::size_t> places(const ColumnMapping& mapping, const std::vector<
   return result;
 }
 
+bool is_radiance(std::string_view column) { return column.starts_with("radiance_"); }
+
+bool is_sample_value(std::string_view column) {
+  return std::ranges::find(sample_csv::kValueColumns, column, &sample_csv::ValueColumn::name) !=
+         sample_csv::kValueColumns.end();
+}
+
+// As loggers and spreadsheets write it.
+bool is_missing(std::string_view field) {
+  constexpr std::array<std::string_view, 6> kNone = {"", "-", "--", "NA", "N/A", "NaN"};
+  const std::optional<double> number = csv_number(field);
+  return std::ranges::find(kNone, field) != kNone.end() ||
+         (number && (std::isnan(*number) || *number == -999 || *number == -9999));
+}
+
+// Why a sample of the mapped values, in the mapping's order, cannot be used; empty where it can.
+std::string_view flaw_of(const ColumnMapping& mapping, const std::vector<std::string>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::optional<double> number = csv_number(values[i]);
+    if (!number) continue;
+    const std::string& name = mapping.columns[i].name;
+    if (is_sample_value(name) && std::isnan(*number)) return "missing";
+    if (is_sample_value(name) && !(*number > 0)) return "not positive";
+    if (name == sample_csv::kViewZenith && !(*number < 90)) return "outside the sky";
+  }
+  return {};
+}
+
 std::string value_of(const ColumnMapping::Column& column, std::string field, bool decimal_comma,
                      std::string_view source, int line) {
   if (decimal_comma && field.find('.') != field.npos &&
@@ -70,6 +99,7 @@ std::string value_of(const ColumnMapping::Column& column, std::string field, boo
             fmt::format("{} = {}: expected a decimal comma and no points, as decimal_comma says",
                         column.source, in_quotes(field)));
   if (decimal_comma) std::ranges::replace(field, ',', '.');
+  if ((is_radiance(column.name) || is_sample_value(column.name)) && is_missing(field)) return "nan";
   const std::optional<double> number = csv_number(field);
   if (!number) {
     if (column.times == 1 && column.plus == 0) return csv_field(field);  // a label, say
@@ -139,8 +169,13 @@ std::string mapped_text(std::string_view text, std::string_view source,
   // A spectral scan numbers its samples.
   const bool numbered =
       !mapping.has("sample") && std::ranges::any_of(mapping.columns, [](const auto& column) {
-        return column.name.starts_with("radiance_");
+        return is_radiance(column.name);
       });
+  // Where the file has no weights, what cannot be used has none.
+  const bool weighted = !mapping.has(sample_csv::kWeight) && !mapping.has(sample_csv::kReason) &&
+                        std::ranges::any_of(mapping.columns, [](const auto& column) {
+                          return is_sample_value(column.name);
+                        });
   std::string names = numbered ? "sample" : "";
   const auto add = [&](const std::string& name) {
     if (!names.empty()) names += ',';
@@ -148,6 +183,7 @@ std::string mapped_text(std::string_view text, std::string_view source,
   };
   for (const ColumnMapping::Column& column : mapping.columns) add(column.name);
   for (const auto& [name, value] : constants) add(name);
+  if (weighted) names += fmt::format(",{},{}", sample_csv::kWeight, sample_csv::kReason);
 
   std::string result;
   std::vector<std::size_t> place;
@@ -163,6 +199,10 @@ std::string mapped_text(std::string_view text, std::string_view source,
       continue;
     }
     const std::vector<std::string> fields = fields_of(line, delimiter, source, number);
+    if (std::ranges::all_of(fields, &std::string::empty)) {
+      result += '\n';
+      continue;
+    }
     if (!named) {
       place = places(mapping, fields, source, number);
       named = true;
@@ -175,19 +215,19 @@ std::string mapped_text(std::string_view text, std::string_view source,
       if (result.starts_with("#\n")) result.erase(0, 2);
       result += '\n';
     }
-    std::string row = numbered ? fmt::format("{}", sample++) : std::string();
+    std::vector<std::string> values;
     for (std::size_t i = 0; i < place.size(); ++i) {
       if (place[i] >= fields.size())
         fail_at(source, number,
                 fmt::format("expected at least {} columns, got {}", place[i] + 1, fields.size()));
-      if (numbered || i > 0) row += ',';
-      row += value_of(mapping.columns[i], fields[place[i]], mapping.decimal_comma, source, number);
+      values.push_back(
+          value_of(mapping.columns[i], fields[place[i]], mapping.decimal_comma, source, number));
     }
-    for (const auto& [name, value] : constants) {
-      row += ',';
-      row += csv_field(value);
-    }
-    result += row + '\n';
+    const std::string_view flaw = flaw_of(mapping, values);
+    if (numbered) values.insert(values.begin(), fmt::format("{}", sample++));
+    for (const auto& [name, value] : constants) values.push_back(csv_field(value));
+    if (weighted) values.push_back(fmt::format("{},{}", flaw.empty() ? 1 : 0, flaw));
+    result += fmt::format("{}\n", fmt::join(values, ","));
   }
   return result;
 }

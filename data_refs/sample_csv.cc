@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -70,7 +71,9 @@ void expect_columns(const CsvTable& table) {
 class SampleReader {
  public:
   explicit SampleReader(const CsvTable& table)
-      : table_(table), value_column_(value_column(table).name) {}
+      : table_(table),
+        value_column_(value_column(table).name),
+        labels_(table.has(kScan) ? std::vector<std::string>{} : labels_by_sun()) {}
 
   Sample read(const CsvRecord& record) {
     Sample sample;
@@ -157,9 +160,30 @@ class SampleReader {
       if (table_.text(record, kScan).empty()) table_.fail_value(record, kScan, "a label");
       return table_.text(record, kScan);
     }
-    const std::string zenith = fmt::format("sun zenith {} deg", table_.text(record, kSunZenith));
-    if (!table_.has(kSunAzimuth)) return zenith;
-    return fmt::format("{}, azimuth {} deg", zenith, table_.text(record, kSunAzimuth));
+    return labels_[static_cast<std::size_t>(&record - table_.records().data())];
+  }
+
+  // Every position of the sun is a scan. Where each sample has one of its own, the sun moves within
+  // a scan, until it jumps.
+  std::vector<std::string> labels_by_sun() const {
+    constexpr double kJump_deg = 1;
+    std::vector<std::string> labels;
+    for (const CsvRecord& record : table_.records()) {
+      labels.push_back(fmt::format("sun zenith {} deg", table_.text(record, kSunZenith)));
+      if (table_.has(kSunAzimuth))
+        labels.back() += fmt::format(", azimuth {} deg", table_.text(record, kSunAzimuth));
+    }
+    if (std::set(labels.begin(), labels.end()).size() < labels.size()) return labels;
+    const auto jump = [&](std::string_view column, std::size_t i) {
+      return table_.has(column) &&
+             !(std::abs(std::remainder(table_.number(table_.records()[i], column) -
+                                           table_.number(table_.records()[i - 1], column),
+                                       360)) < kJump_deg);
+    };
+    for (std::size_t i = 1; i < labels.size(); ++i) {
+      if (!jump(kSunZenith, i) && !jump(kSunAzimuth, i)) labels[i] = labels[i - 1];
+    }
+    return labels;
   }
 
   std::string reason(const CsvRecord& record) const {
@@ -192,6 +216,7 @@ class SampleReader {
 
   const CsvTable& table_;
   std::string_view value_column_;
+  std::vector<std::string> labels_;  // of the scans, [record], where no column has them
   std::map<std::string, int> index_of_scan_;
   std::vector<Scan> scans_;  // in the order of their first sample
 };

@@ -21,7 +21,8 @@
 //   zero_weight_reason    why the weight is 0
 //   direction             a whole number >= 0: that of the direction in its scan
 //   scan                  label; samples of one scan share a luminance scale. When absent, every
-//                         sun position is a scan
+//                         sun position is a scan; where every sample has one of its own, a scan
+//                         ends where the sun jumps by 1 deg
 //   time_utc, sun_distance_au, elevation_m   of the scan, as its first sample says
 // Format of the text: data_refs/csv.h.
 #pragma once

@@ -93,7 +93,7 @@ TEST_F(ColumnMappingTest, NamesLinesOfTheFile) {
               HasSubstr("sky.txt:4: L = \"x\": expected a number"));
   EXPECT_THAT(complaint("head\nAzi\tZen\tL\n1\t2\n", sidecar),
               HasSubstr("sky.txt:3: expected at least 3 columns, got 2"));
-  EXPECT_THAT(complaint("head\nAzi\tZen\tL\n1\t95\t3\n", sidecar), HasSubstr("sky.txt:3: "));
+  EXPECT_THAT(complaint("head\nAzi\tZen\tL\n1\t195\t3\n", sidecar), HasSubstr("sky.txt:3: "));
 }
 
 // What would be read as something else.
@@ -113,11 +113,27 @@ TEST_F(ColumnMappingTest, WhatMeansSomethingElseIsRefused) {
               HasSubstr("sky.txt:1: 2 columns \"L\""));
   EXPECT_THAT(complaint(head + rows, sidecar(R"(, "unit": "kcd m-2")")),
               HasSubstr("unit: expected none beside columns of luminance"));
-  EXPECT_THAT(complaint(head + "10;20;\n", sidecar("")), HasSubstr("sky.txt:2: luminance_cd_m2"));
   std::string timed = sidecar("");
   timed.insert(timed.find("\"view_zenith"), "\"time_utc\": \"T\", ");
   EXPECT_THAT(complaint("Azi;Zen;T;L\n10;20;2024-06-21T12:00:00Z;4,5\n", timed),
               HasSubstr("columns.time_utc: expected columns.sun_zenith_deg beside it"));
+}
+
+// One cell does not cost the rest.
+TEST_F(ColumnMappingTest, WhatCannotBeUsedHasNoWeight) {
+  const Reference sky = read(
+      "Azi;Zen;L\n10;20;4,5\n20;20;\n30;20;-9999\n40;20;--\n50;20;-0,1\n"
+      "60;92;4,5\n;;\n",
+      R"({"columns": {"view_azimuth_deg": "Azi", "view_zenith_deg": "Zen",
+                                             "luminance_cd_m2": "L"},
+                                 "delimiter": ";", "decimal_comma": true,
+                                 "sun_zenith_deg": 30, "sun_azimuth_deg": 180})");
+  std::vector<std::string> reasons;
+  for (const Sample& sample : sky.samples) reasons.push_back(sample.zero_weight_reason);
+  EXPECT_THAT(reasons, testing::ElementsAre("", "missing", "missing", "missing", "not positive",
+                                            "outside the sky"));
+  EXPECT_EQ(sky.samples[0].weight, 1);
+  EXPECT_EQ(sky.samples[1].weight, 0);
 }
 
 TEST_F(ColumnMappingTest, BadMappingsAreRefusedInALine) {

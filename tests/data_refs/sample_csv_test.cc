@@ -108,6 +108,18 @@ TEST(SampleCsv, EverySunPositionIsAScanWhenThereIsNoColumn) {
   EXPECT_EQ(by_azimuth.samples[1].scan, 1);
 }
 
+// A sun of its own for every sample: it moves within a scan.
+TEST(SampleCsv, AMovingSunIsOneScanUntilItJumps) {
+  const Reference sky = parse_sample_csv(
+      "sun_zenith_deg,relative_azimuth_deg,view_zenith_deg,luminance_cd_m2\n"
+      "30.0,0,10,4000\n30.1,20,10,4000\n30.2,40,10,4000\n45,0,10,3000\n45.1,20,10,3000\n",
+      "sky.csv");
+  ASSERT_EQ(sky.scans.size(), 2u);
+  EXPECT_EQ(sky.samples[2].scan, 0);
+  EXPECT_NEAR(sky.samples[2].sun_zenith * 180 / std::numbers::pi, 30.2, 1e-9);
+  EXPECT_EQ(sky.samples[4].scan, 1);
+}
+
 TEST(SampleCsv, ColumnsMustBeTheKnownOnes) {
   const std::string columns = "sun_zenith_deg,view_zenith_deg,";
   EXPECT_THAT(complaint(kHeader + ",sigmas\n"),
