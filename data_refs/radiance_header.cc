@@ -65,8 +65,9 @@ void read_variable(const std::string& line, const std::string& source, RadianceH
   } else if (name == "GAMMA") {
     if (numbers_of(line, 1, source)[0] != 1) fail(source, line, "linear light, 1");
   } else if (name == "FORMAT") {
-    header.is_xyz = line == "FORMAT=32-bit_rle_xyze";
-    if (!header.is_xyz && line != "FORMAT=32-bit_rle_rgbe")
+    const std::string_view format = trim(std::string_view(line).substr(line.find('=') + 1));
+    header.is_xyz = format == "32-bit_rle_xyze";
+    if (!header.is_xyz && format != "32-bit_rle_rgbe")
       fail(source, line, "32-bit_rle_rgbe or 32-bit_rle_xyze");
   } else if (name == "VIEW") {
     header.view = line.substr(line.find('=') + 1);
@@ -160,7 +161,8 @@ ImportOptions with_view(const ImportOptions& facts, const std::string& view,
   const std::vector<double> direction = values_or(options, "-vd", {0, 1, 0});
   const double length = std::hypot(direction[0], direction[1], direction[2]);
   constexpr double kStraight = 1e-3;
-  if (!(std::abs(direction[2] / length - 1) < kStraight)) refuse("a view of the zenith, -vd 0 0 1");
+  if (!(direction[2] > 0 && std::hypot(direction[0], direction[1]) / length < kStraight))
+    refuse("a view of the zenith, -vd 0 0 1");
   constexpr double kUnstated = 45;  // deg, of Radiance
   if (values_or(options, "-vh", {kUnstated})[0] != 180 ||
       values_or(options, "-vv", {kUnstated})[0] != 180)

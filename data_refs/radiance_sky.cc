@@ -76,6 +76,10 @@ class Parser {
       p.modifier = next("a modifier").text;
       p.type = next("a type").text;
       p.name = next("an identifier").text;
+      if (p.type == "alias") {  // a further name of a modifier
+        next("the name of a modifier");
+        continue;
+      }
       for (int i = count("strings"); i > 0; --i) p.strings.push_back(next("a string").text);
       for (int i = count("integers"); i > 0; --i) number("an integer");
       for (int i = count("numbers"); i > 0; --i) p.reals.push_back(number("a number"));

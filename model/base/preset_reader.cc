@@ -129,18 +129,19 @@ class FieldTracker {
   PresetDocument::Lines line_of_path_;
 };
 
-// The library's words without its "[json.exception...] parse error at line 1, column 2: ".
-std::string syntax_complaint(const std::string& what) {
-  const std::size_t bracket = what.find("] ");
-  const std::size_t begin = bracket == std::string::npos ? 0 : bracket + 2;
-  const std::size_t colon = what.find(": ", begin);
-  const bool has_place = what.compare(begin, 11, "parse error") == 0 && colon != std::string::npos;
-  const std::string complaint = what.substr(has_place ? colon + 2 : begin);
-  // It ends with all that was read of a word, of any length.
-  constexpr std::string_view kLastRead = "last read: '";
-  const std::size_t word = complaint.find(kLastRead);
-  if (word == std::string::npos) return complaint;
-  return complaint.substr(0, word) + excerpt(complaint.substr(word));
+// What the library found, of its "[json.exception..] parse error at line 1, column 2: syntax error
+// while parsing value - invalid literal; last read: 'nul'" or ".. - unexpected number literal;
+// expected '}'".
+std::string found_by_parser(std::string_view what) {
+  constexpr std::string_view kLastRead = "last read: '", kUnexpected = "unexpected ";
+  if (const std::size_t word = what.find(kLastRead); word != what.npos) {
+    what.remove_prefix(word + kLastRead.size());
+    return in_quotes(what.substr(0, what.rfind('\'')));  // of any length
+  }
+  const std::size_t word = what.find(kUnexpected);
+  if (word == what.npos) return "something else";
+  what.remove_prefix(word);
+  return fmt::format("an {}", what.substr(0, what.find(';')));
 }
 
 }  // namespace
@@ -158,7 +159,7 @@ PresetDocument::PresetDocument(std::string_view text, std::string_view source) :
         [&](int, json::parse_event_t event, json& parsed) { return tracker(event, parsed); });
   } catch (const json::exception& error) {
     throw std::invalid_argument(
-        fmt::format("{}:{}: expected JSON, got {}", source_, line, syntax_complaint(error.what())));
+        fmt::format("{}:{}: expected JSON, got {}", source_, line, found_by_parser(error.what())));
   }
   line_of_path_ = tracker.take_lines();
   if (!json_.is_object()) {

@@ -71,6 +71,7 @@ TEST(RadianceHeader, AViewIsObeyedOrRefused) {
   };
   EXPECT_THAT(refusal(" -vtv -vd 0 0 1"), HasSubstr("expected a fisheye"));
   EXPECT_THAT(refusal(" -vta -vd 0 1 0"), HasSubstr("expected a view of the zenith"));
+  EXPECT_THAT(refusal(" -vta -vd 0.01 0 1 -vh 180 -vv 180"), HasSubstr("view of the zenith"));
   EXPECT_THAT(refusal(" -vta -vd 0 0 1 -vh 120"), HasSubstr("expected the whole sky"));
   EXPECT_THAT(refusal(" -vta -vd 0 0 1"), HasSubstr("expected the whole sky"));  // 45 deg of it
   ImportOptions stated;
