@@ -173,6 +173,13 @@ class Irradiances {
     const double ratio = *global.value / (direct + *diffuse.value);
     const double most = sun_zenith < 75 * kRadiansPerDegree ? 0.08 : 0.15;
     if (std::abs(ratio - 1) <= most) return;
+    constexpr double kAnotherSun = 0.3;
+    if (std::abs(ratio - 1) > kAnotherSun && sun_zenith < 75 * kRadiansPerDegree)
+      fail(place,
+           fmt::format("global_horizontal is {:.3g} times direct and diffuse together under a "
+                       "sun {:.1f} deg from the zenith, expected within {:g} of 1: time or "
+                       "place may be wrong",
+                       ratio, sun_zenith * kDegreesPerRadian, kAnotherSun));
     note(
         fmt::format("{}: global_horizontal is {:.3g} times direct and diffuse together, expected "
                     "within {:.2g} of 1: sun, time or levelling may be wrong",

@@ -45,8 +45,9 @@ struct Layout {
   std::vector<std::string> (*fields)(std::string_view line, std::string_view source,
                                      int number) = comma_fields;
   double interval_h = 1;
-  std::size_t direct = 0, diffuse = 0;    // fields of a row
-  std::optional<std::size_t> water = {};  // precipitable water
+  std::size_t direct = 0, diffuse = 0;     // fields of a row
+  std::optional<std::size_t> water = {};   // precipitable water
+  std::optional<std::size_t> global = {};  // horizontal
   double mm_per_water = 1;
   Clock (*clock)(const std::vector<std::string>& fields, double interval_h, std::string_view source,
                  int line) = nullptr;
@@ -117,7 +118,8 @@ Clock tmy_clock(const std::vector<std::string>& fields, double interval_h, std::
 
 Layout epw_layout(const std::vector<std::string>& lines, std::string_view source) {
   const std::vector<std::string> fields = csv_fields(lines[0], source, 1);
-  Layout layout{.first_row = 9, .direct = 14, .diffuse = 15, .water = 28, .clock = epw_clock};
+  Layout layout{
+      .first_row = 9, .direct = 14, .diffuse = 15, .water = 28, .global = 13, .clock = epw_clock};
   layout.utc_offset_h = number_of(fields, 8, "time zone", source, 1);
   layout.site = site_of(number_of(fields, 6, "latitude", source, 1),
                         number_of(fields, 7, "longitude", source, 1),
@@ -174,6 +176,7 @@ Layout tmy_layout(const std::vector<std::string>& lines, std::string_view source
   layout.direct = column("DNI (");
   layout.diffuse = column("DHI (");
   layout.water = column_if_there("Pwat (cm)");
+  layout.global = column_if_there("GHI (");
   layout.mm_per_water = 10;
   layout.utc_offset_h = number_of(fields, 3, "time zone", source, 1);
   layout.site = site_of(number_of(fields, 4, "latitude", source, 1),
@@ -228,6 +231,29 @@ std::optional<double> water_of(const std::vector<std::string>& fields, const Lay
   const double mm = water.value_or(0) * layout.mm_per_water;
   if (!(mm > 0 && mm <= kMost_mm)) return {};
   return mm;
+}
+
+// Where the file has the light of sun and sky together, the sun of the hour must make it of the
+// two: a longitude or a time zone of the wrong sign does not.
+void expect_closure(const WeatherHour& hour, const std::vector<std::string>& fields,
+                    const Layout& layout, std::string_view source, int line) {
+  constexpr double kLeastBeam = 150, kHighSun = 70 * kRadiansPerDegree, kMost = 0.25;
+  if (!layout.global || *layout.global >= fields.size()) return;
+  const double global = csv_number(fields[*layout.global]).value_or(0),
+               zenith = solar_position(hour.middle, hour.site).zenith,
+               sum = hour.direct_normal_w_m2 * std::max(std::cos(zenith), 0.0) +
+                     hour.diffuse_horizontal_w_m2;
+  const double high = std::min(hour.direct_normal_w_m2, global);
+  if (!(high > kLeastBeam) || global > 2000) return;
+  const bool low = !(zenith < kHighSun);  // the middle says little of an hour of a low sun
+  if (low && zenith < 89 * kRadiansPerDegree) return;
+  if (std::abs(global / sum - 1) <= kMost) return;
+  fail_at(
+      source, line,
+      fmt::format("global horizontal = {:.9g} W/m^2: expected {:.4g} within {:g} %, of direct and "
+                  "diffuse under a sun {:.1f} deg from the zenith; longitude or time zone may be "
+                  "wrong",
+                  global, sum, 100 * kMost, zenith * kDegreesPerRadian));
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -296,6 +322,7 @@ WeatherHour weather_hour(std::string_view file_and_time) {
       if (!(value >= 0 && value < kMost))
         fail_at(file, line, fmt::format("{} = {:.9g}: expected 0 to 2000 W/m^2", name, value));
     }
+    expect_closure(found, fields, layout, file, line);
   }
   if (is_there) return found;
   throw std::invalid_argument(

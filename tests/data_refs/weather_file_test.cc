@@ -117,6 +117,12 @@ TEST_F(WeatherFile, FaultsAreNamed) {
   EXPECT_THAT(complaint(north, "2026-06-21T11:20"), HasSubstr("latitude = 91"));
   EXPECT_THAT(complaint("hello\n", "2026-06-21T11:20"),
               HasSubstr("expected EPW, WEA, TMY2 or TMY3"));
+  for (const std::string& text : {kEpw, kTmy}) {
+    std::string turned = text;
+    turned.replace(turned.find("-105.0"), 6, "75.00");
+    EXPECT_THAT(complaint(turned, "2026-06-21T11:20"),
+                HasSubstr("longitude or time zone may be wrong"));
+  }
   std::string zone = kWea;
   const std::size_t at = zone.find("time_zone ") + 10;
   zone.replace(at, zone.find('\n', at) - at, "7");

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "model/photometry/srgb_transfer.h"
 #include "render/gl/terrain/color_reflectance.h"
 #include "render/gl/terrain/own_textures.h"
 #include "render/scene/material_file.h"
@@ -103,7 +104,7 @@ TEST_F(OwnMaterialFiles, ColorIsTheGroundsReflectance) {
     const Frame frame = draw_layers(downward(drawn, kAboveRoughness), drawn);
     for (std::size_t i = 0; i < frame.luminance.size(); i += 7) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const double expected = linear_from_srgb(std::round(255.0 * color[k]) / 255);
+        const double expected = srgb_decoded(std::round(255.0 * color[k]) / 255);
         EXPECT_NEAR(frame.layers->albedo[3 * i + k], expected, 2e-3) << "pixel " << i;
       }
     }
@@ -189,7 +190,7 @@ TEST_F(OwnMaterialFiles, NoLatticeShows) {
   scene.soil.far_m = 20;
   double mean_of_picture = 0;
   for (const float value : values)
-    mean_of_picture += linear_from_srgb(std::round(255.0 * value) / 255) / 256;
+    mean_of_picture += srgb_decoded(std::round(255.0 * value) / 255) / 256;
   Renderer drawn = with_ground(scene);
   // A repeat is 64 pixels of the near scale, and of the far one.
   for (const auto& [repeat, above] : {std::pair{2.0, 4.0}, {20.0, 40.0}}) {
