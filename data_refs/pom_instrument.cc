@@ -16,6 +16,19 @@ namespace {
 
 constexpr double kNmPerCm = 1e7;
 
+// Lists with commas between numbers, and D before an exponent.
+std::string as_fortran_reads(std::string line) {
+  std::ranges::replace(line, ',', ' ');
+  const auto is_part = [&](std::size_t i, std::string_view of) {
+    return i < line.size() && of.find(line[i]) != of.npos;
+  };
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (is_part(i, "dD") && is_part(i - 1, "0123456789.") && is_part(i + 1, "+-0123456789"))
+      line[i] = 'E';
+  }
+  return line;
+}
+
 class Reader {
  public:
   Reader(std::string_view text, std::string_view source)
@@ -33,7 +46,7 @@ class Reader {
     std::vector<double> found;
     while (found.size() < count) {
       const std::size_t before = found.size();
-      std::istringstream words(line(what));
+      std::istringstream words(as_fortran_reads(line(what)));
       for (std::string word; found.size() < count && words >> word;) {
         const std::optional<double> number = csv_number(word);
         if (!number || !std::isfinite(*number)) break;

@@ -336,8 +336,9 @@ PerezHour perez_hour(const WeatherHour& hour, std::string_view name) {
   const double zenith = result.sun.zenith, zenith_deg = zenith * kDegreesPerRadian;
   if (!(zenith_deg < 89)) {
     throw std::invalid_argument(
-        fmt::format("{}: the sun of {} is {:.2f} deg from the zenith: expected less than 89", name,
-                    iso_text(hour.middle), zenith_deg));
+        fmt::format("{}: the sun of {} is {:.2f} deg from the zenith: expected less than 89; "
+                    "longitude or time zone may be wrong",
+                    name, iso_text(hour.middle), zenith_deg));
   }
   constexpr double kLeast = 1;  // W/m^2
   if (!(hour.diffuse_horizontal_w_m2 >= kLeast)) {

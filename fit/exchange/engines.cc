@@ -83,7 +83,7 @@ struct Assignment {
 Assignment last_assignment(const Script& script, std::string_view name) {
   // What stands before the name is a path to it, what stands behind it may be .value.
   const std::regex pattern("(^|[^A-Za-z0-9_])" + std::string(name) +
-                           R"(["'\]\s]*(\.value)?\s*[=:]\s*([^=;,]*))");
+                           R"(["'\]\s]*(\.value)?\s*[=:]\s*([^=;,}]*))");
   Assignment found;
   int line = 0;
   for (std::string_view row : split(script.text, '\n')) {

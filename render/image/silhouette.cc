@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image/silhouette.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace skyfit {
@@ -53,8 +54,26 @@ void add_run(const Plane& plane, int first, int last, int y, int edge,
   }
 }
 
-void add_runs(const Plane& plane, std::vector<SilhouetteSample>& found) {
+// Whether there is an edge below each row, and beside each column. Most have none.
+struct HasEdge {
+  std::vector<std::uint8_t> below, beside;
+};
+HasEdge edges_of(std::span<const std::uint8_t> is_sky, int width, int height) {
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  HasEdge has{std::vector<std::uint8_t>(rows, 0), std::vector<std::uint8_t>(columns, 0)};
+  for (std::size_t y = 0; y < rows; ++y) {
+    const std::uint8_t* row = &is_sky[y * columns];
+    has.below[y] = y + 1 < rows && !std::equal(row, row + columns, row + columns) ? 1 : 0;
+    for (std::size_t x = 0; x + 1 < columns; ++x)
+      has.beside[x] = static_cast<std::uint8_t>(has.beside[x] | (row[x] ^ row[x + 1]));
+  }
+  return has;
+}
+
+void add_runs(const Plane& plane, std::span<const std::uint8_t> has_edge,
+              std::vector<SilhouetteSample>& found) {
   for (int y = 0; y + 1 < plane.height(); ++y) {
+    if (has_edge[static_cast<std::size_t>(y)] == 0) continue;
     for (int x = 0; x < plane.width();) {
       const int edge = plane.edge(x, y), first = x++;
       if (edge == 0) continue;
@@ -70,8 +89,9 @@ void add_runs(const Plane& plane, std::vector<SilhouetteSample>& found) {
 std::vector<SilhouetteSample> silhouette(std::span<const std::uint8_t> is_sky, int width,
                                          int height) {
   std::vector<SilhouetteSample> found;
-  add_runs(Plane(is_sky, width, height, false), found);
-  add_runs(Plane(is_sky, width, height, true), found);
+  const HasEdge has = edges_of(is_sky, width, height);
+  add_runs(Plane(is_sky, width, height, false), has.below, found);
+  add_runs(Plane(is_sky, width, height, true), has.beside, found);
   return found;
 }
 

@@ -134,6 +134,23 @@ TEST(Threejs, UniformsGiveTheSkyWithinTheLoss) {
   EXPECT_THAT(notes, ::testing::Contains(HasSubstr("another sky")));
 }
 
+// As in three.js' own example: the uniforms refer to settings. What is not there is the object's
+// own.
+TEST(Threejs, ValuesMayStandInSettings) {
+  const std::string text =
+      "const effectController = { turbidity: 10, rayleigh: 3,\n  mieCoefficient: 0.004 };\n"
+      "uniforms[ 'turbidity' ].value = effectController.turbidity;\n"
+      "uniforms[ 'rayleigh' ].value = effectController.rayleigh;\n"
+      "uniforms[ 'mieCoefficient' ].value = effectController.mieCoefficient;\n"
+      "uniforms[ 'cloudCoverage' ].value = 0.4;\n";
+  std::vector<std::string> notes;
+  const auto read = read_threejs(text, "sky.js", notes);
+  ASSERT_TRUE(read);
+  EXPECT_NEAR(read->at("rayleigh").amount, 3 * 1.3562911419845635e-5, 1e-12);
+  EXPECT_EQ(read->at("mie").phase.g, 0.8);
+  EXPECT_THAT(notes, ::testing::Contains(HasSubstr("cloudCoverage")));
+}
+
 // The value of a named child of an emitter.
 std::string emitter_value(const pugi::xml_document& scene, const char* type, const char* name) {
   const pugi::xml_node emitter =

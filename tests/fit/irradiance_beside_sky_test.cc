@@ -45,7 +45,7 @@ refs::Reference made_by(refs::Reference reference, const Atmosphere<double>& atm
 }
 
 // Beam and sky under suns of 20, 40 and 60 deg, which are those of the scans of the synthetic sky.
-refs::Reference irradiances(const char* const values = "direct=1lx,diffuse=1lx,global=1lx") {
+refs::Reference irradiances(const char* const values = "direct=1lx,diffuse=4lx,global=5lx") {
   std::vector<refs::Reference> suns;
   for (const double sun : {20, 40, 60})
     suns.push_back(refs::irradiance_reference(values, sun * kDegree, {}));

@@ -137,8 +137,14 @@ class Edges {
   // After all samples are set.
   void find() {
     std::vector<std::uint8_t> sky(index_.size(), 0);
-    for (std::size_t i = 0; i < is_sky_.size(); ++i)
-      sky[pixel_of(i)] = static_cast<std::uint8_t>(sky[pixel_of(i)] + is_sky_[i]);
+    for (std::size_t row = 0; row * columns_ < is_sky_.size(); ++row) {
+      const std::uint8_t* sample = &is_sky_[row * columns_];
+      std::uint8_t* count = &sky[row / side_ * width_];
+      for (std::size_t x = 0; x < width_; ++x, ++count) {
+        for (std::size_t i = 0; i < side_; ++i)
+          *count = static_cast<std::uint8_t>(*count + *sample++);
+      }
+    }
     const auto part_of = [&](std::size_t pixel) -> Part& {
       if (index_[pixel] == kNone) {
         index_[pixel] = static_cast<std::uint32_t>(parts_.size());
