@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "data_refs/scan_header.h"
+#include "model/base/pattern.h"
 #include "model/base/text.h"
 
 namespace skyfit::refs {
@@ -61,10 +62,10 @@ constexpr std::array<OtherFormat, 25> kFormats = {{
     {R"(^\d{4}-\d\d-\d\d___|wavelength ?[,;] ?irradiance)",
      "is a spectrum of irradiance, as Kider et al. 2014 publish them; skyfit reads their radiances "
      "of directions, not yet these"},
-    {R"(^((#|mtllib |o |g |s |usemtl )[^\n]*\n)*v -?[\d.]+ -?[\d.]+ -?[\d.])",
+    {R"(^((mtllib |o |g |s |usemtl )[^\n]*\n)*v -?[\d.]+ -?[\d.]+ -?[\d.])",
      "is a mesh (OBJ); skyfit render reads it by --mesh"},
     {R"(^ncols \d)", "is a map of heights (ESRI grid); skyfit render takes maps by --dem"},
-    {R"(^\s*(#\?radiance[^\n]*\n)?(#[^\n]*\n|\s*\n)*\s*(void\s+(light|glow|brightfunc|plastic)\s|!\s*gen))",
+    {R"(^\s*(void\s+(light|glow|brightfunc|plastic)\s|!\s*gen))",
      "is a scene of Radiance, such as gendaylit and gensky write; skyfit reads the sky of one with "
      "perezlum.cal or skybright.cal where it takes a reference (fit, references, compare, "
      "classify)"},
@@ -76,16 +77,16 @@ constexpr std::array<OtherFormat, 25> kFormats = {{
      "is XML or HTML; skyfit reads skies as text tables and images"},
     {R"(^\s*[{\[])",
      "is JSON; skyfit reads presets as --preset and skies as text tables and images"},
-    {R"(^\s*(#[^\n]*\n)*[^#\n]*(irradiance|(direct|diffuse|global)_(normal|horizontal)_(lx|w_m2)))",
+    {R"(^\s*[^#\n]*(irradiance|(direct|diffuse|global)_(normal|horizontal)_(lx|w_m2)))",
      "is a table of irradiances, which have no directions; skyfit reads radiances and luminances "
      "of directions, and irradiances by fit --irradiance"},
-    {R"(^(#[^\n]*\n)*[^#\n]*\b(ghi|dni|dhi)\b)",
+    {R"(^[^#\n]*\b(ghi|dni|dhi)\b)",
      "is a table of irradiances (GHI, DNI, DHI), which have no directions; fit --irradiance reads "
      "it with the columns time, global_horizontal_w_m2, direct_normal_w_m2 and "
      "diffuse_horizontal_w_m2"},
     {R"(^netcdf\s|^CDF)", "is netCDF; skyfit reads skies as text tables and images, not yet these"},
     {R"(^%!ps|^%pdf)", "is a document; skyfit reads skies as text tables and images"},
-    {R"(^(#[^\n]*\n)*[^#,\n;]*;[^,\n;]*;[^,\n]*\n)",
+    {R"(^[^#,\n;]*;[^,\n;]*;[^,\n]*\n)",
      "has columns between semicolons; skyfit reads them where the sidecar FILE.sidecar.json says "
      "which they are: \"columns\", \"delimiter\": \";\" and, of numbers such as 3,14, "
      "\"decimal_comma\": true"},
@@ -105,14 +106,26 @@ std::string squeezed(std::string_view text) {
   return result;
 }
 
+// Without the blank lines and the lines with # at the beginning.
+std::string_view without_comments(std::string_view text) {
+  for (;;) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    if (!text.starts_with('#')) return text;
+    text.remove_prefix(std::min(text.find('\n'), text.size()));
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> other_format(std::string_view text) {
-  constexpr std::size_t kHead = 6000;  // a dozen lines of many columns
-  const std::string head = squeezed(lower_case(text.substr(0, kHead)));
+  // A dozen lines of many columns, with the comments before them and without.
+  const auto head = [](std::string_view part) {
+    return squeezed(lower_case(part.substr(0, kMostMatched)));
+  };
+  const std::string whole = head(text), body = head(without_comments(text));
   for (const OtherFormat& format : kFormats) {
     const std::regex pattern(format.pattern.begin(), format.pattern.end());
-    if (std::regex_search(head, pattern)) return std::string(format.what);
+    if (first_match(whole, pattern) || first_match(body, pattern)) return std::string(format.what);
   }
   return {};
 }
