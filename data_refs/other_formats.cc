@@ -20,7 +20,7 @@ struct OtherFormat {
 };
 
 // The first that matches; a line of columns of AERONET tells the product.
-constexpr std::array<OtherFormat, 25> kFormats = {{
+constexpr std::array<OtherFormat, 30> kFormats = {{
     {R"(^\x89png|^\xff\xd8\xff|^(ii\*|mm\x00\*)|^gif8)",
      "is an image of colours for a screen (PNG, JPEG, TIFF or GIF), whose light is not known; "
      "skyfit "
@@ -64,6 +64,20 @@ constexpr std::array<OtherFormat, 25> kFormats = {{
      "of directions, not yet these"},
     {R"(^((mtllib |o |g |s |usemtl )[^\n]*\n)*v -?[\d.]+ -?[\d.]+ -?[\d.])",
      "is a mesh (OBJ); skyfit render reads it by --mesh"},
+    {R"(^newmtl )",
+     "is materials of a mesh (MTL); skyfit render reads them beside the OBJ of --mesh"},
+    {R"(^ply\s|^solid )",
+     "is a mesh (PLY or STL); skyfit render reads OBJ by --mesh, not yet these"},
+    {R"(^data from [^\n]* node)",
+     "is a spectrum of OceanView, which does not say its direction; skyfit reads a folder of "
+     "spectra "
+     "whose names do, or a CSV of directions and wavelengths"},
+    {R"(^latitude \(decimal degrees\))",
+     "is a table of PVGIS, which holds irradiances; skyfit reads the EPW that PVGIS gives as well, "
+     "not yet these"},
+    {R"(^/\* ?data description)",
+     "is a table of PANGAEA; skyfit reads directions and luminances whose columns a sidecar names, "
+     "and irradiances by fit --irradiance"},
     {R"(^ncols \d)", "is a map of heights (ESRI grid); skyfit render takes maps by --dem"},
     {R"(^\s*(void\s+(light|glow|brightfunc|plastic)\s|!\s*gen))",
      "is a scene of Radiance, such as gendaylit and gensky write; skyfit reads the sky of one with "

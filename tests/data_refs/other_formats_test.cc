@@ -60,6 +60,11 @@ TEST(OtherFormats, WhatPeopleHaveBesideIsNamed) {
   is("AERONET Version 3;\nSite\nAll points, units in the columns\n", "without the columns");
   is("# a mesh\nmtllib a.mtl\no Box\nv 0 0 0\nv 100 0 0\n", "--mesh");
   is("ncols 3\nnrows 2\n", "--dem");
+  is("newmtl red\nKd 1 0 0\n", "(MTL)");
+  is("ply\nformat ascii 1.0\n", "(PLY or STL)");
+  is("Data from sky.txt Node\n\nDate: Wed May 15\n", "OceanView");
+  is("Latitude (decimal degrees):\t45.0\n", "PVGIS");
+  is("/* DATA DESCRIPTION:\nCitation: BSRN */\n", "PANGAEA");
   is("sample;view_azimuth_deg;view_zenith_deg;radiance_340\n1;0;20;0,03812\n", "decimal_comma");
   is("\x89PNG\r\n\x1a\n", "PNG");
   is("PK\x03\x04 zip", "archive");
