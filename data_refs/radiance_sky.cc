@@ -17,106 +17,21 @@
 
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
+#include "data_refs/radiance_scene.h"
 #include "model/base/input_file.h"
 #include "model/base/pattern.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
+
+using namespace radiance;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kLumenPerWatt = 179;  // Radiance's white efficacy (color.h)
 // Brightness of red, green and blue (Radiance, color.h).
 constexpr std::array<double, 3> kBrightness = {0.265, 0.670, 0.065};
-
-struct Word {
-  std::string text;
-  int line;
-};
-
-// `modifier type identifier`, then numbers of strings, of integers and of reals with these.
-struct Primitive {
-  std::string modifier, type, name;
-  std::vector<std::string> strings;
-  std::vector<double> reals;
-  int line = 0;
-};
-
-// Words outside comments; the comments one by one.
-struct Scene {
-  std::vector<Word> words;
-  std::vector<Word> comments;
-};
-
-Scene scene_of(std::string_view text) {
-  Scene scene;
-  std::istringstream in{std::string(text)};
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    const std::size_t hash = line.find('#');
-    if (hash != std::string::npos) scene.comments.push_back({line.substr(hash), number});
-    std::istringstream words(line.substr(0, hash));
-    for (std::string word; words >> word;) scene.words.push_back({word, number});
-  }
-  return scene;
-}
-
-class Parser {
- public:
-  Parser(const Scene& scene, std::string_view source) : words_(scene.words), source_(source) {}
-
-  std::vector<Primitive> primitives() {
-    std::vector<Primitive> result;
-    while (at_ < words_.size()) {
-      Primitive p;
-      p.line = words_[at_].line;
-      if (words_[at_].text.starts_with('!'))
-        fail_at(source_, p.line, "a command: expected the scene that it writes");
-      p.modifier = next("a modifier").text;
-      p.type = next("a type").text;
-      p.name = next("an identifier").text;
-      if (p.type == "alias") {  // a further name of a modifier
-        next("the name of a modifier");
-        continue;
-      }
-      for (int i = count("strings"); i > 0; --i) p.strings.push_back(next("a string").text);
-      for (int i = count("integers"); i > 0; --i) number("an integer");
-      for (int i = count("numbers"); i > 0; --i) p.reals.push_back(number("a number"));
-      result.push_back(std::move(p));
-    }
-    return result;
-  }
-
- private:
-  const Word& next(std::string_view expected) {
-    if (at_ == words_.size())
-      fail_at(source_, words_.empty() ? 1 : words_.back().line,
-              fmt::format("the scene ends: expected {}", expected));
-    return words_[at_++];
-  }
-
-  double number(std::string_view expected) {
-    const Word& word = next(expected);
-    const std::optional<double> value = csv_number(word.text);
-    if (!value || !std::isfinite(*value))
-      fail_at(source_, word.line, fmt::format("\"{}\": expected {}", word.text, expected));
-    return *value;
-  }
-
-  int count(std::string_view of) {
-    constexpr double kMost = 1000;
-    const Word& word = next(fmt::format("how many {}", of));
-    const std::optional<double> value = csv_number(word.text);
-    if (!value || !(*value >= 0 && *value <= kMost && *value == std::floor(*value)))
-      fail_at(source_, word.line, fmt::format("\"{}\": expected how many {}", word.text, of));
-    return static_cast<int>(*value);
-  }
-
-  const std::vector<Word>& words_;
-  std::string_view source_;
-  std::size_t at_ = 0;
-};
 
 // East, north, up.
 RadianceSun direction_of(const Primitive& p, std::size_t first, std::string_view source) {
@@ -388,7 +303,7 @@ bool is_radiance_sky_file(std::string_view name) {
 
 RadianceSky parse_radiance_sky(std::string_view text, std::string_view source) {
   const Scene scene = scene_of(text);
-  const std::vector<Primitive> primitives = Parser(scene, source).primitives();
+  const std::vector<Primitive> primitives = primitives_of(scene, source);
   const Primitive& function = sky_function(primitives, source);
   const RadianceSky sky{
       formula_of(function, source), function.reals, sun_of(function, scene, source),
