@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "data_refs/closure.h"
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/scan_header.h"
@@ -170,20 +171,16 @@ class Irradiances {
                    &diffuse = row.of[kDiffuseHorizontal], &global = row.of[kGlobalHorizontal];
     if (!diffuse.value || !global.value || (!normal.value && !horizontal.value)) return;
     const double direct = normal.value ? *normal.value * std::cos(sun_zenith) : *horizontal.value;
-    const double ratio = *global.value / (direct + *diffuse.value);
-    const double most = sun_zenith < 75 * kRadiansPerDegree ? 0.08 : 0.15;
-    if (std::abs(ratio - 1) <= most) return;
-    constexpr double kAnotherSun = 0.3;
-    if (std::abs(ratio - 1) > kAnotherSun && sun_zenith < 75 * kRadiansPerDegree)
-      fail(place,
-           fmt::format("global_horizontal is {:.3g} times direct and diffuse together under a "
-                       "sun {:.1f} deg from the zenith, expected within {:g} of 1: time or "
-                       "place may be wrong",
-                       ratio, sun_zenith * kDegreesPerRadian, kAnotherSun));
-    note(
-        fmt::format("{}: global_horizontal is {:.3g} times direct and diffuse together, expected "
-                    "within {:.2g} of 1: sun, time or levelling may be wrong",
-                    place, ratio, most));
+    const double off = closure(*global.value, direct, *diffuse.value) - 1,
+                 most = sun_zenith < kHighSun ? 0.08 : 0.15;
+    if (std::abs(off) <= most) return;
+    const bool another = std::abs(off) > kAnotherSun && sun_zenith < kHighSun;
+    const std::string message = fmt::format(
+        "global_horizontal is {:.3g} times direct and diffuse together under a sun {:.1f} deg from "
+        "the zenith, expected within {:.2g} of 1: sun, time or levelling may be wrong",
+        1 + off, sun_zenith * kDegreesPerRadian, another ? kAnotherSun : most);
+    if (another) fail(place, message);
+    note(place + ": " + message);
   }
 
   const UnitRow& unit_;

@@ -6,11 +6,13 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
+#include "data_refs/closure.h"
 #include "data_refs/csv.h"
 #include "model/base/input_file.h"
 #include "model/base/pattern.h"
@@ -237,23 +239,22 @@ std::optional<double> water_of(const std::vector<std::string>& fields, const Lay
 // two: a longitude or a time zone of the wrong sign does not.
 void expect_closure(const WeatherHour& hour, const std::vector<std::string>& fields,
                     const Layout& layout, std::string_view source, int line) {
-  constexpr double kLeastBeam = 150, kHighSun = 70 * kRadiansPerDegree, kMost = 0.25;
+  constexpr double kLeast = 150, kMost = 2000;  // W/m^2; 9999 stands for a missing value
   if (!layout.global || *layout.global >= fields.size()) return;
   const double global = csv_number(fields[*layout.global]).value_or(0),
                zenith = solar_position(hour.middle, hour.site).zenith,
-               sum = hour.direct_normal_w_m2 * std::max(std::cos(zenith), 0.0) +
-                     hour.diffuse_horizontal_w_m2;
-  const double high = std::min(hour.direct_normal_w_m2, global);
-  if (!(high > kLeastBeam) || global > 2000) return;
-  const bool low = !(zenith < kHighSun);  // the middle says little of an hour of a low sun
-  if (low && zenith < 89 * kRadiansPerDegree) return;
-  if (std::abs(global / sum - 1) <= kMost) return;
+               direct = hour.direct_normal_w_m2 * std::max(std::cos(zenith), 0.0);
+  if (!(hour.direct_normal_w_m2 > kLeast && global > kLeast && global < kMost)) return;
+  // The middle of an hour of a low sun says little of the hour; there is no beam at night.
+  if (zenith > kHighSun && zenith < 0.5 * std::numbers::pi) return;
+  const double ratio = closure(global, direct, hour.diffuse_horizontal_w_m2);
+  if (std::abs(ratio - 1) <= kAnotherSun) return;
   fail_at(
       source, line,
-      fmt::format("global horizontal = {:.9g} W/m^2: expected {:.4g} within {:g} %, of direct and "
-                  "diffuse under a sun {:.1f} deg from the zenith; longitude or time zone may be "
-                  "wrong",
-                  global, sum, 100 * kMost, zenith * kDegreesPerRadian));
+      fmt::format("global horizontal = {:.9g} W/m^2 is {:.3g} times direct and diffuse under a sun "
+                  "{:.1f} deg from the zenith, expected within {:g} of 1; longitude or time zone "
+                  "may be wrong",
+                  global, ratio, zenith * kDegreesPerRadian, kAnotherSun));
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
