@@ -178,6 +178,14 @@ TEST_F(ObjFiles, ErrorsNameTheFileAndTheLine) {
   EXPECT_THROW(read_object_mesh(directory_, 0.3, rule()), std::runtime_error);
 }
 
+TEST_F(ObjFiles, CommentsStandBehindNumbersButNotInNames) {
+  write("own.mtl", "newmtl wall#1\nKd 0.5 0.1 0.1\n");
+  const ObjectMesh mesh = read(
+      "mtllib own.mtl\nv 0 0 0 # a corner\nv 1 0 0\nv 0 1 0\nusemtl wall#1\nf 1 2 3 # a wall\n");
+  EXPECT_EQ(mesh.warning, "");
+  EXPECT_EQ(mesh.indices.size(), 3u);
+}
+
 TEST_F(ObjFiles, AColourIsThreeNumbers) {
   for (const char* wrong : {"Kd 0.5", "Kd 1 x 0", "Kd spectral leaf.rfl 1"}) {
     write("own.mtl", std::string("newmtl leaf\n") + wrong + "\n");

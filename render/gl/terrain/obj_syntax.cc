@@ -137,6 +137,18 @@ class Checker {
 
 }  // namespace
 
+namespace {
+
+// Behind numbers; names of materials and groups may hold a #.
+std::string_view without_comment(std::string_view line) {
+  std::string_view rest = line;
+  const std::string_view kind = next_word(rest);
+  return kind == "f" || kind == "v" || kind == "vn" || kind == "vt" ? line.substr(0, line.find('#'))
+                                                                    : line;
+}
+
+}  // namespace
+
 std::string with_joined_lines(std::string_view obj) {
   std::string text;
   text.reserve(obj.size() + 1);
@@ -144,11 +156,10 @@ std::string with_joined_lines(std::string_view obj) {
   while (!obj.empty()) {
     std::string_view line = obj.substr(0, obj.find('\n'));
     obj.remove_prefix(std::min(line.size() + 1, obj.size()));
-    line = line.substr(0, line.find('#'));  // a comment
     if (line.ends_with('\r')) line.remove_suffix(1);
     const bool goes_on = line.ends_with('\\');
     if (goes_on) line.remove_suffix(1);
-    text += line;
+    text += without_comment(line);
     if (goes_on) {
       text += ' ';
       ++joined;
