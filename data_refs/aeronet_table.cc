@@ -34,7 +34,7 @@ std::string plain_name(std::string_view column) {
 bool holds_columns(std::string_view line) {
   const std::string text = lower_case(line);
   return text.find("date(") != text.npos && text.find("time(") != text.npos &&
-         text.find("wavelength") != text.npos && text.find("aod_") == text.npos &&
+         text.find("wavelength") != text.npos && text.find("wavelengths_of_aod") == text.npos &&
          (text.find("solar_zenith_angle") != text.npos || text.find(kSunZenith) != text.npos);
 }
 
@@ -228,14 +228,14 @@ void AeronetTable::expect_no_gap(std::size_t column, const std::vector<std::stri
 
 // A line of version 2, "Level 1.5 sky radiances, units uW/cm^2/sr/nm".
 void AeronetTable::read_unit_of_head() {
-  static const std::regex pattern(
-      R"(radiance[^\n]*\bunits?\b[ :=(\[]*([^\s,;)\]]*/sr[^\s,;)\]]*))");
-  if (unit_) return;
-  const auto match = first_match(head_, pattern);
-  if (!match) return;
-  std::string unit = (*match)[1].str();
-  std::ranges::replace(unit, 'w', 'W');  // the head is in lower case
-  add_unit(unit, header_line_);
+  static const std::regex pattern(R"(radiance.*\bunits?\b[ :=(\[]*([^\s,;)\]]*/sr[^\s,;)\]]*))");
+  for (const std::string_view line : split(head_, '\n')) {
+    const auto match = unit_ ? std::nullopt : first_match(line, pattern);
+    if (!match) continue;
+    std::string unit = (*match)[1].str();
+    std::ranges::replace(unit, 'w', 'W');  // the head is in lower case
+    add_unit(unit, header_line_);
+  }
 }
 
 void AeronetTable::read_unit(std::string_view name, int number) {

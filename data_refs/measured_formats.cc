@@ -216,7 +216,9 @@ Reference load_measured_sky(const std::filesystem::path& path, const ImportOptio
   for (const ImportOptionRow& row : import_option_table()) {
     const bool is_used = (row.formats & format.format) != 0 || (sun && is_about_sun(row));
     if (!row.is_set(facts) || is_used) continue;
-    if (facts.columns && !is_about_sun(row))
+    // It would change values and directions, were they a spectral scan's.
+    if (facts.columns && format.format == kSampleCsv && !is_about_sun(row) &&
+        (row.formats & kSpectralScan) != 0)
       throw std::invalid_argument(fmt::format(
           "{}: {}: expected none beside columns of luminance; \"times\" and \"plus\" of a column "
           "change its values",

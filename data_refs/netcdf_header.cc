@@ -108,7 +108,8 @@ class Header {
     for (std::uint64_t i = 0; i < dimensions; ++i) {
       const std::uint64_t index = count();
       if (index >= lengths_.size())
-        fail(fmt::format("{}: dimension {}: there are {}", printable(own), index, lengths_.size()));
+        fail(fmt::format("{}: dimension {}: expected one of {}", printable(own), index,
+                         lengths_.size()));
       const std::uint64_t length = lengths_[static_cast<std::size_t>(index)];
       if (length == 0 && i == 0)
         has_records = true;

@@ -4,24 +4,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
 
 #include "data_refs/csv.h"
-#include "model/base/pattern.h"
 
 namespace skyfit::refs {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
 
+std::string_view last_word(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of(kBlank) + 1);
+  return text.substr(text.find_last_of(kBlank) + 1);
+}
+
+std::string_view first_word(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
+  return text.substr(0, text.find_first_of(kBlank));
+}
+
+// The words before and behind each sign of equality.
 void read_facts(const CommentLine& comment, std::string_view source, ScanHeader& header) {
-  static const std::regex fact(R"((\w+)[ \t]*=[ \t]*(\S+))");
-  std::string_view text = comment.text;
-  while (const auto match = first_match(text, fact)) {
-    const std::string name = (*match)[1], value = (*match)[2];
-    text = match->suffix().matched ? std::string_view(match->suffix().first, match->suffix().second)
-                                   : std::string_view{};
+  const std::string_view text = comment.text;
+  for (std::size_t at = text.find('='); at != text.npos; at = text.find('=', at + 1)) {
+    const std::string name(last_word(text.substr(0, at))), value(first_word(text.substr(at + 1)));
     for (const ImportOptionRow& row : import_option_table()) {
       if (row.name != name) continue;
       if (!row.set(value, header.facts)) {

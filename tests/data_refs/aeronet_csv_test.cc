@@ -197,6 +197,13 @@ TEST(AeronetCsv, DatesStandAsTheirColumnSays) {
   EXPECT_EQ(time_of("yyyy-mm-dd", "2024-05-15"), day_first);
 }
 
+// Whose names hold all that radiances' have.
+TEST(AeronetCsv, OpticalDepthsAreNoRadiances) {
+  EXPECT_FALSE(
+      is_aeronet_csv("Date(dd:mm:yyyy),Time(hh:mm:ss),AOD_440nm,Solar_Zenith_Angle(Degrees),"
+                     "Exact_Wavelengths_of_AOD(um)_440nm\n"));
+}
+
 TEST(AeronetCsv, TheHeadMayStateTheUnit) {
   std::string text = kBare + line("11:11:49", "440", "60", "22,,,20,2");
   text.insert(text.find("free text"), "Level 1.5 sky radiances, units W/m^2/sr/um\n");
