@@ -28,7 +28,8 @@ void print_list(bool json) {
   entries.push_back({"perez:EPSILON,DELTA",
                      "Perez, Seals & Michalsky 1993, all-weather sky: clearness, brightness"});
   entries.push_back(
-      {"perez:FILE@TIME", "The same of an hour of a weather file: EPW, WEA, TMY2 or TMY3"});
+      {"perez:FILE@TIME",
+       "The same of an hour of a weather file: EPW, WEA, TMY2, TMY3, NSRDB or PVGIS"});
   for (const refs::TruthEntry& entry : refs::truth_references())
     entries.push_back({std::string(entry.name), std::string(entry.description)});
   if (json) {

@@ -20,7 +20,7 @@ struct OtherFormat {
 };
 
 // The first that matches; a line of columns of AERONET tells the product.
-constexpr std::array<OtherFormat, 30> kFormats = {{
+constexpr std::array<OtherFormat, 29> kFormats = {{
     {R"(^\x89png|^\xff\xd8\xff|^(ii\*|mm\x00\*)|^gif8)",
      "is an image of colours for a screen (PNG, JPEG, TIFF or GIF), whose light is not known; "
      "skyfit "
@@ -52,13 +52,11 @@ constexpr std::array<OtherFormat, 30> kFormats = {{
     {R"(^(<[^\n>]*>|\s)*aeronet (version|data))",
      "is of AERONET, without the columns of its sky radiances; skyfit reads those with Date(..), "
      "Time(..), a wavelength, Solar_Zenith_Angle(..) and a radiance for each angle"},
-    {R"(^location,[^\n]*\n\s*design conditions|^place [^\n]*\s+latitude |date \(mm/dd/yyyy\),|^\s*\d{5} [a-z][^\n]* -?\d+ [ns] \d+ \d+ [ew] \d+ \d+ )",
-     "is a weather file (EPW, WEA, TMY2 or TMY3), which holds irradiances; skyfit reads skies with "
+    {R"(^"?location"?,[^\n]*\n\s*"?design conditions|^place [^\n]*\s+latitude |date \(mm/dd/yyyy\),|^source,location id,|^\s*\d{5} [a-z][^\n]* -?\d+ [ns] \d+ \d+ [ew] \d+ \d+ )",
+     "is a weather file (EPW, WEA, TMY2, TMY3 or NSRDB), which holds irradiances; skyfit reads "
+     "skies with "
      "directions, and an hour of such a file as perez:FILE@YYYY-MM-DDTHH:MM or by "
      "fit --irradiance FILE@YYYY-MM-DDTHH:MM"},
-    {R"(^source,location id,)",
-     "is a weather file of NREL's NSRDB, which holds irradiances; skyfit reads EPW, WEA, TMY2 and "
-     "TMY3, not yet these"},
     {R"(^\d{4}-\d\d-\d\d___|wavelength ?[,;] ?irradiance)",
      "is a spectrum of irradiance, as Kider et al. 2014 publish them; skyfit reads their radiances "
      "of directions, not yet these"},
@@ -73,8 +71,10 @@ constexpr std::array<OtherFormat, 30> kFormats = {{
      "spectra "
      "whose names do, or a CSV of directions and wavelengths"},
     {R"(^latitude \(decimal degrees\))",
-     "is a table of PVGIS, which holds irradiances; skyfit reads the EPW that PVGIS gives as well, "
-     "not yet these"},
+     "is a table of PVGIS, which holds irradiances; skyfit reads skies with directions, and an "
+     "hour "
+     "of the typical year of PVGIS as perez:FILE@YYYY-MM-DDTHH:MM or by "
+     "fit --irradiance FILE@YYYY-MM-DDTHH:MM"},
     {R"(^/\* ?data description)",
      "is a table of PANGAEA; skyfit reads directions and luminances whose columns a sidecar names, "
      "and irradiances by fit --irradiance"},

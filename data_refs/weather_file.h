@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiances of weather files, hour by hour: EnergyPlus (EPW), Radiance's gendaymtx (WEA), TMY2
-// and TMY3. Layouts: EnergyPlus, Auxiliary Programs, "EnergyPlus Weather File (EPW) Data
-// Dictionary"; Radiance, manual page of gendaymtx; Marion & Urban 1995, User's Manual for TMY2s,
-// tables 3-1 and 3-2; Wilcox & Marion 2008, Users Manual for TMY3 Data Sets. The
-// years of their rows are of a typical year and not read: an hour is found by month, day and clock.
+// Irradiances of weather files (data_refs/weather_layout.h), hour by hour. The years of their rows
+// are of a typical year and not read: an hour is found by month, day and clock.
 #pragma once
 
 #include <optional>
@@ -16,19 +13,18 @@
 
 namespace skyfit::refs {
 
-// The sun is that of the interval's middle, in WEA files of the stated time, as gendaymtx
-// has it.
+// The sun is that of the interval's middle; of WEA files that of the stated time, as gendaymtx has
+// it; of NSRDB and PVGIS that of the instant that the satellite saw.
 struct WeatherHour {
   Instant middle;
   Site site;
   double direct_normal_w_m2 = 0, diffuse_horizontal_w_m2 = 0;
-  std::optional<double> precipitable_water_mm;  // where the file has it: EPW, TMY2, TMY3
+  std::optional<double> precipitable_water_mm;  // where the file has it
 };
 
-// Of "FILE@YYYY-MM-DDTHH:MM" in the file's own standard time, the interval that contains it, where
-// two meet the later one. Throws
-// std::invalid_argument or std::runtime_error with one line that names file, line, field, value and
-// what was expected.
+// Of "FILE@YYYY-MM-DDTHH:MM" on the file's own clock (standard time, of PVGIS UTC), the interval
+// that contains it, where two meet the later one. Throws std::invalid_argument or
+// std::runtime_error with one line that names file, line, field, value and what was expected.
 WeatherHour weather_hour(std::string_view file_and_time);
 
 // Clearness and brightness of the hour and the sun of its middle (Perez et al. 1990, eqs. 1 and 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The four layouts of weather files give the same hour and the same Perez sky; what is wrong in
+// The layouts of weather files give the same hour and the same Perez sky; what is wrong in
 // one is named by line and field.
 #include "data_refs/weather_file.h"
 
@@ -46,6 +46,22 @@ std::string tmy2_row(const std::string& hour, const std::string& direct,
 const std::string kTmy2 = " 12345 SOMEWHERE              CO  -7 N 40  0 W 105  0  1800\n" +
                           tmy2_row("11", " 800", " 120") + tmy2_row("12", " 850", " 110");
 
+// Downloads of NREL, stamped at the middle of the hour, and of PVGIS, stamped in UTC.
+const std::string kNsrdb =
+    "Source,Location ID,City,State,Country,Latitude,Longitude,Time Zone,Elevation,Local Time Zone\n"
+    "NSRDB,1,-,-,-,40.0,-105.0,-7,1800,-7\n"
+    "Year,Month,Day,Hour,Minute,Clearsky DNI,DHI,DNI,GHI,Precipitable Water\n"
+    "1999,6,21,10,30,990,120,800,870,1.2\n1999,6,21,11,30,990,110,850,950,1.4\n";
+const std::string kPvgis =
+    "Latitude (decimal degrees): 40.0\nLongitude (decimal degrees): -105.0\n"
+    "Elevation (m): 1800\nIrradiance Time Offset (h): 0.5\nmonth,year\n1,2005\n6,1999\n"
+    "time(UTC),T2m,RH,G(h),Gb(n),Gd(h),IR(h),WS10m,WD10m,SP\n"
+    "19990621:1700,20,40,870,800,120,300,1,0,82000\n"
+    "19990621:1800,21,40,950,850,110,300,1,0,82000\n\nT2m: air temperature (degree Celsius)\n";
+
+// As a spreadsheet writes it.
+std::string quoted(std::string text) { return text.replace(0, 8, "\"LOCATION\""); }
+
 class WeatherFile : public ::testing::Test {
  protected:
   std::string hour_of(const std::string& text, const std::string& time) const {
@@ -59,8 +75,10 @@ class WeatherFile : public ::testing::Test {
 TEST_F(WeatherFile, TheLayoutsGiveTheSameHour) {
   std::string tabs = kWea;
   std::ranges::replace(tabs, ' ', '\t');
-  for (const std::string& text : {kEpw, kWea, tabs, kTmy, kTmy2}) {
-    const WeatherHour hour = weather_hour(hour_of(text, "2026-06-21T11:20"));
+  for (const std::string& text : {kEpw, quoted(kEpw), kWea, tabs, kTmy, kTmy2, kNsrdb, kPvgis}) {
+    const bool utc = text == kPvgis;
+    const WeatherHour hour =
+        weather_hour(hour_of(text, utc ? "2026-06-21T18:20" : "2026-06-21T11:20"));
     EXPECT_EQ(hour.direct_normal_w_m2, 850);
     EXPECT_EQ(hour.diffuse_horizontal_w_m2, 110);
     EXPECT_EQ(iso_text(hour.middle), "2026-06-21T18:30:00Z");
@@ -75,6 +93,15 @@ TEST_F(WeatherFile, KnowsTheWaterOfTmy2) {
   // A line may end before it.
   EXPECT_FALSE(weather_hour(hour_of(kTmy2.substr(0, kTmy2.size() - 30), "2026-06-21T11:20"))
                    .precipitable_water_mm);
+}
+
+TEST_F(WeatherFile, InstantsOfNsrdbAreNotMovedToAMiddle) {
+  EXPECT_EQ(weather_hour(hour_of(kNsrdb, "2026-06-21T11:20")).precipitable_water_mm, 14);
+  std::string five = kNsrdb;
+  five.replace(five.find("10,30,"), 6, "11,25,");
+  const WeatherHour first = weather_hour(hour_of(five, "2026-06-21T11:25"));
+  EXPECT_EQ(iso_text(first.middle), "2026-06-21T18:25:00Z");
+  EXPECT_EQ(first.direct_normal_w_m2, 800);
 }
 
 TEST_F(WeatherFile, IntervalsShorterThanAnHourHaveTheirOwnSun) {
@@ -116,13 +143,21 @@ TEST_F(WeatherFile, FaultsAreNamed) {
   north.replace(north.find("40.0"), 4, "91.0");
   EXPECT_THAT(complaint(north, "2026-06-21T11:20"), HasSubstr("latitude = 91"));
   EXPECT_THAT(complaint("hello\n", "2026-06-21T11:20"),
-              HasSubstr("expected EPW, WEA, TMY2 or TMY3"));
+              HasSubstr("expected EPW, WEA, TMY2, TMY3, NSRDB or PVGIS"));
   for (const std::string& text : {kEpw, kTmy}) {
     std::string turned = text;
     turned.replace(turned.find("-105.0"), 6, "75.00");
     EXPECT_THAT(complaint(turned, "2026-06-21T11:20"),
                 HasSubstr("longitude or time zone may be wrong"));
   }
+  std::string turned = kPvgis;
+  turned.replace(turned.find("-105.0"), 6, "105.00");
+  EXPECT_THAT(complaint(turned, "2026-06-21T18:20"),
+              HasSubstr("longitude or time zone may be wrong"));
+  EXPECT_THAT(complaint(kPvgis.substr(0, kPvgis.find("time(UTC)")), "2026-06-21T18:20"),
+              HasSubstr("expected a line of columns time(UTC)"));
+  EXPECT_THAT(complaint(kNsrdb.substr(0, kNsrdb.find("Year")), "2026-06-21T11:20"),
+              HasSubstr("weather.txt:2: expected a line of columns"));
   std::string zone = kWea;
   const std::size_t at = zone.find("time_zone ") + 10;
   zone.replace(at, zone.find('\n', at) - at, "7");
