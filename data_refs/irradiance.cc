@@ -16,6 +16,7 @@
 #include "data_refs/closure.h"
 #include "data_refs/csv.h"
 #include "data_refs/measured_sky.h"
+#include "data_refs/other_formats.h"
 #include "data_refs/scan_header.h"
 #include "data_refs/weather_file.h"
 #include "model/base/input_file.h"
@@ -144,8 +145,8 @@ class Irradiances {
     }
     if (unit_.quantity == Quantity::kIrradiance && !row.water_mm) {
       fail(place, fmt::format("{}: not known, expected the column of water vapour in mm beside "
-                              "W/m2, of which it absorbs a tenth (lx need none)",
-                              kWater));
+                              "W/m2, of which it absorbs a tenth (lx need none), such as {}=14mm",
+                              kWater, kWater));
     }
   }
 
@@ -186,16 +187,6 @@ class Irradiances {
   const UnitRow& unit_;
   Reference reference_;
 };
-
-std::vector<std::string> parts_of(std::string_view text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.emplace_back(trim(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 // Of "83000:500lx", the numbers before the unit.
 Measured measured_of(std::string_view part, std::string_view numbers, double factor) {
@@ -253,7 +244,8 @@ Reference of_values(std::string_view text, std::optional<double> sun_zenith,
                     const ImportOptions& options) {
   Row row;
   const UnitRow* unit = nullptr;
-  for (const std::string& part : parts_of(text)) read_value(part, row, unit);
+  for (const std::string_view part : split(text, ','))
+    read_value(std::string(trim(part)), row, unit);
   if (unit == nullptr)
     fail(text, fmt::format("no irradiance, expected one of {}", fmt::join(kIrradianceNames, ", ")));
   ImportOptions facts = options;
@@ -299,6 +291,15 @@ Reference of_weather(std::string_view text) {
   Irradiances irradiances(file_and_time, kUnits[1]);
   irradiances.add(row, sun, file_and_time);
   return irradiances.finish();
+}
+
+CsvTable table_of(const std::string& text, const std::string& file) {
+  try {
+    return CsvTable(text, file);
+  } catch (const std::invalid_argument&) {
+    if (const auto other = other_format(text)) fail(file, *other);
+    throw;
+  }
 }
 
 // The unit whose columns the table has.
@@ -357,7 +358,7 @@ Row row_of(const CsvTable& table, const CsvRecord& record, const UnitRow& unit) 
 
 Reference of_csv(const std::string& file, const ImportOptions& options) {
   const std::string text = read_text_file(file, "a table of irradiances");
-  const CsvTable table(text, file);
+  const CsvTable table = table_of(text, file);
   const UnitRow& unit = unit_of(table);
   expect_known_columns(table, unit);
   const ImportOptions facts = overlaid(options, scan_header(text, file).facts);

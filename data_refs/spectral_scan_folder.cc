@@ -127,6 +127,23 @@ std::vector<double> band_centres(const Spectrum& spectrum, double band_nm) {
   return centres;
 }
 
+// Of each direction, with the name of its file.
+using BandCounts = std::vector<std::pair<std::size_t, std::string>>;
+
+// Empty where all have as many; a file that was cut short has fewer.
+std::string note_of_shorter_spectra(const BandCounts& counts) {
+  if (counts.empty()) return {};
+  const std::size_t most = std::ranges::max_element(counts)->first;
+  const auto is_shorter = [most](const auto& count) { return count.first < most; };
+  const auto first = std::ranges::find_if(counts, is_shorter);
+  if (first == counts.end()) return {};
+  const auto number = std::ranges::count_if(counts, is_shorter);
+  return fmt::format(
+      "{} of {} spectra hold{} fewer wavelengths than the others, as {}: {} bands in the place of "
+      "{}",
+      number, counts.size(), number == 1 ? "s" : "", in_quotes(first->second), first->first, most);
+}
+
 // Of the files, ascending; a scan takes minutes. Throws when they are not those of one scan.
 std::vector<std::string> times_of_scan(const DirectionFiles& files, const fs::path& folder) {
   constexpr std::chrono::minutes kLongest{30};
@@ -158,10 +175,13 @@ Reference load_spectral_scan_folder(const fs::path& folder, const ImportOptions&
   sky.begin_scan(name.filename().string(), sun_of_scan(facts, folder.string()));
   const double band_nm = options.band_nm.value_or(kDefaultBand_nm);
   LeftOut left_out("direction");
+  BandCounts counts;
   for (const auto& [number, file] : files) {
     Spectrum spectrum;
     if (!left_out.attempt([&, &path = file.path] { spectrum = read_spectrum(path); })) continue;
-    for (const double nm : band_centres(spectrum, band_nm)) {
+    const std::vector<double> centres = band_centres(spectrum, band_nm);
+    counts.emplace_back(centres.size(), file.path.filename().string());
+    for (const double nm : centres) {
       Reading reading;
       reading.number = number;
       reading.view_azimuth_deg = file.azimuth_deg;
@@ -172,6 +192,7 @@ Reference load_spectral_scan_folder(const fs::path& folder, const ImportOptions&
     }
   }
   for (const std::string& note : left_out.notes()) sky.note(note);
+  if (const std::string note = note_of_shorter_spectra(counts); !note.empty()) sky.note(note);
   if (!others.empty())
     sky.note(fmt::format("{} of .rad left out, as {}: expected a name {}",
                          others.size() == 1 ? "a file" : fmt::format("{} files", others.size()),

@@ -156,7 +156,12 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
   }
   if (options.aerosol) {
     for (const auto& [id, prior] : priors_of(*options.aerosol, atmosphere)) {
-      if (options.free ? is_free(id) : !options.fix.contains(id)) result.priors.emplace(id, prior);
+      if (options.free ? !is_free(id) : options.fix.contains(id)) continue;
+      if (!model.can_fit(id))
+        throw std::invalid_argument(
+            fmt::format("AERONET tells {}: the {} model cannot, expected --fix of it", id.name(),
+                        model.name()));
+      result.priors.emplace(id, prior);
     }
   }
   if (options.free || (!several_wavelengths && !options.aerosol)) return result;

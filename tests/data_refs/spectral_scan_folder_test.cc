@@ -79,6 +79,17 @@ TEST_F(SpectralScanFolder, HoldsBandMeansInTheDirectionsOfTheNames) {
   EXPECT_EQ(load().samples.size(), 2u * 23);  // 380, 400 .. 820
 }
 
+TEST_F(SpectralScanFolder, ASpectrumThatWasCutShortIsSaid) {
+  write("2013-05-27___09.30.00_-_0____000___12.1151.asd.rad.txt", ramp(0.001));
+  const std::string whole = ramp(0.002);
+  write("2013-05-27___09.32.10_-_12____135___45.asd.rad.txt", whole.substr(0, whole.find("\n601")));
+  const Reference scan = load();
+  EXPECT_EQ(scan.samples.size(), 93u + 47u);  // 365 to 595 nm
+  EXPECT_THAT(scan.notes, testing::Contains(HasSubstr("1 of 2 spectra holds fewer wavelengths than "
+                                                      "the others, as "
+                                                      "\"2013-05-27___09.32.10_-_12____135___45")));
+}
+
 TEST_F(SpectralScanFolder, FaultsNameTheFile) {
   EXPECT_THAT(complaint(), HasSubstr(": no measured sky: expected files DATE___HH.MM.SS"));
   const std::string good = "2013-05-27___09.30.00_-_0____000___12.1151.asd.rad.txt";

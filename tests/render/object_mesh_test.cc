@@ -186,6 +186,18 @@ TEST_F(ObjFiles, CommentsStandBehindNumbersButNotInNames) {
   EXPECT_EQ(mesh.indices.size(), 3u);
 }
 
+TEST_F(ObjFiles, NamesMayHoldBlanks) {
+  write("my paints.mtl", "newmtl dark red\nKd 0.5 0.1 0.1\nnewmtl dark blue \nKd 0.1 0.1 0.5\n");
+  const ObjectMesh mesh = read(
+      "mtllib my paints.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl dark red\nf 1 2 3\n"
+      "usemtl dark blue\nf 1 2 4\nusemtl dark green\nf 1 3 4\n");
+  ASSERT_EQ(mesh.materials.size(), 3u);
+  EXPECT_EQ(mesh.materials[0].name, "dark red");
+  EXPECT_EQ(mesh.materials[1].name, "dark blue");
+  EXPECT_LT(mesh.vertices[0].reflectance[0], mesh.vertices[3].reflectance[0]);  // of blue light
+  EXPECT_THAT(mesh.warning, HasSubstr("material \"dark green\" is in none of the files"));
+}
+
 TEST_F(ObjFiles, AColourIsThreeNumbers) {
   for (const char* wrong : {"Kd 0.5", "Kd 1 x 0", "Kd spectral leaf.rfl 1"}) {
     write("own.mtl", std::string("newmtl leaf\n") + wrong + "\n");

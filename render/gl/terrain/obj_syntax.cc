@@ -147,7 +147,39 @@ std::string_view without_comment(std::string_view line) {
                                                                     : line;
 }
 
+// Stands for a blank in a name, which the loader would end there.
+constexpr char kBlankInName = '\x1f';
+
+std::string with_joined_name(std::string_view line) {
+  std::string_view rest = line;
+  const std::string_view kind = next_word(rest);
+  const std::string_view name = trim(rest);
+  constexpr std::string_view kEnding = ".mtl";
+  const bool one_file = kind == "mtllib" && name.ends_with(kEnding) &&
+                        name.find(kEnding) == name.size() - kEnding.size();
+  if (kind != "usemtl" && kind != "newmtl" && !one_file) return std::string(line);
+  std::string joined(name);
+  std::ranges::replace_if(
+      joined, [](char c) { return kSpace.find(c) != kSpace.npos; }, kBlankInName);
+  return fmt::format("{} {}", kind, joined);
+}
+
 }  // namespace
+
+std::string with_joined_names(std::string_view text) {
+  std::string result;
+  result.reserve(text.size() + 1);
+  for (const std::string_view line : split(text, '\n')) {
+    result += line.find("mtl") == line.npos ? line : with_joined_name(line);
+    result += '\n';
+  }
+  return result;
+}
+
+std::string with_blanks(std::string name) {
+  std::ranges::replace(name, kBlankInName, ' ');
+  return name;
+}
 
 std::string with_joined_lines(std::string_view obj) {
   std::string text;
@@ -167,7 +199,7 @@ std::string with_joined_lines(std::string_view obj) {
       text.append(1 + std::exchange(joined, 0), '\n');
     }
   }
-  return text;
+  return with_joined_names(text);
 }
 
 void check_mtl(const std::filesystem::path& file, std::string_view text) {

@@ -13,9 +13,16 @@ namespace skyfit {
 // Materials that the faces ask for, and the line of the first that does.
 using MaterialUses = std::map<std::string, int>;
 
-// The text with each line that ends in a backslash joined to the next. Empty lines after the joined
-// one keep the numbers of those that follow.
+// The text with each line that ends in a backslash joined to the next, and with joined names. Empty
+// lines after the joined one keep the numbers of those that follow.
 std::string with_joined_lines(std::string_view obj);
+
+// The text with names of materials and of their file whole for the loader, which ends them at a
+// blank. Files of mtllib are several where .mtl stands several times.
+std::string with_joined_names(std::string_view text);
+
+// The name as the file has it.
+std::string with_blanks(std::string name);
 
 // `text` is the file's with joined lines. Throws std::runtime_error `file:line: what was found and
 // what was expected`: a vertex or normal that is not three finite numbers, a face of less than

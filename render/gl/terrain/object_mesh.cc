@@ -33,9 +33,10 @@ class MaterialFiles : public tinyobj::MaterialReader {
  public:
   MaterialFiles(const fs::path& mesh, NamedFiles named) : mesh_(mesh), named_(named) {}
 
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
+  bool operator()(const std::string& joined, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* numbers, std::string* warning,
                   std::string* error) override {
+    const std::string name = with_blanks(joined);
     const auto file = named_file(mesh_.parent_path(), name, named_);
     if (!file)
       throw std::runtime_error(
@@ -44,9 +45,9 @@ class MaterialFiles : public tinyobj::MaterialReader {
       missing_.push_back(excerpt(name));
       return false;
     }
-    std::string materials_text = read_text_file(*file, "a file of materials");
+    const std::string materials_text = read_text_file(*file, "a file of materials");
     check_mtl(*file, materials_text);
-    std::istringstream text(std::move(materials_text));
+    std::istringstream text(with_joined_names(materials_text));
     tinyobj::LoadMtl(numbers, materials, &text, warning, error);
     return true;
   }
@@ -79,8 +80,8 @@ std::string missing_materials(const fs::path& mesh, const MaterialUses& uses, co
                                                   : fmt::format("not to be had, for {} is missing",
                                                                 fmt::join(missing_files, ", "));
   return fmt::format("{}:{}: material {}{} {}: drawn grey, with the reflectance {:.6g}",
-                     mesh.string(), first->second, in_quotes(first->first), others, files,
-                     reflectance);
+                     mesh.string(), first->second, in_quotes(with_blanks(first->first)), others,
+                     files, reflectance);
 }
 
 ObjFile parsed(const fs::path& file, double reflectance, NamedFiles named) {
@@ -198,7 +199,7 @@ ObjectMesh read_object_mesh(const fs::path& file, double reflectance, const Colo
   mesh.warning = obj.warning;
   for (const tinyobj::material_t& material : obj.materials) {
     const glm::dvec3 color(material.diffuse[0], material.diffuse[1], material.diffuse[2]);
-    mesh.materials.push_back({material.name, colors.at(glm::clamp(color, 0.0, 1.0))});
+    mesh.materials.push_back({with_blanks(material.name), colors.at(glm::clamp(color, 0.0, 1.0))});
   }
   mesh.materials.push_back({"", {reflectance, reflectance, reflectance, reflectance}});
   MeshBuilder builder(obj, mesh);
