@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -78,16 +79,13 @@ bool is_missing(std::string_view field) {
          (number && (std::isnan(*number) || *number == -999 || *number == -9999));
 }
 
-// Why a sample of the mapped values, in the mapping's order, cannot be used; empty where it can.
-std::string_view flaw_of(const ColumnMapping& mapping, const std::vector<std::string>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::optional<double> number = csv_number(values[i]);
-    if (!number) continue;
-    const std::string& name = mapping.columns[i].name;
-    if (is_sample_value(name) && std::isnan(*number)) return "missing";
-    if (is_sample_value(name) && !(*number > 0)) return "not positive";
-    if (name == sample_csv::kViewZenith && !(*number < 90)) return "outside the sky";
-  }
+// Why a sample with this value in the column cannot be used; empty where it can.
+std::string_view flaw_of(std::string_view column, std::string_view value) {
+  const std::optional<double> number = csv_number(value);
+  if (!number) return {};
+  if (is_sample_value(column) && std::isnan(*number)) return "missing";
+  if (is_sample_value(column) && !(*number > 0)) return "not positive";
+  if (column == sample_csv::kViewZenith && !(*number < 90)) return "outside the sky";
   return {};
 }
 
@@ -113,6 +111,10 @@ std::string value_of(const ColumnMapping::Column& column, std::string field, boo
 
 bool ColumnMapping::has(std::string_view name) const {
   return std::ranges::count(columns, name, &Column::name) > 0;
+}
+
+bool AddedColumns::is_time(std::string_view column) const {
+  return std::ranges::count(time_columns, column) > 0;
 }
 
 ColumnMapping column_mapping(const PresetReader& sidecar) {
@@ -163,8 +165,7 @@ ColumnMapping column_mapping(const PresetReader& sidecar) {
 }
 
 std::string mapped_text(std::string_view text, std::string_view source,
-                        const ColumnMapping& mapping,
-                        const std::vector<std::pair<std::string, std::string>>& constants) {
+                        const ColumnMapping& mapping, const AddedColumns& added) {
   const char delimiter = delimiter_of(mapping);
   // A spectral scan numbers its samples.
   const bool numbered =
@@ -181,8 +182,10 @@ std::string mapped_text(std::string_view text, std::string_view source,
     if (!names.empty()) names += ',';
     names += csv_field(name);
   };
-  for (const ColumnMapping::Column& column : mapping.columns) add(column.name);
-  for (const auto& [name, value] : constants) add(name);
+  for (const ColumnMapping::Column& column : mapping.columns) {
+    if (!added.is_time(column.name)) add(column.name);
+  }
+  std::ranges::for_each(added.names, add);
   if (weighted) names += fmt::format(",{},{}", sample_csv::kWeight, sample_csv::kReason);
 
   std::string result;
@@ -216,16 +219,32 @@ std::string mapped_text(std::string_view text, std::string_view source,
       result += '\n';
     }
     std::vector<std::string> values;
+    std::map<std::string_view, std::string> times;  // by their columns
+    std::string_view flaw;
     for (std::size_t i = 0; i < place.size(); ++i) {
+      const ColumnMapping::Column& column = mapping.columns[i];
       if (place[i] >= fields.size())
         fail_at(source, number,
                 fmt::format("expected at least {} columns, got {}", place[i] + 1, fields.size()));
-      values.push_back(
-          value_of(mapping.columns[i], fields[place[i]], mapping.decimal_comma, source, number));
+      const std::string& field = fields[place[i]];
+      if (added.is_time(column.name)) {
+        times[column.name] = field;
+        continue;
+      }
+      values.push_back(value_of(column, field, mapping.decimal_comma, source, number));
+      if (flaw.empty()) flaw = flaw_of(column.name, values.back());
     }
-    const std::string_view flaw = flaw_of(mapping, values);
     if (numbered) values.insert(values.begin(), fmt::format("{}", sample++));
-    for (const auto& [name, value] : constants) values.push_back(csv_field(value));
+    if (added.values) {
+      std::vector<std::string> parts;
+      for (const std::string_view column : added.time_columns) parts.push_back(times[column]);
+      const auto further = added.values(fmt::format("{}", fmt::join(parts, "T")), number);
+      if (!further) {
+        result += '\n';
+        continue;
+      }
+      for (const std::string& value : *further) values.push_back(csv_field(value));
+    }
     if (weighted) values.push_back(fmt::format("{},{}", flaw.empty() ? 1 : 0, flaw));
     result += fmt::format("{}\n", fmt::join(values, ","));
   }

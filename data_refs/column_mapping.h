@@ -8,6 +8,8 @@
 // a spectral scan (data_refs/spectral_scan_csv.h) or of a CSV of samples (data_refs/sample_csv.h).
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,11 +38,25 @@ inline constexpr std::string_view kMappingFields[] = {"columns", "delimiter", "d
 // Throws std::invalid_argument with one line that names file, line, field and expectation.
 ColumnMapping column_mapping(const PresetReader& sidecar);
 
+// Mapped columns that are none of what is read: the time of each line, on the file's clock, and its
+// date where the time has none.
+inline constexpr std::string_view kMappedLocalDate = "local_date", kMappedLocalTime = "local_time";
+
+// Columns that the lines do not have.
+struct AddedColumns {
+  std::vector<std::string> names;
+  // Of a line and its fields of the time columns with T between; nothing where the line is to be
+  // left out.
+  std::function<std::optional<std::vector<std::string>>(const std::string& time, int line)> values;
+  std::vector<std::string_view> time_columns = {};  // mapped columns that are read here only
+
+  bool is_time(std::string_view column) const;
+};
+
 // The CSV that is read in the place of `text`, line by line, so that messages name lines of the
-// file. `constants`: further columns with one value for all lines. Throws std::invalid_argument
-// `source:line: ...` for a column that the file lacks, or a value that is no number.
+// file. Throws std::invalid_argument `source:line: ...` for a column that the file lacks, or a
+// value that is no number.
 std::string mapped_text(std::string_view text, std::string_view source,
-                        const ColumnMapping& mapping,
-                        const std::vector<std::pair<std::string, std::string>>& constants);
+                        const ColumnMapping& mapping, const AddedColumns& added);
 
 }  // namespace skyfit::refs

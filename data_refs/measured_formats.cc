@@ -18,6 +18,7 @@
 #include "data_refs/civil_time.h"
 #include "data_refs/csv.h"
 #include "data_refs/eko_csv.h"
+#include "data_refs/mapped_sky.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/other_formats.h"
 #include "data_refs/patch_csv.h"
@@ -132,42 +133,6 @@ constexpr std::array<MeasuredFormat, 10> kFormats = {{
      read_samples},
 }};
 
-// The sun of a scan whose mapped columns make a CSV of samples without one.
-std::optional<ScanSun> missing_sun(const ImportOptions& facts, std::string_view source) {
-  const ColumnMapping& mapping = *facts.columns;
-  const bool has_values = mapping.has("luminance_cd_m2") || mapping.has("relative_luminance") ||
-                          mapping.has("spectral_radiance_w_m2_sr_nm");
-  if (!has_values || mapping.has("sun_zenith_deg")) return {};
-  if (mapping.has(sample_csv::kTime))
-    throw std::invalid_argument(fmt::format(
-        "{}: columns.{}: expected columns.sun_zenith_deg beside it; without one the scan has one "
-        "sun, that of local_time",
-        source, sample_csv::kTime));
-  return sun_of_scan(facts, source, mapping.has("view_azimuth_deg"));
-}
-
-// The facts of that sun, which the mapped columns lack.
-std::vector<std::pair<std::string, std::string>> sun_columns(const std::optional<ScanSun>& sun,
-                                                             const ImportOptions& facts,
-                                                             std::string_view source) {
-  std::vector<std::pair<std::string, std::string>> columns;
-  if (!sun) return columns;
-  const auto add = [&](std::string_view name, std::string value) {
-    if (!facts.columns->has(name)) columns.emplace_back(name, std::move(value));
-  };
-  using namespace sample_csv;
-  add(kScan, std::filesystem::path(source).filename().string());
-  add(kSunZenith, fmt::format("{}", sun->zenith * kDegreesPerRadian));
-  if (facts.columns->has(kViewAzimuth))
-    add(kSunAzimuth, fmt::format("{}", sun->azimuth.value_or(0) * kDegreesPerRadian));
-  if (sun->time) {
-    add(kTime, iso_text(*sun->time));
-    add(kDistance, fmt::format("{}", sun->distance_au));
-  }
-  if (sun->elevation_m) add(kElevation, fmt::format("{}", *sun->elevation_m));
-  return columns;
-}
-
 const MeasuredFormat& format_of(const SkyFile& file) {
   return *std::ranges::find_if(kFormats, [&](const MeasuredFormat& f) { return f.matches(file); });
 }
@@ -200,21 +165,25 @@ Reference load_measured_sky(const std::filesystem::path& path, const ImportOptio
   validate(options);
   const ImportOptions facts = with_sidecar(options, path);
   SkyFile file(path);
-  std::optional<ScanSun> sun;
+  MappedSky mapped;
   if (facts.columns) {
-    sun = missing_sun(facts, file.name());
-    file.set_text(mapped_text(file.text(), file.name(), *facts.columns,
-                              sun_columns(sun, facts, file.name())));
+    mapped = mapped_sky(file.text(), file.name(), facts);
+    file.set_text(std::move(mapped.text));
   }
   const MeasuredFormat& format = format_of(file);
   Reference sky = format.read(file, facts);
-  if (sun) {
-    for (Scan& scan : sky.scans) scan.site = sun->site;
+  if (facts.columns) {
+    if (mapped.site) {
+      for (Scan& scan : sky.scans) scan.site = mapped.site;
+    }
+    std::ranges::move(mapped.notes, std::back_inserter(sky.notes));
+    std::ranges::move(check_mapped_suns(sky, file.name(), facts), std::back_inserter(sky.notes));
   }
   mask_unknown_wavelengths(sky);
   check_suns(facts, sky);
   for (const ImportOptionRow& row : import_option_table()) {
-    const bool is_used = (row.formats & format.format) != 0 || (sun && is_about_sun(row));
+    const bool is_used =
+        (row.formats & format.format) != 0 || (mapped.facts_are_used && is_about_sun(row));
     if (!row.is_set(facts) || is_used) continue;
     // It would change values and directions, were they a spectral scan's.
     if (facts.columns && format.format == kSampleCsv && !is_about_sun(row) &&

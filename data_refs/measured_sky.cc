@@ -26,20 +26,6 @@ constexpr double kTurn = 2 * std::numbers::pi;
   throw std::invalid_argument(fmt::format("{}: {}", place, message));
 }
 
-std::optional<Instant> time_of(const ImportOptions& facts, std::string_view place) {
-  if (!facts.local_time) return {};
-  if (!instant(*facts.local_time, 0))
-    fail(place, fmt::format("local_time = {}: expected {}", *facts.local_time, kTimeForm));
-  const std::optional<double> in_text = stated_utc_offset_h(*facts.local_time);
-  if (!in_text && !facts.utc_offset_h)
-    fail(place, "utc_offset_h: not stated, expected the hours that local_time is ahead of UTC");
-  if (in_text && facts.utc_offset_h && *in_text != *facts.utc_offset_h) {
-    fail(place, fmt::format("utc_offset_h = {:.9g}: expected {:.9g}, as local_time = {} says",
-                            *facts.utc_offset_h, *in_text, *facts.local_time));
-  }
-  return instant(*facts.local_time, in_text.value_or(facts.utc_offset_h.value_or(0)));
-}
-
 // What to note of the stated sun; throws when it is another one.
 std::string expect_agreement(const ImportOptions& facts, const SolarPosition& sun, Instant time,
                              const Site& site, std::string_view place) {
@@ -83,9 +69,23 @@ std::string counted(std::size_t count, std::string_view what) {
 
 }  // namespace
 
+std::optional<Instant> stated_time(const ImportOptions& facts, std::string_view place) {
+  if (!facts.local_time) return {};
+  if (!instant(*facts.local_time, 0))
+    fail(place, fmt::format("local_time = {}: expected {}", *facts.local_time, kTimeForm));
+  const std::optional<double> in_text = stated_utc_offset_h(*facts.local_time);
+  if (!in_text && !facts.utc_offset_h)
+    fail(place, "utc_offset_h: not stated, expected the hours that local_time is ahead of UTC");
+  if (in_text && facts.utc_offset_h && *in_text != *facts.utc_offset_h) {
+    fail(place, fmt::format("utc_offset_h = {:.9g}: expected {:.9g}, as local_time = {} says",
+                            *facts.utc_offset_h, *in_text, *facts.local_time));
+  }
+  return instant(*facts.local_time, in_text.value_or(facts.utc_offset_h.value_or(0)));
+}
+
 ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azimuth_is_needed) {
   ScanSun result;
-  result.time = time_of(facts, place);
+  result.time = stated_time(facts, place);
   result.elevation_m = facts.elevation_m;
   if (result.time) result.distance_au = sun_distance_au(*result.time);
   if (result.time && facts.latitude_deg && facts.longitude_deg) {

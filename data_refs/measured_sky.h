@@ -32,6 +32,10 @@ struct ScanSun {
   std::string remark;                 // what to note of it; empty otherwise
 };
 
+// The instant of local_time; nothing where that is not stated. Throws std::invalid_argument that
+// begins with `place` where it is no time, or its offset to UTC is missing or contradicted.
+std::optional<Instant> stated_time(const ImportOptions& facts, std::string_view place);
+
 // From time and place; a sun that is stated beside them must agree within kSunAgreement_deg, as it
 // is or as refraction shows it. Where time or place is missing, the stated one. Throws
 // std::invalid_argument that begins with `place` when neither is known, they disagree or the sun is

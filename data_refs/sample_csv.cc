@@ -16,6 +16,7 @@
 #include "data_refs/civil_time.h"
 #include "data_refs/csv.h"
 #include "data_refs/sample_csv_columns.h"
+#include "data_refs/sun_mends.h"
 #include "data_refs/units.h"
 #include "model/numerics/angles.h"
 
@@ -166,7 +167,7 @@ class SampleReader {
   // Every position of the sun is a scan. Where each sample has one of its own, the sun moves within
   // a scan, until it jumps.
   std::vector<std::string> labels_by_sun() const {
-    constexpr double kJump_deg = 1;
+    constexpr double kJump = 1 * kRadiansPerDegree;
     std::vector<std::string> labels;
     for (const CsvRecord& record : table_.records()) {
       labels.push_back(fmt::format("sun zenith {} deg", table_.text(record, kSunZenith)));
@@ -174,14 +175,16 @@ class SampleReader {
         labels.back() += fmt::format(", azimuth {} deg", table_.text(record, kSunAzimuth));
     }
     if (std::set(labels.begin(), labels.end()).size() < labels.size()) return labels;
-    const auto jump = [&](std::string_view column, std::size_t i) {
-      return table_.has(column) &&
-             !(std::abs(std::remainder(table_.number(table_.records()[i], column) -
-                                           table_.number(table_.records()[i - 1], column),
-                                       360)) < kJump_deg);
-    };
-    for (std::size_t i = 1; i < labels.size(); ++i) {
-      if (!jump(kSunZenith, i) && !jump(kSunAzimuth, i)) labels[i] = labels[i - 1];
+    std::optional<SolarPosition> last;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      const CsvRecord& record = table_.records()[i];
+      const SolarPosition sun{
+          .zenith = kRadiansPerDegree * table_.number(record, kSunZenith),
+          .azimuth =
+              table_.has(kSunAzimuth) ? kRadiansPerDegree * table_.number(record, kSunAzimuth) : 0};
+      if (last && angle_to_stated(last->zenith, last->azimuth)(sun) < kJump)
+        labels[i] = labels[i - 1];
+      last = sun;
     }
     return labels;
   }

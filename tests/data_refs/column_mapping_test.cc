@@ -3,6 +3,7 @@
 // wrong names the line of the file.
 #include "data_refs/column_mapping.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -114,9 +115,56 @@ TEST_F(ColumnMappingTest, WhatMeansSomethingElseIsRefused) {
   EXPECT_THAT(complaint(head + rows, sidecar(R"(, "unit": "kcd m-2")")),
               HasSubstr("unit: expected none beside columns of luminance"));
   std::string timed = sidecar("");
-  timed.insert(timed.find("\"view_zenith"), "\"time_utc\": \"T\", ");
-  EXPECT_THAT(complaint("Azi;Zen;T;L\n10;20;2024-06-21T12:00:00Z;4,5\n", timed),
-              HasSubstr("columns.time_utc: expected columns.sun_zenith_deg beside it"));
+  timed.insert(timed.find("\"view_zenith"), "\"sun_zenith_deg\": \"S\", ");
+  EXPECT_THAT(complaint("Azi;Zen;S;L\n10;20;40;4,5\n", timed),
+              HasSubstr("sun_zenith_deg: expected none beside columns.sun_zenith_deg"));
+}
+
+// Each line has the sun of its own time; a scan ends where the sun jumps.
+TEST_F(ColumnMappingTest, LinesMayTellTheirTimes) {
+  const std::string facts =
+      R"("view_azimuth_deg": "Azi", "view_zenith_deg": "Zen", "luminance_cd_m2": "L"},
+         "delimiter": ";", "latitude_deg": 47.5, "longitude_deg": 0)";
+  const std::string utc = R"({"columns": {"time_utc": "T", )" + facts + "}",
+                    local = R"({"columns": {"local_date": "D", "local_time": "T", )" + facts +
+                            R"(, "utc_offset_h": 2})";
+  for (const Reference& sky :
+       {read("T;Azi;Zen;L\n2024-06-21T12:00:00Z;90;30;4500\n2024-06-21T12:02:00Z;90;40;4600\n"
+             "2024-06-21T14:00:00Z;90;30;4700\n2024-06-21T23:00:00Z;90;30;1\n",
+             utc),
+        read("D;T;Azi;Zen;L\n2024-06-21;14:00:00;90;30;4500\n2024-06-21;14:02:00;90;40;4600\n"
+             "2024-06-21;16:00;90;30;4700\n2024-06-22;01:00;90;30;1\n",
+             local)}) {
+    ASSERT_THAT(sky.samples, SizeIs(3));
+    ASSERT_THAT(sky.scans, SizeIs(2));
+    EXPECT_EQ(sky.scans[1].time_utc, "2024-06-21T14:00:00Z");
+    EXPECT_EQ(sky.samples[1].scan, 0);
+    EXPECT_NE(sky.samples[1].sun_zenith, sky.samples[0].sun_zenith);
+    EXPECT_TRUE(sky.scans[1].site.has_value());
+    EXPECT_THAT(sky.notes, Contains(HasSubstr("a sun above the horizon")));
+    EXPECT_THAT(sky.notes, Not(Contains(HasSubstr("is not used"))));
+  }
+  EXPECT_THAT(complaint("T;Azi;Zen;L\nnoon;90;30;4500\n", utc),
+              HasSubstr("sky.txt:2: local_time = noon: expected"));
+  EXPECT_THAT(complaint("D;Azi;Zen;L\n2024-06-21;90;30;4500\n",
+                        R"({"columns": {"local_date": "D", )" + facts + "}"),
+              HasSubstr("columns.local_date: expected columns.local_time beside it"));
+  EXPECT_THAT(complaint("T;Azi;Zen;R\n2024-06-21T12:00:00Z;90;30;0.1\n",
+                        R"({"columns": {"local_time": "T", "view_azimuth_deg": "Azi",
+                            "view_zenith_deg": "Zen", "radiance_440": "R"}, "delimiter": ";"})"),
+              HasSubstr("columns.local_time: expected local_time of the sidecar in its place"));
+}
+
+TEST_F(ColumnMappingTest, SunsOfColumnsAreThoseOfTimeAndPlace) {
+  const auto sidecar = [](double longitude) {
+    return fmt::format(R"({{"columns": {{"sun_zenith_deg": "S", "relative_azimuth_deg": "Azi",
+                            "view_zenith_deg": "Zen", "luminance_cd_m2": "L", "time_utc": "T"}},
+                           "latitude_deg": 47.5, "longitude_deg": {}}})",
+                       longitude);
+  };
+  const std::string text = "S,Azi,Zen,L,T\n42.67,90,30,4500,2024-06-21T15:00:00Z\n";
+  EXPECT_THAT(complaint(text, sidecar(0)), HasSubstr("none"));
+  EXPECT_THAT(complaint(text, sidecar(-60)), HasSubstr("sun_zenith_deg = 42.67: expected the sun"));
 }
 
 // One cell does not cost the rest.
