@@ -204,8 +204,8 @@ struct FrameOptions {
   AerialPerspective aerial = AerialPerspective::kVolume;
   bool shadows = false;  // of the terrain, under each sun, on ground and in air; of clouds, in air
   double wind_m_s = 5;   // 12.5 m above the sea: how rough it is, 0 to 30
-  // The suns' discs stand where air refracts them to, and as flat: those of the light of one
-  // wavelength, 550 nm, toward which the ground and the sky are drawn as along straight rays.
+  // Ground, horizon and clouds are seen where air refracts them to, suns' discs there and as flat,
+  // in the light of one wavelength, 550 nm. What lights them comes along straight rays.
   bool refraction = false;
   std::optional<SecondSun> second_sun;
   std::optional<Moon> moon;

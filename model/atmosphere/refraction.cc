@@ -100,6 +100,12 @@ Refraction::Air Refraction::air_at(double height) const {
       refractivity_ * (profile.density(high).value - profile.density(low).value) / (high - low)};
 }
 
+Refraction::NearGround Refraction::near_ground() const {
+  const Air air = air_at(0);
+  if (!(air.density > 0) || !(air.slope < 0)) return {0, 1};
+  return {air.density, -air.density / air.slope};
+}
+
 // docs/theory (14.2).
 double Refraction::stretch(double height) const {
   const Air air = air_at(height);

@@ -37,6 +37,12 @@ class Refraction final : public LightTurns {
   double beam_spread(double refractive_height, double apparent_zenith) const override;
   double refractive_index(double refractive_height) const override;
 
+  // n - 1 at the ground, and the height over which it falls by e there; 0 and 1 without air.
+  struct NearGround {
+    double refractivity, scale_height;
+  };
+  NearGround near_ground() const;
+
  private:
   struct Air {
     double density, slope;  // of n - 1, and by height

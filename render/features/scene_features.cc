@@ -49,8 +49,8 @@ RenderFeature refraction() {
       {.name = "refraction",
        .group = kGroup,
        .options = {{.name = "--refraction",
-                    .meaning = "Suns' discs stand, and are flat, as air refracts them; ground and "
-                               "sky stay as straight rays see them"}},
+                    .meaning = "Ground, horizon and limb stand where air refracts them to, suns' "
+                               "discs there and as flat; light falls along straight rays"}},
        .defines = [](const FeatureShader& shader) {
          return shader.options.refraction ? Defines{"REFRACTION"} : Defines{};
        }});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A thing beside the ground into the G-buffer, as terrain.vert does the ground.
+#include "render/shaders/seen_point.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 reflectance;
@@ -15,7 +16,8 @@ out vec3 planet_normal;
 out vec4 object_reflectance;
 
 void main() {
-  vec3 view = view_from_site * (site_from_object * position + offset_km);
+  vec3 site = site_from_object * position + offset_km;
+  vec3 view = view_from_site * seen_point(site, vec3(0.0, 0.0, 1.0));
   gl_Position = vec4(view.xy / tangent, near_km, -view.z);
   planet_normal = planet_from_site * (site_from_object * normal);
   object_reflectance = reflectance;

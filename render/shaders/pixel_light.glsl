@@ -4,6 +4,7 @@
 // for the other variants.
 #include "render/shaders/sky_view.glsl"
 #include "render/shaders/gbuffer.glsl"
+#include "render/shaders/straight_ray.glsl"
 #include "render/shaders/surface_light.glsl"
 #ifdef SURFACE
 #include "render/shaders/materials.glsl"
@@ -286,12 +287,16 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   square_along = site_from_view * vec3(0.0, 2.0 * tangent.y / samples.y, 0.0);
 #endif
   float stretch = length(site_ray);
-  ViewRay ray = view_ray(site_ray * (1.0 / stretch));
+  vec3 direction = site_ray * (1.0 / stretch);
 #ifdef SURFACE
   Surface surface;
   GroundSample ground = unpack_ground(texelFetch(gbuffer, pixel, 0));
   float along_axis = near_km / ground.depth;
   surface.d = along_axis * stretch;
+  ViewRay ray = view_ray(straight_ray(direction, surface.d));
+#ifdef REFRACTION
+  planet_ray = stretch * (planet_from_site * ray.direction);
+#endif
   surface.water = ground.rock < WATER_LIMIT;
   surface.normal = ground.normal;
   surface.reflectance = min(with_material(along_axis * planet_ray, surface.d, planet_ray * (1.0 / stretch), ground.rock,
@@ -302,6 +307,7 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   if (ray.hits_ground) surface.d = min(surface.d, ray.entry + ray.to_ground);
   float d = surface.d;
 #else
+  ViewRay ray = view_ray(straight_ray(direction));
   // A ray that misses the triangles but not the sphere grazes it.
   ray.hits_ground = false;
   const float d = kInfinity;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ground into the G-buffer: positions relative to the camera in kilometres, infinite reversed depth near / distance.
+#include "render/shaders/seen_point.glsl"
 #include "render/shaders/terrain_block.glsl"
 layout(location = 2) in vec4 fine_normal;
 layout(location = 3) in vec4 coarse_normal;
@@ -9,6 +10,7 @@ layout(location = 8) in vec2 above_water;  // fine and coarse
 
 uniform mat3 clip_from_planet;  // x, y and w
 uniform float near_km;
+uniform vec3 up;  // at the camera, planet axes
 
 out vec4 ground_normal;  // share of rock
 out vec4 ground_reflectance;
@@ -16,7 +18,7 @@ out float ground_above_water;
 
 void main() {
   float t = morph();
-  vec3 clip = clip_from_planet * (mix(fine_km, coarse_km, t) + offset_km);
+  vec3 clip = clip_from_planet * seen_point(mix(fine_km, coarse_km, t) + offset_km, up);
   gl_Position = vec4(clip.xy, near_km, clip.z);
   ground_normal = mix(fine_normal, coarse_normal, t);
   ground_reflectance = mix(fine_reflectance, coarse_reflectance, t);

@@ -22,9 +22,10 @@ float disc_solid_angle(int i) {
   return kSunSolidAngle;
 }
 
-// Of each sun where and how its disc is refracted, render/gl/atmosphere/disc_bending.h.
+// Of each sun where and how its disc is refracted, render/gl/atmosphere/disc_bending.h; n - 1 of the air at the ground and the
+// height over which it falls by e.
 #ifdef REFRACTION
-#define BENDING_CONSTANTS(EACH) EACH(vec4[2 * kSuns], bending)
+#define BENDING_CONSTANTS(EACH) EACH(vec4[2 * kSuns], bending) EACH(vec2, refractive_air)
 #else
 #define BENDING_CONSTANTS(EACH)
 #endif

@@ -158,6 +158,19 @@ AtmospherePass::Defined AtmospherePass::defined_by(const FeatureShader& shader) 
   return defined;
 }
 
+const Refraction& AtmospherePass::refraction() {
+  constexpr double kWavelength = 550;  // of which the bending is that of all
+  if (!refraction_) refraction_.emplace(tables_.atmosphere, kWavelength);
+  return *refraction_;
+}
+
+glm::vec4 AtmospherePass::eye_in_air(const FrameOptions& options) {
+  if (!options.refraction) return glm::vec4(0);
+  const auto [refractivity, scale_height] = refraction().near_ground();
+  return glm::dvec4(1e-3 * tables_.atmosphere.bottom_radius_m, 1e-3 * options.camera.altitude_m,
+                    refractivity, 1e-3 * scale_height);
+}
+
 void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   const FrameOptions& options = view.options;
   UniformBlock block(program, "View");
@@ -175,18 +188,18 @@ void AtmospherePass::bind_blocks(GLuint program, const AtmosphereView& view) {
   if (second) suns.back().w = static_cast<float>(second->share);
   block.set("suns", std::span<const glm::vec4>(suns));
   if (options.refraction) {
-    constexpr double kWavelength = 550;  // of which the bending is that of all
-    if (!refraction_) refraction_.emplace(tables_.atmosphere, kWavelength);
     std::vector<glm::vec4> bending;
     for (std::size_t i = 0; i < suns.size(); ++i) {
       const double zenith =
           std::atan2(glm::length(glm::dvec2(suns[i].x, suns[i].y)), double{suns[i].z});
       const double star = tables_.atmosphere.star.angular_radius_rad(),
                    radius = i > 0 ? second->moon_radius.value_or(star) : star;
-      std::ranges::copy(disc_bending(*refraction_, options.camera.altitude_m, zenith, radius),
+      std::ranges::copy(disc_bending(refraction(), options.camera.altitude_m, zenith, radius),
                         std::back_inserter(bending));
     }
     block.set("bending", std::span<const glm::vec4>(bending));
+    const glm::vec4& eye = view.projection.eye_in_air;
+    block.set("refractive_air", glm::vec2(eye.z, eye.w));
   }
   block.bind(blocks_);
   bind_atmosphere(tables_, program, blocks_, codes_);

@@ -81,6 +81,9 @@ class AtmospherePass {
   void set_tables(const AtmosphereTables& tables, const TableCodes& codes);
   const AtmosphereTables& tables() const { return tables_; }  // without values
 
+  // Projection::eye_in_air.
+  glm::vec4 eye_in_air(const FrameOptions& options);
+
   // Whether whole rays are looked up once a frame: not from high above the air; by Hillaire's
   // method from everywhere in it; not by closed forms, and not where light before surfaces is
   // summed along the path.
@@ -103,6 +106,7 @@ class AtmospherePass {
   using Defined = std::vector<std::string>;
   GLuint program(const std::string& path, const Defined& defined);
   Defined defined_by(const FeatureShader& shader) const;
+  const Refraction& refraction();
   GLuint variant(const std::string& path, const Defined& what, const AtmosphereView& view);
   void bind_blocks(GLuint program, const AtmosphereView& view);
   // What both ways read; `sky` and `grainy` are programs of theirs that have all the uniform

@@ -109,6 +109,7 @@ void ObjectPass::draw(const Model& model, const ObjectPlace& place, const Projec
   uniforms.set("planet_from_site", glm::mat3(axes.planet_from_site()));
   uniforms.set("tangent", projection.tangent);
   uniforms.set("near_km", projection.near_km);
+  uniforms.set("eye_in_air", projection.eye_in_air);
   glUseProgram(program_.id());
   submit(model);
 }

@@ -218,7 +218,7 @@ class GlRenderer final : public FrameDrawer {
   void prepare_scene(const FrameOptions& options, FrameStatistics& statistics) {
     const double aspect = static_cast<double>(options.width) / options.height;
     current_.axes = axes_of(options.site);
-    current_.projection = make_projection(options.camera, aspect);
+    current_.projection = make_projection(options.camera, aspect, atmosphere_.eye_in_air(options));
     TerrainView view = view_of(options);
     BlockStore& store = terrain_->store();
     current_.shadows.clear();

@@ -68,6 +68,8 @@ struct TerrainView {
   int levels = 9;           // >= 1
   bool fixed = false;       // the ratio is not to be made smaller
   bool cull = true;
+  // Rays may be bent: what is hidden, beyond the horizon or beside the frustum may be seen.
+  bool bent = false;
   // What is seen instead of the picture's frustum, when there are any: normals that point inward
   // and distances from the camera, in the axes of the site.
   std::vector<glm::dvec4> planes;

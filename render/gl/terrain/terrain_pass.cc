@@ -159,6 +159,8 @@ void TerrainPass::draw(const TerrainDraw& draw, const Projection& projection, co
   const Uniforms uniforms(program_.id());
   uniforms.set("clip_from_planet", glm::mat3(clip_from_view * view_from_planet));
   uniforms.set("near_km", projection.near_km);
+  uniforms.set("eye_in_air", projection.eye_in_air);
+  uniforms.set("up", glm::vec3(axes.z));
   uniforms.set("eye_km", draw.eye_km);
   const NodeValues water = water_reflectance_.value_or(NodeValues{});
   uniforms.set("water_reflectance", glm::vec4(water[0], water[1], water[2], water[3]));

@@ -50,6 +50,7 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
                                 kSmallestRatio, kLargestRatio);
   view.levels = options.terrain.levels.value_or(levels_of(radius_m));
   view.cull = options.terrain.cull;
+  view.bent = options.refraction;
   if (const auto& constant = options.terrain.lod_constant) {
     view.split_ratio = *constant / kBlockQuads;
     view.fixed = true;
