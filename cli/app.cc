@@ -108,6 +108,14 @@ void add_commands(CLI::App& app) {
       "--help");
 }
 
+// "skyfit sky --help", of the command that was typed.
+std::string help_of(const CLI::App& app, int argc, char** argv) {
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (argc > 1 && command->get_name() == argv[1])
+      return fmt::format("skyfit {} --help", command->get_name());
+  return "skyfit --help";
+}
+
 // A first word that is no command.
 void expect_known_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -146,6 +154,8 @@ int run_command(CLI::App& app, int argc, char** argv) {
 
 int run(int argc, char** argv) {
   clean_up_on_signals();
+  command_line() = "skyfit";
+  for (int i = 1; i < argc; ++i) command_line() += " " + shell_quoted(argv[i]);
   CLI::App app("Fits an atmosphere to a reference sky, evaluates, plots and renders it.", "skyfit");
   add_commands(app);
   try {
@@ -154,10 +164,11 @@ int run(int argc, char** argv) {
     return fail(kUsage, std::string(error.what()) + ": expected a whole number");
   } catch (const CLI::ExtrasError&) {
     return fail(kUsage,
-                fmt::format("{}: expected options and their values alone (see skyfit --help)",
-                            in_quotes(fmt::format("{}", fmt::join(app.remaining(true), " ")))));
+                fmt::format("{}: unknown, expected options and their values alone (see {})",
+                            in_quotes(fmt::format("{}", fmt::join(app.remaining(true), " "))),
+                            help_of(app, argc, argv)));
   } catch (const CLI::ParseError& error) {
-    return fail(kUsage, std::string(error.what()) + " (see skyfit --help)");
+    return fail(kUsage, fmt::format("{} (see {})", error.what(), help_of(app, argc, argv)));
   } catch (const UsageError& error) {
     return fail(kUsage, error.what());
   } catch (const std::bad_alloc&) {

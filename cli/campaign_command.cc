@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "data_refs/measured_formats.h"
 #include "data_refs/spectra.h"
 #include "fit/campaign/run.h"
+#include "model/base/text.h"
 #include "model/base/whole_file.h"
 #include "render/plot/measured_figures.h"
 #include "render/plot/results.h"
@@ -100,17 +102,35 @@ class HowToFit {
     add_refraction_option(app_, arguments_.refraction);
     add_scalar_option(app_, arguments_.scalar);
     app_.set_help_flag();
+    expect_options(plan.options);
     std::vector<std::string> reversed(plan.options.rbegin(), plan.options.rend());
     app_.parse(reversed);
     arguments_.threads = 1;  // the tasks run beside each other
     import_ = parse_import_options(arguments_.import);
-    if (arguments_.bootstrap > 0 || !arguments_.profiles.empty() || !arguments_.hold_out.empty())
-      throw std::invalid_argument(
-          "expected none of --bootstrap, --profile and --hold-out, which are for single fits");
     const auto model =
         sky_model_named(arguments_.model, refs::standard_spectral_data(), arguments_.threads,
                         transfer_of(arguments_.scalar), arguments_.refraction);
     fit_options(arguments_, *model, app_);
+  }
+
+  // Known ones, with a value where they take one.
+  void expect_options(const std::vector<std::string>& options) const {
+    for (std::size_t i = 0; i < options.size(); ++i) {
+      if (!options[i].starts_with("--")) continue;
+      const CLI::Option* const option = app_.get_option_no_throw(options[i]);
+      const std::string name = options[i].substr(2);
+      constexpr std::array kSingle = {"--bootstrap",      "--profile",       "--hold-out",
+                                      "--sun-zenith-deg", "--sampling",      "--reference",
+                                      "--irradiance",     "--exclude-sample"};
+      if (option == nullptr || std::ranges::count(kSingle, options[i]) > 0)
+        throw std::invalid_argument(
+            fmt::format("{}: expected an option of skyfit fit that is about how to fit many skies",
+                        in_quotes(name)));
+      const bool has_value = i + 1 < options.size() && !options[i + 1].starts_with("--");
+      if (has_value != (option->get_items_expected_max() > 0))
+        throw std::invalid_argument(
+            fmt::format("{}: expected {}", name, has_value ? "true or false" : "a value"));
+    }
   }
 
   fit::InputKind kind_;
@@ -134,27 +154,25 @@ fit::Shard parse_shard(const std::string& text) {
   return {static_cast<int>(index), static_cast<int>(count)};
 }
 
-// In single quotes for a shell.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
-  return result + "'";
-}
-
 std::string slurm_script(const CampaignArguments& arguments) {
   const std::string program = fs::read_symlink("/proc/self/exe").string(),
                     plan = fs::absolute(arguments.plan).string(),
                     out = fs::absolute(arguments.out).string();
-  const std::string command =
-      fmt::format("{} campaign {} --out {}", quoted(program), quoted(plan), quoted(out));
+  const char* const allowed = named_files() == NamedFiles::kAnywhere ? " --allow-paths" : "";
+  const std::string command = fmt::format("{}{} campaign {} --out {}", shell_quoted(program),
+                                          allowed, shell_quoted(plan), shell_quoted(out));
+  if (command.find('\n') != std::string::npos)
+    throw UsageError("--slurm", command, "expected paths without line breaks");
   return fmt::format(
       "#!/bin/bash\n"
       "# Submit with sbatch; when the array is done: {} --merge\n"
       "#SBATCH --job-name=skyfit\n"
       "#SBATCH --array=1-{}\n"
       "#SBATCH --cpus-per-task={}\n"
+      "cd {} || exit 1\n"
       "exec {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads \"$SLURM_CPUS_PER_TASK\"\n",
-      command, arguments.slurm, arguments.threads, command, arguments.slurm);
+      command, arguments.slurm, arguments.threads, shell_quoted(fs::current_path().string()),
+      command, arguments.slurm);
 }
 
 // The misfit and the unknowns over the time of the tasks; nothing where no time is known.
@@ -179,8 +197,13 @@ void leave_summary(const CampaignArguments& arguments, const fit::CampaignRun& r
   const std::vector<fit::Outcome> outcomes = fit::merged(run);
   const std::string text = fit::campaign_text(outcomes);
   const fs::path out = arguments.out;
-  fit::write_netcdf(out / kNetcdf, fit::netcdf_of(outcomes, fmt::format("A campaign of {} tasks",
-                                                                        outcomes.size())));
+  fit::NetcdfFile file =
+      fit::netcdf_of(outcomes, fmt::format("A campaign of {} tasks", outcomes.size()));
+  std::string options;
+  for (const std::string& option : run.plan.options)
+    options += (options.empty() ? "" : " ") + shell_quoted(option);
+  file.attributes.emplace_back("options", options);
+  fit::write_netcdf(out / kNetcdf, file);
   write_whole_file(out / kCsv, fit::campaign_csv(outcomes));
   write_whole_file(out / kText, text);
   print(text);
@@ -198,9 +221,10 @@ void run(const CampaignArguments& arguments) {
   const MadeDirectories made(arguments.out);
   require_writable_file(fs::path(arguments.out) / kCsv);
   if (arguments.slurm > 0) {
+    fit::input_files(plan, named_files());
     const fs::path script = fs::path(arguments.out) / kScript;
     write_whole_file(script, slurm_script(arguments));
-    print(fmt::format("sbatch {}\n", quoted(script.string())));
+    print(fmt::format("sbatch {}\n", shell_quoted(script.string())));
     return;
   }
   const std::vector<fit::Task> tasks = fit::tasks_of(

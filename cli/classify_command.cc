@@ -21,7 +21,8 @@ struct ClassifyArguments {
 void run_classify(const ClassifyArguments& arguments, const CLI::App& command) {
   const double exclude = parse_number("--exclude-sun-deg", arguments.exclude_sun);
   if (exclude < 0 || exclude >= 180)
-    throw UsageError("--exclude-sun-deg", arguments.exclude_sun, "expected 0 to 180 degrees");
+    throw UsageError("--exclude-sun-deg", arguments.exclude_sun,
+                     "expected at least 0 and less than 180 degrees");
   const refs::Reference reference = load_references(arguments.reference, arguments.sun_zenith,
                                                     arguments.sampling, arguments.import, command);
   const fit::Classification found = fit::classify(reference, refs::standard_spectral_data(),

@@ -13,6 +13,7 @@
 #include "cli/compare_options.h"
 #include "cli/figure_options.h"
 #include "cli/inputs.h"
+#include "cli/leave_netcdf.h"
 #include "cli/light_check.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -178,7 +179,7 @@ void run_compare(const CompareOptions& options, const FigureOptions& page,
           figure_files(staging, kFisheye));
     });
   });
-  if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
+  if (!options.netcdf.empty()) leave_netcdf(options.netcdf, fit::netcdf_of(reference, rows));
   print(options.json ? json_text(json) : text);
   figures.expect_all(options.out);
   if (std::ranges::none_of(rows, [](const auto& row) { return shown(row).has_value(); }))

@@ -12,6 +12,7 @@
 #include "cli/fit_files.h"
 #include "cli/fit_options.h"
 #include "cli/fit_request.h"
+#include "cli/leave_netcdf.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "fit/exchange/result_netcdf.h"
@@ -58,8 +59,7 @@ void run_fit(const FitArguments& arguments, const CLI::App& command) {
   out.publish([&](const std::filesystem::path& staging) {
     write_fit(staging, finished, *request.model, figures);
   });
-  if (!arguments.netcdf.empty())
-    fit::write_netcdf(arguments.netcdf, fit::netcdf_of(finished.result));
+  if (!arguments.netcdf.empty()) leave_netcdf(arguments.netcdf, fit::netcdf_of(finished.result));
   if (!finished.result.converged) {
     warn(fmt::format("the fit stopped before it converged: {}", finished.result.termination));
   }

@@ -208,6 +208,14 @@ refs::Reference load_references(const std::string& names, const std::string& sun
   const refs::ImportOptions options = parse_import_options(import);
   std::vector<refs::Reference> references;
   const std::vector<std::string> parts = refs::reference_names(names);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const auto same = [&](const std::string& other) {
+      std::error_code missing;
+      return other == parts[i] || std::filesystem::equivalent(other, parts[i], missing);
+    };
+    if (std::any_of(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i), same))
+      throw UsageError("--reference", parts[i], "is given twice: expected each sky once");
+  }
   refs::LeftOut left_out("sky");
   for (const std::string& name : parts) {
     const auto load = [&] { references.push_back(refs::load_reference(name, suns, how, options)); };
@@ -326,8 +334,9 @@ std::unique_ptr<SkyModel> sky_model_named(const std::string& name, const Spectra
   if (refraction && name != "reference" && !name.starts_with("reference:"))
     throw UsageError("--refraction",
                      fmt::format("expected with the model reference, not {}", name));
+  const bool asks = name.find(fmt::format(":{}", ReferenceModel::kRefraction)) == std::string::npos;
   const std::string variant =
-      refraction ? fmt::format("{}:{}", name, ReferenceModel::kRefraction) : name;
+      refraction && asks ? fmt::format("{}:{}", name, ReferenceModel::kRefraction) : name;
   return make_sky_model(variant, spectra, threads, transfer);
 }
 

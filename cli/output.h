@@ -48,6 +48,12 @@ std::string json_text(const nlohmann::json& json);
 enum class Verbosity { kQuiet, kNormal, kVerbose };
 Verbosity& verbosity();
 
+// In single quotes for a shell, where it needs them.
+std::string shell_quoted(const std::string& text);
+
+// What was typed, quoted for a shell. Set before a command runs.
+std::string& command_line();
+
 // One line on stderr, `skyfit: warning: message`, unless quiet.
 void warn(std::string_view message);
 

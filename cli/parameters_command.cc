@@ -19,7 +19,7 @@ using nlohmann::json;
 json json_of(const Atmosphere<double>& atmosphere) {
   json list = json::array();
   for (const Parameter& parameter : parameters_of(atmosphere)) {
-    const ParameterInfo info = parameter_info(parameter);
+    const ParameterInfo info = parameter_info(parameter, atmosphere);
     json row = {{"name", info.name},      {"value", get_parameter(atmosphere, parameter)},
                 {"unit", info.unit},      {"lower", info.lower},
                 {"upper", info.upper},    {"free_by_default", info.free_by_default},
@@ -34,7 +34,7 @@ std::string text_of(const Atmosphere<double>& atmosphere) {
   std::string text = fmt::format("{:<34}{:>12} {:<4} {:<24} {:<20} {}\n", "parameter", "value",
                                  "unit", "bounds of a fit", "prior", "free by default; meaning");
   for (const Parameter& parameter : parameters_of(atmosphere)) {
-    const ParameterInfo info = parameter_info(parameter);
+    const ParameterInfo info = parameter_info(parameter, atmosphere);
     text += fmt::format(
         "{:<34}{:>12.6g} {:<4} {:<24} {:<20} {}; {}\n", info.name,
         get_parameter(atmosphere, parameter), info.unit,

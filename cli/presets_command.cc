@@ -18,9 +18,11 @@ void add_presets_command(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command =
       app.add_subcommand("presets", "Lists the shipped presets, or prints one as JSON.");
-  command->add_option("name", options->name, "The preset to print")->type_name("NAME");
+  auto* const preset =
+      command->add_option("name", options->name, "The preset to print")->type_name("NAME");
   command->add_flag("--json", options->json, "Print the list as JSON");
-  command->add_flag("--schema", options->schema, "Print the JSON Schema of presets of version 2");
+  command->add_flag("--schema", options->schema, "Print the JSON Schema of presets of version 2")
+      ->excludes(preset);
   command
       ->add_option("--upgrade", options->upgrade,
                    "Print the preset of any version as one of version 2")

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/output.h"
@@ -46,6 +47,8 @@ void print_list(bool json) {
 
 void run_references(const ReferencesOptions& options, const CLI::App& command) {
   if (options.name.empty()) return print_list(options.json);
+  if (options.json)
+    throw UsageError("--json", "true", "expected without a name, whose samples are CSV");
   const refs::Reference reference =
       refs::load_reference(options.name, parse_sun_zeniths(options.sun_zenith),
                            parse_sampling(options.sampling), parse_import_options(options.import));

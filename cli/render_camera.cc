@@ -23,6 +23,7 @@ void parse_camera_place(const RenderOptions& options, const CLI::App& command, C
                        parse_angle("--longitude-deg", options.longitude, -360, 360)};
     pose.above_ground = true;
   }
+  if (command.count("--dem") > 0) pose.above_ground = true;
   if (command.count("--altitude-m") > 0) {
     pose.altitude_m =
         parse_number_within("--altitude-m", options.altitude, 1, 1e9, "a height in metres");

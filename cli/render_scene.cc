@@ -163,6 +163,10 @@ Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
           "expected a picture of the whole planet; --dem reads the heights of a region");
   }
   if (command.count("--color-map") > 0) {
+    if (scene.height_map.empty())
+      throw UsageError(
+          "--color-map", options.color_map,
+          "expected with --height-map; the ground without a map has colours of its own");
     scene.color_map = options.color_map;
     require_regular_file(scene.color_map, "an image for --color-map", kMostImageBytes);
   }

@@ -2,12 +2,15 @@
 // `skyfit sky`: evaluates a model at every combination of the given altitudes, suns and views.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/inputs.h"
+#include "cli/leave_netcdf.h"
 #include "cli/light_check.h"
 #include "cli/output.h"
 #include "cli/sky_netcdf.h"
@@ -38,7 +41,8 @@ struct SkyGrid {
   double true_sun_zenith(double altitude, double sun_deg) const {
     const double zenith = radians(sun_deg);
     if (!refraction) return zenith;
-    return zenith + refraction->bending(refraction->refractive_height(altitude), zenith);
+    return std::min(zenith + refraction->bending(refraction->refractive_height(altitude), zenith),
+                    std::numbers::pi);
   }
   const char* sun_column() const { return refraction ? "apparent_sun_zenith" : "sun_zenith"; }
 
@@ -159,7 +163,7 @@ std::string place(double altitude, double sun, double view, double azimuth) {
 }
 
 void leave_arrays(const SkyOptions& options, const fit::NetcdfFile& sky) {
-  if (!options.netcdf.empty()) fit::write_netcdf(options.netcdf, sky);
+  if (!options.netcdf.empty()) leave_netcdf(options.netcdf, sky);
   if (!options.npz.empty()) write_sky_npz(options.npz, sky);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/sky_netcdf.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <variant>
@@ -8,6 +9,14 @@
 #include "model/base/npz_file.h"
 
 namespace skyfit::cli {
+namespace {
+
+std::string with_blanks(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+}  // namespace
 
 fit::NetcdfFile sky_netcdf(const std::string& title, const std::vector<GridAxis>& axes,
                            const std::vector<SkyColumn>& columns,
@@ -23,7 +32,7 @@ fit::NetcdfFile sky_netcdf(const std::string& title, const std::vector<GridAxis>
     std::vector<double> own;
     for (std::size_t i = c; i < values.size(); i += columns.size()) own.push_back(values[i]);
     file.variables.push_back(
-        {columns[c].name, names, std::move(own), columns[c].name, columns[c].units});
+        {columns[c].name, names, std::move(own), with_blanks(columns[c].name), columns[c].units});
   }
   return file;
 }

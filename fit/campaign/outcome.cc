@@ -171,6 +171,8 @@ NetcdfFile netcdf_of(const std::vector<Outcome>& outcomes, std::string_view titl
     for (const std::string& name : o.covariance_names) covariance_parameters.add(name);
   }
   const std::size_t count = parameters.list().size(), side = covariance_parameters.list().size();
+  const std::vector<std::string> coordinates = {"time", "latitude", "longitude", "elevation"};
+  set_coordinates(file, kTask, coordinates);
   if (count == 0) return file;
   file.dimensions.emplace_back(kParameter, count);
   file.variables.push_back(
@@ -194,6 +196,7 @@ NetcdfFile netcdf_of(const std::vector<Outcome>& outcomes, std::string_view titl
             "1: the value is at its bound; -1: the task has no such unknown");
   add_table(kIdentifiable, &Outcome::Value::identifiable, kAbsent,
             "0: the value is that of the prior; -1: the task has no such unknown");
+  set_coordinates(file, kTask, coordinates);
   if (side == 0) return file;
   for (const char* name : {kCovarianceName, kCovarianceName2}) {
     file.dimensions.emplace_back(name, side);
@@ -339,6 +342,7 @@ std::string campaign_csv(const std::vector<Outcome>& outcomes) {
 std::string campaign_text(const std::vector<Outcome>& outcomes) {
   constexpr std::size_t kMostListed = 20;
   std::vector<std::string> failed, far;
+  int unconverged = 0;
   std::vector<double> misfits;
   Names parameters;
   std::map<std::string, std::vector<double>> values;
@@ -348,21 +352,29 @@ std::string campaign_text(const std::vector<Outcome>& outcomes) {
     const Outcome& o = outcomes[t];
     if (!o.reason.empty()) {
       const bool is_named = o.reason.starts_with(o.task);
-      failed.push_back(is_named ? "  " + o.reason : fmt::format("  {}: {}", o.task, o.reason));
+      failed.push_back(is_named ? "  " + o.reason
+                                : fmt::format("  {}: {}", printable(o.task), o.reason));
       continue;
     }
     if (std::isfinite(o.misfit())) misfits.push_back(o.misfit());
-    if (flags[t] != 0) far.push_back(fmt::format("  {}: misfit {:.3g} %", o.task, o.misfit()));
+    if (flags[t] != 0)
+      far.push_back(fmt::format("  {}: misfit {:.3g} %", printable(o.task), o.misfit()));
+    unconverged += o.converged == 1 ? 0 : 1;
     for (const Outcome::Value& value : o.unknowns) {
       parameters.add(value.name);
       values[value.name].push_back(value.value);
       units[value.name] = value.unit;
     }
   }
-  std::string text =
-      fmt::format("{} tasks: {} fitted, {} of them outliers, {} failed\n", outcomes.size(),
-                  outcomes.size() - failed.size(), far.size(), failed.size());
-  if (!misfits.empty()) text += fmt::format("misfit: median {:.3g} %\n", median(misfits));
+  std::string text = fmt::format("{} task{}: {} fitted, {} of them outliers, {} failed\n",
+                                 outcomes.size(), outcomes.size() == 1 ? "" : "s",
+                                 outcomes.size() - failed.size(), far.size(), failed.size());
+  if (unconverged > 0)
+    text += fmt::format("NOT CONVERGED: {} of those fitted (column converged)\n", unconverged);
+  if (!misfits.empty())
+    text += fmt::format(
+        "misfit (spectral error, else that of luminances, else rms_log): median {:.3g} %\n",
+        median(misfits));
   for (const std::string& name : parameters.list()) {
     const std::vector<double>& all = values.at(name);
     const double middle = median(all);

@@ -260,8 +260,9 @@ std::string CampaignPlan::place_of_option(std::string_view message) const {
 
 CampaignPlan load_plan(const fs::path& file) {
   const std::string text = read_file(file, "the plan of a campaign (JSON or TOML)");
-  const PresetDocument document = file.extension() == ".toml" ? toml_document(text, file.string())
-                                                              : PresetDocument(text, file.string());
+  const PresetDocument document = lower_case(file.extension().string()) == ".toml"
+                                      ? toml_document(text, file.string())
+                                      : PresetDocument(text, file.string());
   const PresetReader plan = document.root();
   plan.expect_only({"skyfit_campaign", "inputs", "kind", "irradiances", "group", "options",
                     "tasks_per_file", "note"});
@@ -293,17 +294,25 @@ CampaignPlan load_plan(const fs::path& file) {
   return result;
 }
 
+std::vector<std::string> input_files(const CampaignPlan& plan, NamedFiles named) {
+  std::set<fs::path> known;  // a file has several names
+  std::set<std::string> names;
+  for (const std::string& input : plan.inputs) {
+    for (std::string& name : matches(plan, input, named)) {
+      if (known.insert(fs::weakly_canonical(plan.folder / name / "")).second)
+        names.insert(std::move(name));
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
 std::vector<Task> tasks_of(const CampaignPlan& plan, NamedFiles named, const ReadSky& read,
                            int threads) {
   if (!plan.irradiances.empty() && !named_file(plan.folder, plan.irradiances, named))
     throw std::invalid_argument(fmt::format("{}: irradiances: {}: expected {}",
                                             plan.irradiances_place, printable(plan.irradiances),
                                             kNamedFile));
-  std::set<std::string> all;
-  for (const std::string& input : plan.inputs) {
-    for (std::string& name : matches(plan, input, named)) all.insert(std::move(name));
-  }
-  const std::vector<std::string> names(all.begin(), all.end());
+  const std::vector<std::string> names = input_files(plan, named);
   std::vector<Contents> contents(names.size());
   tbb::task_arena arena(threads);
   if (plan.group != Grouping::kFile) {

@@ -58,6 +58,10 @@ struct Task {
   std::string key;      // changes with the plan's options, what the files hold and the version
 };
 
+// The files and folders of the inputs, each once, as the plan names them, sorted. Throws
+// std::invalid_argument where an input names no file, or one that `named` forbids.
+std::vector<std::string> input_files(const CampaignPlan& plan, NamedFiles named);
+
 using ReadSky = std::function<refs::Reference(const std::filesystem::path&)>;
 
 // The tasks in the order of their names. Grouping by anything but the file reads every file once,

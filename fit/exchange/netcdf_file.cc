@@ -26,6 +26,22 @@ NetcdfFile netcdf_file(std::string_view title) {
            {"source", fmt::format("skyfit {}", kVersion)}}};
 }
 
+void set_coordinates(NetcdfFile& file, std::string_view dimension,
+                     const std::vector<std::string>& coordinates) {
+  const auto is_coordinate = [&](const NetcdfVariable& variable) {
+    return std::ranges::count(coordinates, variable.name) > 0;
+  };
+  std::string names;
+  for (const NetcdfVariable& variable : file.variables) {
+    if (is_coordinate(variable)) names += (names.empty() ? "" : " ") + variable.name;
+  }
+  for (NetcdfVariable& variable : file.variables) {
+    if (std::ranges::count(variable.dimensions, dimension) > 0 && !is_coordinate(variable) &&
+        variable.name != dimension)
+      variable.coordinates = names;
+  }
+}
+
 void write_netcdf(const std::filesystem::path& file, const NetcdfFile& content) {
   write_whole_file(file, module().bytes(file, content));
 }

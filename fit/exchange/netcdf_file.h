@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fit/exchange/netcdf/netcdf_module.h"
 
@@ -13,6 +14,11 @@ namespace skyfit::fit {
 
 // With the attributes that every file has: Conventions, title, source (this version of skyfit).
 NetcdfFile netcdf_file(std::string_view title);
+
+// Names `coordinates` (variables of the dimension alone) in those variables of the dimension that
+// are none of them.
+void set_coordinates(NetcdfFile& file, std::string_view dimension,
+                     const std::vector<std::string>& coordinates);
 
 // Appears whole or not at all. Throws std::runtime_error with one line that names the file.
 void write_netcdf(const std::filesystem::path& file, const NetcdfFile& content);

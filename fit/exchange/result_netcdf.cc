@@ -30,6 +30,9 @@ std::string unit_of(refs::Quantity quantity) {
   return "1";
 }
 
+const std::vector<std::string> kSampleCoordinates = {"sun_zenith", "view_zenith",
+                                                     "relative_azimuth", "wavelength"};
+
 template <class Rows, class Value>
 auto column(const Rows& rows, const Value& value) {
   std::vector<std::decay_t<decltype(value(*rows.begin()))>> result;
@@ -229,6 +232,8 @@ NetcdfFile netcdf_of(const Result& result) {
   add_irradiances_beside_sky(result, file);
   add_scans(result, file);
   add_unknowns(result, file);
+  set_coordinates(file, "sample", kSampleCoordinates);
+  set_coordinates(file, "scan", {"time", "scan_sun_zenith"});
   return file;
 }
 
@@ -270,6 +275,7 @@ NetcdfFile netcdf_of(const refs::Reference& reference, const std::vector<ModelCo
   };
   add_errors("unfitted", &ModelComparison::unfitted);
   add_errors("fitted", &ModelComparison::fitted);
+  set_coordinates(file, "sample", kSampleCoordinates);
   return file;
 }
 

@@ -46,11 +46,12 @@ void require_parameter_of(const Atmosphere<double>& atmosphere, const Parameter&
   }
 }
 
-std::optional<Prior> prior_of(const FitOptions& options, const Parameter& id) {
+std::optional<Prior> prior_of(const FitOptions& options, const Parameter& id,
+                              const Atmosphere<double>& atmosphere) {
   if (const auto given = options.priors.find(id); given != options.priors.end()) {
     return given->second;
   }
-  return options.use_priors ? parameter_info(id).prior : std::nullopt;
+  return options.use_priors ? parameter_info(id, atmosphere).prior : std::nullopt;
 }
 
 bool is_free(const FitOptions& options, const Parameter& id) {
@@ -144,8 +145,9 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
 
 bool is_logarithmic(const Parameter& id, double lower) { return is_scale(id) && lower > 0; }
 
-FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior) {
-  const ParameterInfo info = parameter_info(id);
+FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior,
+                             const Atmosphere<double>& atmosphere) {
+  const ParameterInfo info = parameter_info(id, atmosphere);
   return {{info.lower, info.upper, is_logarithmic(id, info.lower), prior}, id};
 }
 
@@ -162,7 +164,7 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
   std::vector<FreeParameter> result;
   for (const Parameter& id : parameters_of(atmosphere)) {
     if (!model.can_fit(id) || !is_free(options, id)) continue;
-    FreeParameter parameter = free_parameter(id, prior_of(options, id));
+    FreeParameter parameter = free_parameter(id, prior_of(options, id, atmosphere), atmosphere);
     if (const auto given = options.bounds.find(id); given != options.bounds.end()) {
       std::tie(parameter.lower, parameter.upper) =
           std::pair(given->second.lower, given->second.upper);

@@ -118,8 +118,28 @@ TEST(OptionsTest, ValuesAreChecked) {
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
                 o.start = Preset{"thick", true_atmosphere(1), {}};
                 o.start->atmosphere.at("mie").amount = 0.1;
+                o.bounds[Parameter::kMieScattering] = {1e-7, 2e-3};
               }),
               AllOf(HasSubstr("fit.start: mie.scattering = 0.1 1/m"), HasSubstr("1e-07 .. 0.002")));
+}
+
+// Bounds and priors of the Earth are not those of other planets.
+TEST(OptionsTest, AnotherPlanetStartsWhereItIs) {
+  Atmosphere<double> mars = true_atmosphere(1);
+  mars.at("rayleigh").amount = 2.55e-7;
+  mars.at("rayleigh").profile.scale_height_m = 10800;
+  const ParameterInfo air = parameter_info(Parameter::kRayleighScattering, mars),
+                      height = parameter_info(Parameter::kRayleighScaleHeight, mars);
+  EXPECT_EQ(air.lower, 0.5 * 2.55e-7);
+  EXPECT_EQ(air.upper, 2 * 2.55e-7);
+  EXPECT_NEAR(air.prior->sigma, 0.05 * 2.55e-7, 1e-12);
+  EXPECT_EQ(height.prior->mean, 10800);
+  EXPECT_EQ(parameter_info(Parameter::kMieScattering, mars).upper, 2e-3);
+  EXPECT_EQ(message([&](FitOptions& o, refs::Reference&) {
+              o.start = Preset{"mars", mars, {}};
+              o.max_iterations = 1;
+            }),
+            "no error");
 }
 
 TEST(OptionsTest, ReferencesThatCannotBeFittedAreRefused) {

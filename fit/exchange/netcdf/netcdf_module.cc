@@ -126,6 +126,7 @@ void define(const OpenFile& file, const NetcdfVariable& variable,
   }
   put_text(file, id, "long_name", variable.long_name);
   if (!variable.units.empty()) put_text(file, id, "units", variable.units);
+  if (!variable.coordinates.empty()) put_text(file, id, "coordinates", variable.coordinates);
 }
 
 void put(const OpenFile& file, int id, const NetcdfVariable& variable) {
@@ -192,8 +193,12 @@ NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& con
   file.check(nc_inq_var(file.id(), id, name, &type, &count, nullptr, nullptr));
   std::vector<int> dimensions(static_cast<std::size_t>(count));
   file.check(nc_inq_vardimid(file.id(), id, dimensions.data()));
-  NetcdfVariable variable{
-      name, {}, {}, text_attribute(file, id, "long_name"), text_attribute(file, id, "units")};
+  NetcdfVariable variable{name,
+                          {},
+                          {},
+                          text_attribute(file, id, "long_name"),
+                          text_attribute(file, id, "units"),
+                          text_attribute(file, id, "coordinates")};
   std::size_t size = 1;
   for (const int d : dimensions) {
     const auto& [dimension, length] = content.dimensions[static_cast<std::size_t>(d)];

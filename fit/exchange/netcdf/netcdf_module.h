@@ -18,6 +18,7 @@ struct NetcdfVariable {
   std::vector<std::string> dimensions;
   std::variant<std::vector<double>, std::vector<int>, std::vector<std::string>> values;
   std::string long_name, units;  // units: "1" of a number without; empty of texts
+  std::string coordinates = {};  // names of variables that say where its values are, by CF
 };
 
 struct NetcdfFile {
@@ -27,7 +28,7 @@ struct NetcdfFile {
 };
 
 struct NetcdfModule {
-  static constexpr int kRevision = 2;
+  static constexpr int kRevision = 3;
   int revision;
   // What the file holds that the caller writes. Throws std::runtime_error `file: cannot be written:
   // ...`.

@@ -23,7 +23,7 @@ struct Projection {
 inline constexpr float kNearKm = 1e-4f;
 
 inline Projection make_projection(const Camera& camera, double aspect,
-                                  const glm::vec4& eye_in_air) {
+                                  const glm::vec4& eye_in_air = glm::vec4(0)) {
   const ViewBasis basis = view_basis(camera);
   const double tall = std::tan(0.5 * camera.vertical_fov);
   return {glm::mat3(glm::transpose(glm::dmat3(basis.right, basis.up, -basis.forward))),
