@@ -119,9 +119,8 @@ class HowToFit {
       if (!options[i].starts_with("--")) continue;
       const CLI::Option* const option = app_.get_option_no_throw(options[i]);
       const std::string name = options[i].substr(2);
-      constexpr std::array kSingle = {"--bootstrap",      "--profile",       "--hold-out",
-                                      "--sun-zenith-deg", "--sampling",      "--reference",
-                                      "--irradiance",     "--exclude-sample"};
+      constexpr std::array kSingle = {"--bootstrap", "--profile", "--hold-out", "--sun-zenith-deg",
+                                      "--sampling"};
       if (option == nullptr || std::ranges::count(kSingle, options[i]) > 0)
         throw std::invalid_argument(
             fmt::format("{}: expected an option of skyfit fit that is about how to fit many skies",

@@ -75,8 +75,84 @@ std::string csv_number(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : std::string();
 }
 
-std::string csv_value(const Outcome& outcome, const Column& column) {
-  return column.value == &Outcome::time ? iso_time(outcome) : csv_number(outcome.*column.value);
+NetcdfFile variables_of(const std::vector<Outcome>& outcomes, std::string_view title) {
+  NetcdfFile file = netcdf_file(title);
+  const std::size_t tasks = outcomes.size();
+  file.dimensions.emplace_back(kTask, tasks);
+  const auto add_texts = [&](const char* name, std::string Outcome::*text, const char* meaning) {
+    std::vector<std::string> values;
+    for (const Outcome& o : outcomes) values.push_back(o.*text);
+    file.variables.push_back({name, {kTask}, std::move(values), meaning, ""});
+  };
+  add_texts(kTask, &Outcome::task, "name of the task");
+  add_texts(kReason, &Outcome::reason, "why the task has no fit; empty where it has one");
+  add_texts(kKey, &Outcome::key, "changes with options, files and the version of skyfit");
+  for (const Column& column : kColumns) {
+    std::vector<double> values;
+    for (const Outcome& o : outcomes) values.push_back(o.*column.value);
+    file.variables.push_back({std::string(column.name),
+                              {kTask},
+                              std::move(values),
+                              std::string(column.meaning),
+                              std::string(column.units)});
+  }
+
+  Names parameters, covariance_parameters;
+  std::map<std::string, std::string> units;
+  for (const Outcome& o : outcomes) {
+    for (const Outcome::Value& value : o.unknowns) {
+      parameters.add(value.name);
+      units[value.name] = value.unit;
+    }
+    for (const std::string& name : o.covariance_names) covariance_parameters.add(name);
+  }
+  const std::size_t count = parameters.list().size(), side = covariance_parameters.list().size();
+  if (count == 0) return file;
+  file.dimensions.emplace_back(kParameter, count);
+  file.variables.push_back(
+      {kParameter, {kParameter}, parameters.list(), "name of the unknown", ""});
+  std::vector<std::string> unit_list;
+  for (const std::string& name : parameters.list()) unit_list.push_back(units.at(name));
+  file.variables.push_back({kUnit, {kParameter}, std::move(unit_list), "unit of its values", ""});
+  const auto add_table = [&](const char* name, auto Outcome::Value::*member, auto absent,
+                             const char* meaning) {
+    std::vector<decltype(absent)> values(tasks * count, absent);
+    for (std::size_t t = 0; t < tasks; ++t) {
+      for (const Outcome::Value& value : outcomes[t].unknowns)
+        values[t * count + parameters.at(value.name)] = value.*member;
+    }
+    file.variables.push_back({name, {kTask, kParameter}, std::move(values), meaning, "1"});
+  };
+  add_table(kValue, &Outcome::Value::value, Outcome::kNone, "fitted value, in parameter_unit");
+  add_table(kSigma, &Outcome::Value::sigma, Outcome::kNone,
+            "one standard deviation, in parameter_unit; missing at a bound");
+  add_table(kAtBound, &Outcome::Value::at_bound, kAbsent,
+            "1: the value is at its bound; -1: the task has no such unknown");
+  add_table(kIdentifiable, &Outcome::Value::identifiable, kAbsent,
+            "0: the value is that of the prior; -1: the task has no such unknown");
+  if (side == 0) return file;
+  for (const char* name : {kCovarianceName, kCovarianceName2}) {
+    file.dimensions.emplace_back(name, side);
+    file.variables.push_back(
+        {name, {name}, covariance_parameters.list(), "name of the unknown", ""});
+  }
+  std::vector<double> matrices(tasks * side * side, Outcome::kNone);
+  for (std::size_t t = 0; t < tasks; ++t) {
+    const Outcome& o = outcomes[t];
+    for (std::size_t i = 0; i < o.covariance_names.size(); ++i) {
+      for (std::size_t j = 0; j < o.covariance_names.size(); ++j) {
+        matrices[(t * side + covariance_parameters.at(o.covariance_names[i])) * side +
+                 covariance_parameters.at(o.covariance_names[j])] =
+            o.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
+    }
+  }
+  file.variables.push_back({kCovariance,
+                            {kTask, kCovarianceName, kCovarianceName2},
+                            std::move(matrices),
+                            "covariance, in the products of the parameters' units",
+                            "1"});
+  return file;
 }
 
 }  // namespace
@@ -140,85 +216,8 @@ Outcome failure_of(const Task& task, std::string reason, const std::filesystem::
 }
 
 NetcdfFile netcdf_of(const std::vector<Outcome>& outcomes, std::string_view title) {
-  NetcdfFile file = netcdf_file(title);
-  const std::size_t tasks = outcomes.size();
-  file.dimensions.emplace_back(kTask, tasks);
-  const auto add_texts = [&](const char* name, std::string Outcome::*text, const char* meaning) {
-    std::vector<std::string> values;
-    for (const Outcome& o : outcomes) values.push_back(o.*text);
-    file.variables.push_back({name, {kTask}, std::move(values), meaning, ""});
-  };
-  add_texts(kTask, &Outcome::task, "name of the task");
-  add_texts(kReason, &Outcome::reason, "why the task has no fit; empty where it has one");
-  add_texts(kKey, &Outcome::key, "changes with options, files and the version of skyfit");
-  for (const Column& column : kColumns) {
-    std::vector<double> values;
-    for (const Outcome& o : outcomes) values.push_back(o.*column.value);
-    file.variables.push_back({std::string(column.name),
-                              {kTask},
-                              std::move(values),
-                              std::string(column.meaning),
-                              std::string(column.units)});
-  }
-
-  Names parameters, covariance_parameters;
-  std::map<std::string, std::string> units;
-  for (const Outcome& o : outcomes) {
-    for (const Outcome::Value& value : o.unknowns) {
-      parameters.add(value.name);
-      units[value.name] = value.unit;
-    }
-    for (const std::string& name : o.covariance_names) covariance_parameters.add(name);
-  }
-  const std::size_t count = parameters.list().size(), side = covariance_parameters.list().size();
-  const std::vector<std::string> coordinates = {"time", "latitude", "longitude", "elevation"};
-  set_coordinates(file, kTask, coordinates);
-  if (count == 0) return file;
-  file.dimensions.emplace_back(kParameter, count);
-  file.variables.push_back(
-      {kParameter, {kParameter}, parameters.list(), "name of the unknown", ""});
-  std::vector<std::string> unit_list;
-  for (const std::string& name : parameters.list()) unit_list.push_back(units.at(name));
-  file.variables.push_back({kUnit, {kParameter}, std::move(unit_list), "unit of its values", ""});
-  const auto add_table = [&](const char* name, auto Outcome::Value::*member, auto absent,
-                             const char* meaning) {
-    std::vector<decltype(absent)> values(tasks * count, absent);
-    for (std::size_t t = 0; t < tasks; ++t) {
-      for (const Outcome::Value& value : outcomes[t].unknowns)
-        values[t * count + parameters.at(value.name)] = value.*member;
-    }
-    file.variables.push_back({name, {kTask, kParameter}, std::move(values), meaning, "1"});
-  };
-  add_table(kValue, &Outcome::Value::value, Outcome::kNone, "fitted value, in parameter_unit");
-  add_table(kSigma, &Outcome::Value::sigma, Outcome::kNone,
-            "one standard deviation, in parameter_unit; missing at a bound");
-  add_table(kAtBound, &Outcome::Value::at_bound, kAbsent,
-            "1: the value is at its bound; -1: the task has no such unknown");
-  add_table(kIdentifiable, &Outcome::Value::identifiable, kAbsent,
-            "0: the value is that of the prior; -1: the task has no such unknown");
-  set_coordinates(file, kTask, coordinates);
-  if (side == 0) return file;
-  for (const char* name : {kCovarianceName, kCovarianceName2}) {
-    file.dimensions.emplace_back(name, side);
-    file.variables.push_back(
-        {name, {name}, covariance_parameters.list(), "name of the unknown", ""});
-  }
-  std::vector<double> matrices(tasks * side * side, Outcome::kNone);
-  for (std::size_t t = 0; t < tasks; ++t) {
-    const Outcome& o = outcomes[t];
-    for (std::size_t i = 0; i < o.covariance_names.size(); ++i) {
-      for (std::size_t j = 0; j < o.covariance_names.size(); ++j) {
-        matrices[(t * side + covariance_parameters.at(o.covariance_names[i])) * side +
-                 covariance_parameters.at(o.covariance_names[j])] =
-            o.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      }
-    }
-  }
-  file.variables.push_back({kCovariance,
-                            {kTask, kCovarianceName, kCovarianceName2},
-                            std::move(matrices),
-                            "covariance, in the products of the parameters' units",
-                            "1"});
+  NetcdfFile file = variables_of(outcomes, title);
+  set_coordinates(file, kTask, {"time", "latitude", "longitude", "elevation"});
   return file;
 }
 
@@ -326,7 +325,8 @@ std::string campaign_csv(const std::vector<Outcome>& outcomes) {
     const Outcome& o = outcomes[t];
     const char* state = !o.reason.empty() ? "failed" : far[t] != 0 ? "outlier" : "fitted";
     text += fmt::format("{},{},{}", csv_field(o.task), state, csv_field(o.reason));
-    for (const Column& column : kColumns) text += fmt::format(",{}", csv_value(o, column));
+    for (const Column& column : kColumns)
+      text += "," + (column.value == &Outcome::time ? iso_time(o) : csv_number(o.*column.value));
     std::vector<std::string> cells(2 * parameters.list().size());
     for (const Outcome::Value& value : o.unknowns) {
       const std::size_t at = 2 * parameters.at(value.name);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "fit/problem/defaults.h"
+#include "model/base/text.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -133,6 +134,12 @@ void add_instruments(const FitOptions& options, Pointing pointing, Scale scale,
 void check_counts(const refs::Reference& reference, const Problem& problem,
                   const FitOptions& options) {
   const std::size_t count = problem.fitted.samples.size();
+  const auto is_unused = [](const refs::Sample& sample) { return !(sample.weight > 0); };
+  if (!reference.samples.empty() && std::ranges::all_of(reference.samples, is_unused)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: none of its {} samples can be used, the first is {}", reference.name,
+        reference.samples.size(), in_quotes(reference.samples.front().zero_weight_reason)));
+  }
   if (count == 0) {
     throw std::invalid_argument(fmt::format(
         "{}: no sample with weight is farther than {:.6g} deg from the sun, expected at least one",
