@@ -326,7 +326,8 @@ std::string campaign_csv(const std::vector<Outcome>& outcomes) {
     const char* state = !o.reason.empty() ? "failed" : far[t] != 0 ? "outlier" : "fitted";
     text += fmt::format("{},{},{}", csv_field(o.task), state, csv_field(o.reason));
     for (const Column& column : kColumns)
-      text += "," + (column.value == &Outcome::time ? iso_time(o) : csv_number(o.*column.value));
+      text += fmt::format(
+          ",{}", column.value == &Outcome::time ? iso_time(o) : csv_number(o.*column.value));
     std::vector<std::string> cells(2 * parameters.list().size());
     for (const Outcome::Value& value : o.unknowns) {
       const std::size_t at = 2 * parameters.at(value.name);

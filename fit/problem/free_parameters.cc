@@ -145,9 +145,8 @@ Atmosphere<double> with_fixed_values(const Atmosphere<double>& atmosphere,
 
 bool is_logarithmic(const Parameter& id, double lower) { return is_scale(id) && lower > 0; }
 
-FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior,
-                             const Atmosphere<double>& atmosphere) {
-  const ParameterInfo info = parameter_info(id, atmosphere);
+FreeParameter free_parameter(Parameter id, const ParameterInfo& info,
+                             const std::optional<Prior>& prior) {
   return {{info.lower, info.upper, is_logarithmic(id, info.lower), prior}, id};
 }
 
@@ -164,7 +163,8 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
   std::vector<FreeParameter> result;
   for (const Parameter& id : parameters_of(atmosphere)) {
     if (!model.can_fit(id) || !is_free(options, id)) continue;
-    FreeParameter parameter = free_parameter(id, prior_of(options, id, atmosphere), atmosphere);
+    FreeParameter parameter =
+        free_parameter(id, parameter_info(id, atmosphere), prior_of(options, id, atmosphere));
     if (const auto given = options.bounds.find(id); given != options.bounds.end()) {
       std::tie(parameter.lower, parameter.upper) =
           std::pair(given->second.lower, given->second.upper);

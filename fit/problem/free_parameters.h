@@ -20,9 +20,9 @@ struct FreeParameter : Variable {
 // heights with a lower bound above 0.
 bool is_logarithmic(const Parameter& id, double lower);
 
-// With the bounds of parameter_info().
-FreeParameter free_parameter(Parameter id, const std::optional<Prior>& prior,
-                             const Atmosphere<double>& atmosphere);
+// With the bounds of `info`.
+FreeParameter free_parameter(Parameter id, const ParameterInfo& info,
+                             const std::optional<Prior>& prior);
 
 // The atmosphere before the fit: the start preset as given (coefficients moved to 550 nm along
 // their power laws, because the bounds are meant there), or the table's defaults with the phase

@@ -83,9 +83,10 @@ TEST(IrradianceFit, DerivativesEqualCentralDifferences) {
     };
     const double value = get_parameter(centre, id), step = 1e-4 * value;
     const Eigen::VectorXd difference = (at(value + step) - at(value - step)) / (2 * step);
-    const Eigen::VectorXd exact = sky_values(ToySky(), data, start_state(centre, 1),
-                                             {{free_parameter(id, {}), id, kAllScans}})
-                                      .derivative.col(0);
+    const Eigen::VectorXd exact =
+        sky_values(ToySky(), data, start_state(centre, 1),
+                   {{free_parameter(id, parameter_info(id), {}), id, kAllScans}})
+            .derivative.col(0);
     EXPECT_LT((exact - difference).cwiseAbs().maxCoeff(),
               kDifference * exact.cwiseAbs().maxCoeff() + kRounding)
         << id.name();

@@ -42,7 +42,8 @@ TEST_P(JacobianTest, EqualsCentralDifferences) {
     const Eigen::VectorXd difference =
         (white_at(value + step, {}).residual - white_at(value - step, {}).residual) / (2 * step);
     const Eigen::VectorXd exact =
-        white_at(value, {{free_parameter(id, {}), id, kAllScans}}).jacobian_per_unit.col(0);
+        white_at(value, {{free_parameter(id, parameter_info(id), {}), id, kAllScans}})
+            .jacobian_per_unit.col(0);
     const double size = std::max(1e-3 / value, exact.cwiseAbs().maxCoeff());
     EXPECT_LT((exact - difference).cwiseAbs().maxCoeff(), kDifference * size) << id.name();
   }

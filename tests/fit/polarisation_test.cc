@@ -111,7 +111,8 @@ TEST(PolarisationFit, JacobianEqualsCentralDifferences) {
             (white_at(value + step, {}).residual - white_at(value - step, {}).residual) /
             (2 * step);
         const Eigen::VectorXd exact =
-            white_at(value, {{free_parameter(id, {}), id, kAllScans}}).jacobian_per_unit.col(0);
+            white_at(value, {{free_parameter(id, parameter_info(id), {}), id, kAllScans}})
+                .jacobian_per_unit.col(0);
         constexpr double kDifference = 1e-5;
         EXPECT_LT((exact - difference).cwiseAbs().maxCoeff(),
                   kDifference * exact.cwiseAbs().maxCoeff())
