@@ -288,7 +288,13 @@ void add_sky_command(CLI::App& app) {
       "sky", "Evaluates a preset and prints CSV: luminance, colour, radiance or irradiance.");
   add_sky_options(*command, *options);
   add_particle_cache_option(*command);
-  command->callback([options] { of_preset(options->preset, [&] { run_sky(*options); }); });
+  command->callback([options, command] {
+    for (const char* unused : {"--view-zenith-deg", "--azimuth-deg"}) {
+      if (options->irradiance && command->count(unused) > 0)
+        warn(fmt::format("{} is not used: irradiances have no direction", unused));
+    }
+    of_preset(options->preset, [&] { run_sky(*options); });
+  });
 }
 
 }  // namespace skyfit::cli

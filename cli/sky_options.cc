@@ -47,9 +47,7 @@ void add_sky_options(CLI::App& command, SkyOptions& options) {
                     "Print direct, diffuse and global irradiance (no view directions): lx,\n"
                     "or W m^-2 nm^-1 with --wavelength-nm")
           ->excludes(luminance)
-          ->excludes(color)
-          ->excludes(command.get_option("--view-zenith-deg"))
-          ->excludes(command.get_option("--azimuth-deg"));
+          ->excludes(color);
   auto* const sigma =
       command.add_flag("--sigma", options.sigma,
                        "Print one standard deviation after each value, from the covariance of a\n"

@@ -44,8 +44,8 @@ TEST_F(BadInputTest, CommandLine) {
   expect_refusal({"fit", "--reference", "cie:12"}, {"--out is required"});
   expect_refusal({"fit", "--reference", "cie:12", "--out", "x", "--lobes", "abc"},
                  {"--lobes", "abc", "whole number"});
-  expect_sky_refusal({"--sun-zenith-deg", "40", ""}, {"\"\": expected options"});
-  expect_sky_refusal({"--sun-zenith-deg", "40", "noon"}, {"\"noon\": expected options"});
+  expect_sky_refusal({"--sun-zenith-deg", "40", ""}, {"\"\": unknown, expected options"});
+  expect_sky_refusal({"--sun-zenith-deg", "40", "noon"}, {"\"noon\": unknown, expected options"});
   expect_sky_refusal({"--sun-zenith-deg", "40", "--refraction="}, {"--refraction \"\"", "no ="});
   expect_sky_refusal(
       {"--sun-zenith-deg", "40", "--view-zenith-deg", "0", "--refraction", "--model", "preetham"},

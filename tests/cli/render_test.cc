@@ -218,8 +218,10 @@ TEST_F(RenderTest, CamerasThatCannotBe) {
 TEST_F(RenderTest, ScenesThatCannotBe) {
   expect_render_refusal({"--height-map", "missing.png"},
                         {"missing.png: cannot be read", "--height-map", "No such"});
-  expect_render_refusal({"--color-map", "."}, {".: cannot be read", "--color-map", "directory"});
   write("heights.png", "");
+  expect_render_refusal({"--color-map", "heights.png"}, {"--color-map", "with --height-map"});
+  expect_render_refusal({"--height-map", "heights.png", "--color-map", "."},
+                        {".: cannot be read", "--color-map", "directory"});
   expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000..0"},
                         {"--height-range-m", "LOW < HIGH"});
   expect_render_refusal({"--height-map", "heights.png", "--height-range-m", "9000"},
