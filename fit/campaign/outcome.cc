@@ -115,21 +115,21 @@ NetcdfFile variables_of(const std::vector<Outcome>& outcomes, std::string_view t
   for (const std::string& name : parameters.list()) unit_list.push_back(units.at(name));
   file.variables.push_back({kUnit, {kParameter}, std::move(unit_list), "unit of its values", ""});
   const auto add_table = [&](const char* name, auto Outcome::Value::*member, auto absent,
-                             const char* meaning) {
+                             const char* meaning, const char* unit) {
     std::vector<decltype(absent)> values(tasks * count, absent);
     for (std::size_t t = 0; t < tasks; ++t) {
       for (const Outcome::Value& value : outcomes[t].unknowns)
         values[t * count + parameters.at(value.name)] = value.*member;
     }
-    file.variables.push_back({name, {kTask, kParameter}, std::move(values), meaning, "1"});
+    file.variables.push_back({name, {kTask, kParameter}, std::move(values), meaning, unit});
   };
-  add_table(kValue, &Outcome::Value::value, Outcome::kNone, "fitted value, in parameter_unit");
+  add_table(kValue, &Outcome::Value::value, Outcome::kNone, "fitted value, in parameter_unit", "");
   add_table(kSigma, &Outcome::Value::sigma, Outcome::kNone,
-            "one standard deviation, in parameter_unit; missing at a bound");
+            "one standard deviation, in parameter_unit; missing at a bound", "");
   add_table(kAtBound, &Outcome::Value::at_bound, kAbsent,
-            "1: the value is at its bound; -1: the task has no such unknown");
+            "1: the value is at its bound; -1: the task has no such unknown", "1");
   add_table(kIdentifiable, &Outcome::Value::identifiable, kAbsent,
-            "0: the value is that of the prior; -1: the task has no such unknown");
+            "0: the value is that of the prior; -1: the task has no such unknown", "1");
   if (side == 0) return file;
   for (const char* name : {kCovarianceName, kCovarianceName2}) {
     file.dimensions.emplace_back(name, side);
@@ -151,7 +151,7 @@ NetcdfFile variables_of(const std::vector<Outcome>& outcomes, std::string_view t
                             {kTask, kCovarianceName, kCovarianceName2},
                             std::move(matrices),
                             "covariance, in the products of the parameters' units",
-                            "1"});
+                            ""});
   return file;
 }
 

@@ -144,11 +144,11 @@ void add_unknowns(const Result& result, NetcdfFile& file) {
       column(rows, [](const UnknownRow& row) { return cf_unit(row.unknown.unit()); }),
       "unit of the unknown's values", "");
   add("parameter_start", column(rows, [](const UnknownRow& row) { return row.start; }),
-      "value before the fit, in parameter_unit", "1");
+      "value before the fit, in parameter_unit", "");
   add("parameter_value", column(rows, [](const UnknownRow& row) { return row.fitted; }),
-      "fitted value, in parameter_unit", "1");
+      "fitted value, in parameter_unit", "");
   add("parameter_sigma", column(rows, [](const UnknownRow& row) { return row.sigma; }),
-      "one standard deviation, in parameter_unit; missing at a bound", "1");
+      "one standard deviation, in parameter_unit; missing at a bound", "");
   add("at_bound", column(rows, [](const UnknownRow& row) { return row.at_bound ? 1 : 0; }),
       "1: the value is at its bound", "1");
   add("identifiable", column(rows, [](const UnknownRow& row) { return row.identifiable ? 1 : 0; }),
@@ -164,17 +164,19 @@ void add_unknowns(const Result& result, NetcdfFile& file) {
          "name of the unknown",
          ""});
   }
-  const auto matrix = [&](const char* name, const Eigen::MatrixXd& values, const char* meaning) {
+  const auto matrix = [&](const char* name, const Eigen::MatrixXd& values, const char* meaning,
+                          const char* unit) {
     std::vector<double> rowwise;
     for (const auto row : values.rowwise()) rowwise.insert(rowwise.end(), row.begin(), row.end());
     file.variables.push_back({name,
                               {"covariance_parameter", "covariance_parameter_2"},
                               std::move(rowwise),
                               meaning,
-                              "1"});
+                              unit});
   };
-  matrix("covariance", result.covariance, "covariance, in the products of the parameters' units");
-  matrix("correlation", result.correlation, "correlation");
+  matrix("covariance", result.covariance, "covariance, in the products of the parameters' units",
+         "");
+  matrix("correlation", result.correlation, "correlation", "1");
 }
 
 void add_scans(const Result& result, NetcdfFile& file) {
