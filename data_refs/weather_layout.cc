@@ -64,6 +64,21 @@ Site site_of(double latitude_deg, double longitude_deg, double elevation_m, doub
   return {latitude_deg * kRadiansPerDegree, longitude_deg * kRadiansPerDegree, elevation_m};
 }
 
+// Where a line tells the place.
+struct PlaceFields {
+  std::size_t time_zone, latitude, longitude, elevation;
+};
+
+void take_place(const std::vector<std::string>& fields, const PlaceFields& at,
+                std::string_view source, int line, WeatherLayout& layout) {
+  const auto number = [&](std::size_t i, std::string_view name) {
+    return weather_number(fields, i, name, source, line);
+  };
+  layout.utc_offset_h = number(at.time_zone, "time zone");
+  layout.site = site_of(number(at.latitude, "latitude"), number(at.longitude, "longitude"),
+                        number(at.elevation, "elevation"), layout.utc_offset_h, source);
+}
+
 // Month, day and hour of the fields from `first` on.
 WeatherClock clock_of(const std::vector<std::string>& fields, std::size_t first,
                       std::string_view source, int line) {
@@ -89,13 +104,9 @@ WeatherClock epw_clock_with_minute(const std::vector<std::string>& fields, std::
   return clock;
 }
 
-// gendaymtx takes the sun of the stated hour.
-WeatherClock wea_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
-  return clock_of(fields, 0, source, line);
-}
-
-// The hour is the one that ends, from 1.
-WeatherClock tmy2_clock(const std::vector<std::string>& fields, std::string_view source, int line) {
+// Of WEA the hour of the sun, as gendaymtx takes it; of TMY2 the hour that ends, from 1.
+WeatherClock first_fields_clock(const std::vector<std::string>& fields, std::string_view source,
+                                int line) {
   return clock_of(fields, 0, source, line);
 }
 
@@ -134,11 +145,7 @@ WeatherLayout epw_layout(const std::vector<std::string>& lines, std::string_view
                        .diffuse = 15,
                        .water = 28,
                        .global = 13};
-  layout.utc_offset_h = weather_number(fields, 8, "time zone", source, 1);
-  layout.site =
-      site_of(weather_number(fields, 6, "latitude", source, 1),
-              weather_number(fields, 7, "longitude", source, 1),
-              weather_number(fields, 9, "elevation", source, 1), layout.utc_offset_h, source);
+  take_place(fields, {8, 6, 7, 9}, source, 1, layout);
   if (lines.size() > 7) {  // DATA PERIODS, their number, records per hour
     const double records =
         weather_number(csv_fields(lines[7], source, 8), 2, "records per hour", source, 8);
@@ -154,7 +161,7 @@ WeatherLayout epw_layout(const std::vector<std::string>& lines, std::string_view
 // West is positive, and so is the meridian of its time.
 WeatherLayout wea_layout(const std::vector<std::string>& lines, std::string_view source) {
   WeatherLayout layout{
-      .first_row = 6, .fields = words_of, .clock = wea_clock, .direct = 3, .diffuse = 4};
+      .first_row = 6, .fields = words_of, .clock = first_fields_clock, .direct = 3, .diffuse = 4};
   const auto header = [&](std::size_t line, const std::string& name) {
     const std::vector<std::string> words =
         line < lines.size() ? words_of(lines[line]) : std::vector<std::string>{};
@@ -189,11 +196,7 @@ WeatherLayout tmy3_layout(const std::vector<std::string>& lines, std::string_vie
                        .water = columns.find("Pwat (cm)"),
                        .global = columns.find("GHI ("),
                        .mm_per_water = 10};
-  layout.utc_offset_h = weather_number(fields, 3, "time zone", source, 1);
-  layout.site =
-      site_of(weather_number(fields, 4, "latitude", source, 1),
-              weather_number(fields, 5, "longitude", source, 1),
-              weather_number(fields, 6, "elevation", source, 1), layout.utc_offset_h, source);
+  take_place(fields, {3, 4, 5, 6}, source, 1, layout);
   return layout;
 }
 
@@ -225,7 +228,7 @@ WeatherLayout tmy2_layout(const std::vector<std::string>& lines, std::string_vie
   };
   WeatherLayout layout{.first_row = 1,
                        .fields = tmy2_fields,
-                       .clock = tmy2_clock,
+                       .clock = first_fields_clock,
                        .middle_after_stamp_h = -0.5,
                        .direct = 3,
                        .diffuse = 4,
@@ -259,12 +262,10 @@ WeatherLayout nsrdb_layout(const std::vector<std::string>& lines, std::string_vi
                        .water = columns.find("Precipitable Water"),
                        .global = columns.find("GHI"),
                        .mm_per_water = 10};
-  const auto fact = [&](std::string_view name) {
-    return weather_number(values, facts.required(name), name, source, 2);
-  };
-  layout.utc_offset_h = fact("Time Zone");
-  layout.site =
-      site_of(fact("Latitude"), fact("Longitude"), fact("Elevation"), layout.utc_offset_h, source);
+  take_place(values,
+             {facts.required("Time Zone"), facts.required("Latitude"), facts.required("Longitude"),
+              facts.required("Elevation")},
+             source, 2, layout);
   const auto hour = [&](std::size_t line) {
     const int number = static_cast<int>(line) + 1;
     return nsrdb_clock(csv_fields(lines[line], source, number), source, number).hour;

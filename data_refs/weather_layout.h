@@ -21,6 +21,7 @@ struct WeatherClock {
   double hour;  // of the day, with its fraction
 };
 
+// Irradiances are W/m^2.
 struct WeatherLayout {
   Site site = {};
   double utc_offset_h = 0;
