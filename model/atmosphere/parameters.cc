@@ -179,11 +179,14 @@ std::string with_name(std::string_view meaning, std::string_view name) {
 
 // By its air, of which the Earth's is known.
 bool is_of_another_planet(const Atmosphere<double>& atmosphere) {
-  const Parameter id = Parameter::kRayleighScattering;
-  if (!has_parameter(atmosphere, id)) return false;
-  const ParameterInfo info = parameter_info(id);
-  const double value = get_parameter(atmosphere, id);
-  return value < info.lower || value > info.upper;
+  return std::ranges::any_of(
+      std::array{Parameter::kRayleighScattering, Parameter::kRayleighPressure},
+      [&](const Parameter& id) {
+        if (!has_parameter(atmosphere, id)) return false;
+        const ParameterInfo info = parameter_info(id);
+        const double value = get_parameter(atmosphere, id);
+        return value < info.lower || value > info.upper;
+      });
 }
 
 }  // namespace
@@ -215,26 +218,21 @@ ParameterInfo parameter_info(const Parameter& parameter) {
 
 ParameterInfo parameter_info(const Parameter& parameter, const Atmosphere<double>& atmosphere) {
   ParameterInfo info = parameter_info(parameter);
+  if (!is_of_another_planet(atmosphere)) return info;
   const double value = get_parameter(atmosphere, parameter);
-  const auto center_prior = [&] {
-    if (info.prior) info.prior = Prior{value, value * info.prior->sigma / info.prior->mean};
-  };
-  if (value >= info.lower && value <= info.upper) {
-    if (parameter == Parameter::kRayleighScaleHeight && is_of_another_planet(atmosphere))
-      center_prior();
-    return info;
-  }
+  if (info.prior && parameter.constituent() == Parameter::kRayleighScattering.constituent())
+    info.prior = Prior{value, value * info.prior->sigma / info.prior->mean};
+  if (value >= info.lower && value <= info.upper) return info;
   constexpr std::array kPureNumbers = {
       kAngstromExponent, kSingleScatteringAlbedo, kPhaseG, kPhaseG1, kPhaseG2, kPhaseWeight, kWidth,
       kIndexReal,        kIndexImaginary,         kAlbedo};
   if (std::ranges::count(kPureNumbers, parameter.quantity()) > 0 || !(value > 0)) {
     info.lower = std::min(info.lower, value);
     info.upper = std::max(info.upper, value);
-    return info;
+  } else {
+    info.lower = 0.5 * value;
+    info.upper = 2 * value;
   }
-  info.lower = 0.5 * value;
-  info.upper = 2 * value;
-  center_prior();
   return info;
 }
 

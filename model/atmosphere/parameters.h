@@ -105,10 +105,10 @@ struct ParameterInfo {
 // and not free by default.
 ParameterInfo parameter_info(const Parameter& parameter);
 
-// The same for a fit that starts at this atmosphere. Where it lies outside of the bounds, as on
-// other planets: an amount or a length from half to twice its value, with a prior there that is as
-// wide; other bounds reach to it. The scale height of air that is not the Earth's has its prior
-// there, too.
+// The same for a fit that starts at this atmosphere. Bounds and priors are those of the Earth:
+// where scattering or pressure of the air (rayleigh) lies outside of them, the atmosphere is of
+// another planet. There an amount or a length outside of its bounds goes from half to twice its
+// value, other bounds reach to it, and the air's priors are about its values, relatively as wide.
 ParameterInfo parameter_info(const Parameter& parameter, const Atmosphere<double>& atmosphere);
 
 // Those of the standard constituents and of the ground, whichever of them an atmosphere has.

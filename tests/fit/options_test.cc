@@ -118,7 +118,6 @@ TEST(OptionsTest, ValuesAreChecked) {
   EXPECT_THAT(message([](FitOptions& o, refs::Reference&) {
                 o.start = Preset{"thick", true_atmosphere(1), {}};
                 o.start->atmosphere.at("mie").amount = 0.1;
-                o.bounds[Parameter::kMieScattering] = {1e-7, 2e-3};
               }),
               AllOf(HasSubstr("fit.start: mie.scattering = 0.1 1/m"), HasSubstr("1e-07 .. 0.002")));
 }
