@@ -14,14 +14,14 @@ Number lift_by_air(Number height, Number mu, Number distance, Number bottom, Num
   Number begin = max(-half_chord - r * mu, Number(0.0)), end = min(half_chord - r * mu, distance);
   if (end <= begin) return Number(0.0);
   Number step = (end - begin) / 16.0, sine = sqrt(max(1.0 - mu * mu, Number(0.0))), lift = Number(0.0);
-  for (int pass = 0; pass < 3; ++pass) {
+  for (int iteration = 0; iteration < 3; ++iteration) {
     // Of the turns so far, and of their distances from the eye: by these the bent ray is above the straight one.
     Number turned = Number(0.0), moment = Number(0.0);
     for (int i = 0; i < 16; ++i) {
       Number s = begin + step * (Number(float(i)) + 0.5);
       Number h = height_after(bottom, height, mu, s);
       Number level = r * sine / (bottom + h);  // sine of the local zenith angle
-      if (pass > 0) h += level * (lift * s - (s * turned - moment));
+      if (iteration > 0) h += level * (lift * s - (s * turned - moment));
       Number turn = refractivity / scale * exp(-max(h, Number(0.0)) / scale) * level * step;
       turned += turn;
       moment += turn * s;

@@ -15,11 +15,12 @@ namespace skyfit {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr int kRows = 3201;  // of 0.0003 deg at a field of 1 deg
 
 // Toward the sea.
 FrameOptions looking(double height_m, double view_zenith, double field_of_view, bool refraction) {
   FrameOptions options =
-      options_at({height_m, view_zenith, 0, field_of_view}, 50 * kDegree, 9, 801);
+      options_at({height_m, view_zenith, 0, field_of_view}, 50 * kDegree, 9, kRows);
   options.refraction = refraction;
   return options;
 }
@@ -43,11 +44,11 @@ TEST(RefractedView, HorizonAndLimbStandWhereAirShowsThem) {
                  index = refraction.refractive_index(0) /
                          refraction.refractive_index(refraction.refractive_height(height)),
                  seen = kPi - std::asin(index * bottom / (bottom + height)), field = 1 * kDegree,
-                 row = 2 * std::tan(0.5 * field) / 801;
+                 row = 2 * std::tan(0.5 * field) / kRows;
     double found[2];
     for (const bool bent : {false, true}) {
       const Frame frame = renderer().draw(looking(height, straight, field, bent));
-      found[bent] = std::atan((ground_rows(frame) - 400.5) * row);
+      found[bent] = std::atan((ground_rows(frame) - 0.5 * kRows) * row);
     }
     std::printf("[ horizon] from %6g m: lifted by %.4f deg, by Bouguer's law %.4f\n", height,
                 (found[1] - found[0]) / kDegree, (straight - seen) / kDegree);

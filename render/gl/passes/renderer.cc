@@ -195,10 +195,13 @@ class GlRenderer final : public FrameDrawer {
     return options.camera.altitude_m - ground_height_m(options.site);
   }
 
-  TerrainView view_of(const FrameOptions& options) const {
+  TerrainView view_of(const FrameOptions& options) {
     FrameOptions seen = options;
     seen.camera = options.terrain.eye.value_or(options.camera);
-    return terrain_view(seen, axes_of(options.site), *ground_, radius_m_, ground_distance_m(seen));
+    TerrainView view =
+        terrain_view(seen, axes_of(options.site), *ground_, radius_m_, ground_distance_m(seen));
+    bend(atmosphere_.eye_in_air(seen), view);
+    return view;
   }
 
   void add_boxes(const FrameOptions& options, const TerrainView& view,
@@ -243,8 +246,9 @@ class GlRenderer final : public FrameDrawer {
     statistics.blocks_drawn = current_.blocks.blocks;
     statistics.blocks_hidden = current_.blocks.hidden;
     place_objects(options, statistics);
-    current_.farthest_km = 1e-3 * (horizon_m(radius_m_, options.camera.altitude_m) +
-                                   horizon_m(radius_m_, ground_->highest_m()));
+    current_.farthest_km = 1e-3 * view.farther *
+                           (horizon_m(radius_m_, options.camera.altitude_m) +
+                            horizon_m(radius_m_, ground_->highest_m()));
   }
 
   std::vector<ShadowView> shadow_views_of(const FrameOptions& options) const {

@@ -254,7 +254,7 @@ std::vector<BlockPatches> choose_patches(const TerrainView& view,
       if (camera) outlines[i * kPatches + patch] = outline_of(patch, corners, points, bulge);
     }
   });
-  if (view.cull && !view.bent) drop_hidden(outlines, view.split_ratio, chosen);
+  if (view.cull && view.most_lift == 0) drop_hidden(outlines, view.split_ratio, chosen);
   return chosen;
 }
 

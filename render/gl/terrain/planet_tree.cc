@@ -99,9 +99,7 @@ class Frustum {
     const double angle = 2 * std::asin(std::min(0.5 * glm::distance(points[4], up), 1.0));
     // Arcs are longest along a face's middle lines.
     const double radius = 0.5 * std::numbers::sqrt2 * block_arc_m(level, 1);
-    const double horizons = own_horizon_ + horizon(highest);
-    constexpr double kFarther = 1.3;  // than along straight rays; 1.14 in the Earth's air
-    return angle - radius > (view_.bent ? kFarther * horizons : horizons);
+    return angle - radius > view_.farther * (own_horizon_ + horizon(highest));
   }
 
   const TerrainView& view_;
@@ -232,8 +230,9 @@ double block_arc_m(int level, double radius_m) { return std::ldexp(0.5 * kPi * r
 std::vector<glm::dvec4> TerrainView::bounds() const {
   if (!planes.empty()) return planes;
   const auto& [right, up, forward] = basis;
-  constexpr double kMostLift = 0.02;  // radians
-  const auto widened = [&](double t) { return bent ? std::tan(std::atan(t) + kMostLift) : t; };
+  const auto widened = [&](double t) {
+    return most_lift > 0 ? std::tan(std::min(std::atan(t) + most_lift, 1.5)) : t;
+  };
   const double w = widened(tangent.x), h = widened(tangent.y);
   std::vector<glm::dvec4> frustum;
   for (const glm::dvec3& inward :

@@ -68,8 +68,9 @@ struct TerrainView {
   int levels = 9;           // >= 1
   bool fixed = false;       // the ratio is not to be made smaller
   bool cull = true;
-  // Rays may be bent: what is hidden, beyond the horizon or beside the frustum may be seen.
-  bool bent = false;
+  // Where rays are bent by air (bend()): by how much farther than along straight ones a horizon is,
+  // and the most by which something is seen higher, radians.
+  double farther = 1, most_lift = 0;
   // What is seen instead of the picture's frustum, when there are any: normals that point inward
   // and distances from the camera, in the axes of the site.
   std::vector<glm::dvec4> planes;

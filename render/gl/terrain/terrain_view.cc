@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -50,12 +51,23 @@ TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, cons
                                 kSmallestRatio, kLargestRatio);
   view.levels = options.terrain.levels.value_or(levels_of(radius_m));
   view.cull = options.terrain.cull;
-  view.bent = options.refraction;
   if (const auto& constant = options.terrain.lod_constant) {
     view.split_ratio = *constant / kBlockQuads;
     view.fixed = true;
   }
   return view;
+}
+
+void bend(const glm::vec4& eye_in_air, TerrainView& view) {
+  const double radius = eye_in_air.x, refractivity = eye_in_air.z, scale = eye_in_air.w;
+  if (!(refractivity > 0)) return;
+  // Near the ground light turns by kappa of the planet's curvature.
+  constexpr double kMost = 0.99, kRoom = 1.05;
+  const double kappa = std::min(refractivity * radius / scale, kMost);
+  view.farther = kRoom / std::sqrt(1 - kappa);
+  // Level rays from the ground to space, and the same again past it.
+  view.most_lift =
+      2 * view.farther * refractivity * std::sqrt(0.5 * std::numbers::pi * radius / scale);
 }
 
 std::vector<BlockSelection> affordable_blocks(TerrainView& view, std::span<const Planes> others,

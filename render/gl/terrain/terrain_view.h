@@ -21,6 +21,9 @@ double horizon_m(double radius_m, double height_m);
 TerrainView terrain_view(const FrameOptions& options, const SiteAxes& axes, const Ground& ground,
                          double radius_m, double ground_distance_m);
 
+// Makes room in the view for what an eye sees by refraction; Projection::eye_in_air.
+void bend(const glm::vec4& eye_in_air, TerrainView& view);
+
 // The blocks of a view and then, as fine, of what each of the other bounds holds
 // (TerrainView::planes), in the store as a new frame's; where all together are more than memory
 // should hold, the view is made coarser. Throws std::length_error when even the coarsest has too
