@@ -159,8 +159,9 @@ FitOptions with_default_parameters(const FitOptions& options, const SkyModel& mo
       if (options.free ? !is_free(id) : options.fix.contains(id)) continue;
       if (!model.can_fit(id))
         throw std::invalid_argument(
-            fmt::format("AERONET tells {}: the {} model cannot, expected --fix of it", id.name(),
-                        model.name()));
+            fmt::format("AERONET tells {0}, which the {1} model does not fit: expected --fix "
+                        "{0}=VALUE beside it",
+                        id.name(), model.name()));
       result.priors.emplace(id, prior);
     }
   }

@@ -42,6 +42,10 @@ TEST_F(BadInputTest, CommandLine) {
   expect_refusal({"fit", "--out", "x"}, {"--reference or --irradiance is required"});
   expect_refusal({"fit", "--out", "x", "--irradiance", "direct=800"}, {"direct=800", "no unit"});
   expect_refusal({"fit", "--reference", "cie:12"}, {"--out is required"});
+  expect_refusal({"fit", "--reference", "cie:12,cie:12", "--out", "x"},
+                 {"--reference \"cie:12\"", "given twice"});
+  expect_refusal({"references", "cie:12", "--json"}, {"--json", "without a name"});
+  expect_refusal({"presets", "earth-clear", "--schema"}, {"--schema", "excludes"});
   expect_refusal({"fit", "--reference", "cie:12", "--out", "x", "--lobes", "abc"},
                  {"--lobes", "abc", "whole number"});
   expect_sky_refusal({"--sun-zenith-deg", "40", ""}, {"\"\": unknown, expected options"});

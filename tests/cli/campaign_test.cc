@@ -11,6 +11,7 @@ namespace skyfit::cli {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class CampaignTest : public ProgramTest {
@@ -105,6 +106,12 @@ TEST_F(CampaignTest, WritesAJobArrayForSlurm) {
   const std::string script = content("o'ut/campaign.slurm");
   EXPECT_THAT(script, HasSubstr("#SBATCH --array=1-7\n#SBATCH --cpus-per-task=3\n"));
   EXPECT_THAT(script, HasSubstr("o'\\''ut' --shard \"$SLURM_ARRAY_TASK_ID/7\""));
+  EXPECT_THAT(script, HasSubstr("\ncd "));
+  EXPECT_THAT(script, Not(HasSubstr("--allow-paths")));
+  EXPECT_EQ(run({"--allow-paths", "campaign", in("plan.json"), "--out", in("out"), "--slurm", "2"})
+                .status,
+            0);
+  EXPECT_THAT(content("out/campaign.slurm"), HasSubstr("skyfit --allow-paths campaign "));
 }
 
 TEST_F(CampaignTest, SaysWhatIsWrongWithThePlan) {
@@ -123,13 +130,20 @@ TEST_F(CampaignTest, SaysWhatIsWrongWithThePlan) {
               HasSubstr("bad.json:1: options: "));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"help": true}})"),
               HasSubstr("bad.json:1: options: \"help\": expected an option of skyfit fit"));
-  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"bootstrap": 10}})"),
-              HasSubstr("\"bootstrap\": expected an option of skyfit fit that is about how to fit many"));
+  EXPECT_THAT(
+      complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"bootstrap": 10}})"),
+      HasSubstr("\"bootstrap\": expected an option of skyfit fit that is about how to fit many"));
   EXPECT_THAT(complaint("{\"skyfit_campaign\": 1, \"inputs\": [\"a\"],\n\"options\": {\n"
                         "\"starts\": 1,\n\"lobes\": 7}}"),
               HasSubstr("bad.json:4: options: fit.lobes = 7"));
-  EXPECT_THAT(complaint("{\"skyfit_campaign\": 1,\n\"inputs\": [\"a\"]}"),
-              HasSubstr("bad.json:2: inputs: a: expected a file or a pattern"));
+  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"lobes": true}})"),
+              HasSubstr("bad.json:1: options: lobes: expected a value"));
+  EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "options": {"scalar": "x"}})"),
+              HasSubstr("bad.json:1: options: scalar: expected true or false"));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, std::vector<std::string>{"--slurm", "2"}})
+    EXPECT_THAT(complaint("{\"skyfit_campaign\": 1,\n\"inputs\": [\"a\"]}", more),
+                HasSubstr("bad.json:2: inputs: a: expected a file or a pattern"));
   EXPECT_THAT(complaint(R"({"skyfit_campaign": 1, "inputs": ["a"], "kind": "moons"})"),
               HasSubstr("kind = \"moons\": expected one of skies, irradiances"));
   EXPECT_THAT(complaint(good, {"--shard", "3/2"}), HasSubstr("--shard \"3/2\": expected K/N"));

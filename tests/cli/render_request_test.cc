@@ -63,6 +63,19 @@ TEST(RenderRequest, TheSunOfADay) {
   EXPECT_FALSE(r.is_sequence);
 }
 
+// The named views stand above sea level, a map of mountains does not lie there.
+TEST(RenderRequest, OnAMapTheCameraStandsAboveTheGround) {
+  const TemporaryDirectory folder;
+  const std::string map = (folder.path() / "a.tif").string();
+  std::ofstream(map) << "heights";
+  const auto camera = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--dem", map, "--out", "x.png"});
+    return shot_at(request(more).sequence, 0, sun_over).camera;
+  };
+  EXPECT_TRUE(camera({}).above_ground);
+  EXPECT_FALSE(camera({"--altitude-m", "3000"}).above_ground);
+}
+
 TEST(RenderRequest, ADayIsAFilmOfTenSecondsFromAStandingCamera) {
   const RenderRequest r = request(at_zurich(
       {"--date", "2026-06-21", "--time", "05:00..21:00", "--view", "ground", "--out-dir", "x"}));

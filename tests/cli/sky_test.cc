@@ -62,6 +62,20 @@ TEST_F(SkyTest, TristimulusValuesAreNotNegative) {
   }
 }
 
+// Of a sun at the nadir the apparent one is beyond it.
+TEST_F(SkyTest, ASunAtTheNadirMayBeApparent) {
+  const Columns found = sky({"--preset", "earth-clear", "--sun-zenith-deg", "180",
+                             "--view-zenith-deg", "0", "--refraction", "--apparent-sun"});
+  EXPECT_LT(found.at("luminance_cd_m2").at(0), 1e-9);
+}
+
+TEST_F(SkyTest, IrradiancesSayThatTheyHaveNoDirection) {
+  const Outcome outcome = run({"sky", "--preset", "earth-clear", "--sun-zenith-deg", "40",
+                               "--irradiance", "--view-zenith-deg", "10"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("--view-zenith-deg is not used"));
+}
+
 // I is the radiance without --stokes; degree and angle follow from Q and U; the sign of the IAU.
 TEST_F(SkyTest, StokesParametersBelongTogether) {
   const std::vector<std::string> where = {

@@ -36,6 +36,7 @@ for options, column, axes in [
     assert data.attrs["Conventions"] == "CF-1.8"
     assert data[column].dims == axes, data[column].dims
     assert data[column].attrs["units"]
+    assert data.attrs["history"].startswith("skyfit sky --preset earth-clear"), data.attrs["history"]
     assert len(table) == data[column].size
     names = {"altitude": "altitude_m", "wavelength": "wavelength_nm"}
     for row in table:
@@ -60,6 +61,8 @@ one = dict(covariance_parameter="mie.scattering", covariance_parameter_2="mie.sc
 numpy.testing.assert_allclose(float(fit.parameter_sigma.sel(parameter="mie.scattering")),
                               float(fit.covariance.sel(one)) ** 0.5, rtol=1e-9)
 assert fit.sizes["scan"] == 2
+assert {"sun_zenith", "view_zenith", "relative_azimuth"} <= set(fit.model.coords), fit.model.coords
+assert "units" not in fit.parameter_value.attrs
 used = fit.weight > 0
 misfit = float((numpy.log(fit.model / fit.reference_value)[used]
                 .groupby(fit.sample_scan[used]).map(lambda scan: (scan - scan.mean()) ** 2).mean()) ** 0.5)

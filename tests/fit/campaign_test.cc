@@ -101,6 +101,9 @@ TEST_F(CampaignTest, GroupsScansByFileScanDayAndSite) {
   };
   EXPECT_THAT(names(tasks(plan(R"({"skyfit_campaign": 1, "inputs": ["*.csv", "a.csv"]})"))),
               ElementsAre("a.csv", "b.csv"));
+  // A file that has another name there is the same file.
+  EXPECT_THAT(names(tasks(plan(R"({"skyfit_campaign": 1, "inputs": ["*.csv", "./a.csv"]})"))),
+              ElementsAre("a.csv", "b.csv"));
   EXPECT_THAT(grouped("scan"), ElementsAre("a.csv[1]", "a.csv[2]", "b.csv[1]", "b.csv[2]"));
   EXPECT_THAT(grouped("day"),
               ElementsAre("2013-05-27 at 42.0000,-76.0000", "2013-05-27 at 47.0000,11.0000",
@@ -282,6 +285,20 @@ TEST_F(RunTest, ShardsAndResumedRunsGiveTheSame) {
   EXPECT_EQ(result("resumed"), whole);
 }
 
+TEST_F(RunTest, ValuesAreOverTimeAndPlace) {
+  run("out");
+  const CampaignPlan campaign = all();
+  const std::vector<Task> list = tasks(campaign);
+  const NetcdfFile file = netcdf_of(merged({campaign, list, folder() / "out"}), "a test");
+  const auto coordinates = [&](const std::string& name) {
+    return std::ranges::find(file.variables, name, &NetcdfVariable::name)->coordinates;
+  };
+  EXPECT_EQ(coordinates("parameter_value"), "time latitude longitude elevation");
+  EXPECT_EQ(coordinates("rms_log"), "time latitude longitude elevation");
+  EXPECT_EQ(coordinates("time"), "");
+  EXPECT_EQ(coordinates("parameter_unit"), "");
+}
+
 TEST_F(RunTest, AFailedTaskIsRecordedInALine) {
   run("out");
   EXPECT_THAT(result("out"), HasSubstr(fmt_name(4) + ",failed,bad sky,"));
@@ -312,6 +329,14 @@ TEST_F(RunTest, TheResultReadsAsItWasWritten) {
     EXPECT_EQ(read[i].covariance_names, outcomes[i].covariance_names);
     EXPECT_EQ(read[i].covariance.size(), outcomes[i].covariance.size());
   }
+}
+
+TEST(Summary, SaysHowManyDidNotConverge) {
+  std::vector<Outcome> outcomes(3);
+  for (Outcome& outcome : outcomes) outcome.rms_log = outcome.converged = 1;
+  EXPECT_THAT(campaign_text(outcomes), Not(HasSubstr("NOT CONVERGED")));
+  outcomes[1].converged = 0;
+  EXPECT_THAT(campaign_text(outcomes), HasSubstr("NOT CONVERGED: 1 of those fitted"));
 }
 
 TEST_F(CampaignTest, OutliersAreFarAboveTheMedian) {

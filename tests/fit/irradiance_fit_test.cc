@@ -44,6 +44,17 @@ const char* const kWatts =
     "direct=800W/m2,direct_horizontal=600W/m2,diffuse=100W/m2,global=700W/m2,"
     "precipitable_water=14mm";
 
+TEST(IrradianceFit, ThatCannotBeUsedSaysWhy) {
+  refs::Reference reference = reference_of(kLux);
+  for (refs::Sample& sample : reference.samples) {
+    sample.weight = 0;
+    sample.zero_weight_reason = "not positive";
+  }
+  EXPECT_THAT([&] { fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), {}); },
+              ThrowsMessage<std::invalid_argument>(
+                  HasSubstr("none of its 4 samples can be used, the first is \"not positive\"")));
+}
+
 TEST(IrradianceFit, ValuesAreTheWeightedSumsOfTheModelsIrradiances) {
   const SpectralData& spectra = refs::standard_spectral_data();
   const Atmosphere<double> atmosphere = true_atmosphere(2);

@@ -102,10 +102,15 @@ TEST(MeasuredAir, ThatIsPulledFromItsPressureIsSaid) {
   EXPECT_THAT(report(1000), Not(HasSubstr("rayleigh.pressure is ")));
 }
 
-TEST(MeasuredAir, AKnownAerosolIsStartAndPrior) {
+FitOptions options_knowing(const refs::AerosolKnowledge& known) {
   FitOptions options;
-  options.aerosol = refs::AerosolKnowledge{
-      Prior{0.2, 0.01}, Prior{1.4, 0.1}, Prior{0.95, 0.03}, {"prior: by a test"}};
+  options.aerosol = known;
+  return options;
+}
+
+TEST(MeasuredAir, AKnownAerosolIsStartAndPrior) {
+  const FitOptions options =
+      options_knowing({Prior{0.2, 0.01}, Prior{1.4, 0.1}, Prior{0.95, 0.03}, {"prior: by a test"}});
   const Problem problem = problem_of(scans(), options);
   EXPECT_EQ(unknown(problem, "mie.scattering"), nullptr);
   for (const auto& [name, prior] : {std::pair{"mie.optical_depth", Prior{0.2, 0.01}},
@@ -124,9 +129,23 @@ TEST(MeasuredAir, AKnownAerosolIsStartAndPrior) {
   EXPECT_EQ(problem.assumptions.front(), "prior: by a test");
 }
 
+// Not the words of a prior that nobody asked for.
+TEST(MeasuredAir, AKnownAerosolThatTheModelDoesNotFitIsNamed) {
+  refs::AerosolKnowledge known;
+  known.single_scattering_albedo = Prior{0.95, 0.03};
+  const FitOptions options = options_knowing(known);
+  const auto model = make_sky_model("oneil", refs::standard_spectral_data(), 1);
+  EXPECT_THAT([&] { fit_atmosphere(scans(), refs::standard_spectral_data(), *model, options); },
+              ::testing::ThrowsMessage<std::invalid_argument>(HasSubstr(
+                  "AERONET tells mie.single_scattering_albedo, which the oneil model does "
+                  "not fit: expected --fix mie.single_scattering_albedo=VALUE")));
+}
+
 TEST(MeasuredAir, WhatIsFixedOfAKnownAerosolHasNoPrior) {
-  FitOptions options;
-  options.aerosol = refs::AerosolKnowledge{Prior{0.2, 0.01}, Prior{1.4, 0.1}, {}, {}};
+  refs::AerosolKnowledge known;
+  known.optical_depth = Prior{0.2, 0.01};
+  known.angstrom_exponent = Prior{1.4, 0.1};
+  FitOptions options = options_knowing(known);
   options.fix[{"mie", Quantity::kAngstromExponent}] = 1;
   const Problem problem = problem_of(scans(), options);
   EXPECT_EQ(unknown(problem, "mie.angstrom_exponent"), nullptr);

@@ -31,6 +31,7 @@ TEST(Netcdf, HoldsWhatWasPutIntoIt) {
       {"numbers", {"row", "column"}, std::vector<double>{1, missing, 3, 4, 5, 6.5}, "n", "m"},
       {"counts", {"row"}, std::vector<int>{-1, 7}, "c", "1"},
       {"row", {"row"}, std::vector<std::string>{"\xc3\xa9 one", ""}, "texts", ""}};
+  set_coordinates(file, "row", {"counts", "missing"});
   write_netcdf(path, file);
   const NetcdfFile read = read_netcdf(path);
   EXPECT_EQ(read.dimensions, file.dimensions);
@@ -41,6 +42,7 @@ TEST(Netcdf, HoldsWhatWasPutIntoIt) {
   EXPECT_THAT(netcdf_values<std::vector<std::string>>(read, "row", "a"),
               ElementsAre("\xc3\xa9 one", ""));
   EXPECT_EQ(read.variables[0].units, "m");
+  EXPECT_EQ(read.variables[0].coordinates, "counts");
   EXPECT_EQ(read.attributes, file.attributes);
   EXPECT_THROW(netcdf_values<std::vector<int>>(read, "numbers", "a"), std::runtime_error);
 }

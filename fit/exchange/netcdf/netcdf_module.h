@@ -12,12 +12,13 @@
 namespace skyfit::fit {
 
 // A variable over dimensions of the file, the last one fastest. A number that is not known is NaN,
-// its _FillValue.
+// its _FillValue. `units` is "1" of a number without, and empty of texts and where each value has
+// its own.
 struct NetcdfVariable {
   std::string name;  // letters, digits and _
   std::vector<std::string> dimensions;
   std::variant<std::vector<double>, std::vector<int>, std::vector<std::string>> values;
-  std::string long_name, units;  // units: "1" of a number without; empty of texts
+  std::string long_name, units;
   std::string coordinates = {};  // names of variables that say where its values are, by CF
 };
 
