@@ -46,9 +46,10 @@ void run_export(const ExportArguments& arguments) {
     throw std::invalid_argument(fmt::format(
         "{}: no constituent scatters light: there is no sky to export", arguments.preset));
   }
-  if (!program->has_star && preset.atmosphere.star.spectrum != StarSpectrum::kSolar)
-    warn(fmt::format("{}: its star is not written: {} has the sun's light", arguments.preset,
-                     program->name));
+  const Star& star = preset.atmosphere.star;
+  if (!program->has_star && (star.spectrum != StarSpectrum::kSolar || star.distance_au != 1))
+    warn(fmt::format("{}: its star is not written: {} has the sun's light at 1 au",
+                     arguments.preset, program->name));
   const SpectralData spectra = refs::spectral_data_of(preset.atmosphere);
   const auto truth = make_sky_model("reference", spectra, arguments.threads),
              scalar = make_sky_model("reference", spectra, arguments.threads, Transfer::kScalar);

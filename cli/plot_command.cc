@@ -185,6 +185,7 @@ void add_plot_command(CLI::App& app) {
       "\n"
       "Figures of fits of absolute and spectral skies:\n" +
       named_lines(plot::measured_figures()) +
+      "series takes several fits.\n"
       "\n"
       "--figure polarisation maps degree and angle of linear polarisation over the sky of a "
       "preset, "

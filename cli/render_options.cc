@@ -259,9 +259,7 @@ void check_combinations(const CLI::App& command) {
 
 std::string drawing_models() {
   std::vector<std::string_view> names;
-  for (const SkyModelEntry& entry : sky_models()) {
-    if (entry.draws_frames) names.push_back(entry.name);
-  }
+  for (const SkyModelEntry& entry : sky_models()) names.push_back(entry.name);
   return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 

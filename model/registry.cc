@@ -159,13 +159,11 @@ std::span<const SkyModelEntry> sky_models() {
        "Preetham, Shirley & Smits 1999: formula over the turbidity; day, up to 3 km, sky",
        make_with_spectra<PreethamModel>,
        {},
-       /*draws_frames=*/true,
        /*sees_ground=*/false},
       {"hosek-wilkie",
-       "Hosek & Wilkie 2012: formula over turbidity and albedo; day, from the ground, no frames",
+       "Hosek & Wilkie 2012: formula over turbidity and albedo; day, up to 3 km, sky",
        make_with_spectra<HosekWilkieModel>,
        {},
-       /*draws_frames=*/false,
        /*sees_ground=*/false},
   };
   return kModels;
@@ -184,9 +182,9 @@ const SkyModelEntry& sky_model_entry(std::string_view name) {
 bool draws_frames(std::string_view name) {
   const SkyModelEntry& entry = sky_model_entry(name);
   const std::vector<std::string_view> parts = split(name);
-  return entry.draws_frames && std::ranges::none_of(entry.variants, [&](const auto& variant) {
-           return !variant.draws_frames && std::ranges::count(parts, variant.name) > 0;
-         });
+  return std::ranges::none_of(entry.variants, [&](const auto& variant) {
+    return !variant.draws_frames && std::ranges::count(parts, variant.name) > 0;
+  });
 }
 
 std::unique_ptr<SkyModel> make_sky_model(std::string_view name, const SpectralData& spectra,

@@ -32,8 +32,7 @@ struct SkyModelEntry {
   std::string_view meaning;  // one line, with the source
   std::unique_ptr<SkyModel> (*make)(const SkyModelRequest& request);
   std::span<const SkyModelVariant> variants = {};
-  bool draws_frames = true;  // of a renderer
-  bool sees_ground = true;   // radiance() knows rays below the horizon
+  bool sees_ground = true;  // radiance() knows rays below the horizon
 };
 // Whether a renderer can draw the model of that name with all its variants.
 bool draws_frames(std::string_view name);

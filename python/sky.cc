@@ -88,10 +88,11 @@ std::vector<double> derivatives_of(const SkyTable& table, const SkyValues& sky, 
   return values;
 }
 
+// Derivatives by so many parameters; without points there are none, but of that many.
 void add(NamedArrays& arrays, const std::string& name, std::vector<double> values,
-         std::vector<double> derivatives) {
+         std::vector<double> derivatives, std::size_t parameters) {
   arrays.emplace_back(name, array_of(std::move(values)));
-  if (!derivatives.empty()) arrays.emplace_back("d_" + name, array_of(std::move(derivatives)));
+  if (parameters > 0) arrays.emplace_back("d_" + name, array_of(std::move(derivatives)));
 }
 
 std::vector<SkyPoint> points_of(const Input<double>& altitude_m,
@@ -128,7 +129,8 @@ NamedArrays sky(const Preset& preset, const Input<double>& altitude_m,
     result = {values_of(table, values, 0, 1), derivatives_of(table, values, 0, 1)};
   });
   NamedArrays arrays;
-  add(arrays, table.columns.front().name, std::move(result.value), std::move(result.derivative));
+  add(arrays, table.columns.front().name, std::move(result.value), std::move(result.derivative),
+      with.derivatives.size());
   return arrays;
 }
 
@@ -157,9 +159,10 @@ NamedArrays stokes(const Preset& preset, const Input<double>& altitude_m,
        {std::pair<std::string, SkyValues&>{"radiance_per_irradiance_sr", light.i},
         {"q_per_irradiance_sr", light.q},
         {"u_per_irradiance_sr", light.u}})
-    add(arrays, name, std::move(values.value), std::move(values.derivative));
-  add(arrays, "degree_of_linear_polarisation", std::move(degree), {});
-  add(arrays, "angle_of_linear_polarisation_deg", std::move(angle_deg), {});
+    add(arrays, name, std::move(values.value), std::move(values.derivative),
+        with.derivatives.size());
+  add(arrays, "degree_of_linear_polarisation", std::move(degree), {}, 0);
+  add(arrays, "angle_of_linear_polarisation_deg", std::move(angle_deg), {}, 0);
   return arrays;
 }
 
@@ -199,7 +202,7 @@ NamedArrays irradiance(const Preset& preset, const Input<double>& altitude_m,
   for (int kind = 0; kind < kIrradianceCount; ++kind) {
     add(arrays, table.columns[static_cast<std::size_t>(kind)].name,
         values_of(table, all, kind, kIrradianceCount),
-        derivatives_of(table, all, kind, kIrradianceCount));
+        derivatives_of(table, all, kind, kIrradianceCount), with.derivatives.size());
   }
   return arrays;
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -139,10 +140,12 @@ Exported export_radiance(const ExportRequest& request) {
   const auto rounded = [](double value) { return std::round(value * 1e9) * 1e-9 + 0.0; };
   const double east = rounded(std::sin(request.sun_azimuth)),
                north = rounded(std::cos(request.sun_azimuth)), low = std::sin(request.sun_zenith);
-  std::filesystem::path stem = request.file;
-  stem.replace_extension();
+  // Blanks part the words of a scene.
+  std::string stem = request.file.stem().string();
+  std::ranges::replace_if(
+      stem, [](unsigned char c) { return std::isspace(c) != 0; }, '_');
   const auto data_file = [&](std::string_view channel) {
-    return std::filesystem::path(fmt::format("{}_{}.dat", stem.string(), channel));
+    return request.file.parent_path() / fmt::format("{}_{}.dat", stem, channel);
   };
   const auto data_name = [&](std::string_view channel) {
     return data_file(channel).filename().string();

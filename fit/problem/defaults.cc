@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -199,6 +200,25 @@ std::vector<std::string> assumptions(const refs::Reference& reference, const Fit
                   "sea's level, {} hPa, by default (elevation_m, --site-pressure-hpa)",
                   kStandardPressureHpa));
   return notes;
+}
+
+std::optional<std::string> held_aerosol(const FitOptions& options, const SkyModel& model,
+                                        const Atmosphere<double>& atmosphere,
+                                        const std::vector<FreeParameter>& parameters) {
+  const Constituent<double>* const aerosol = main_aerosol(atmosphere);
+  if (options.free || aerosol == nullptr) return std::nullopt;
+  const auto of_aerosol = [&](const Parameter& id) { return id.constituent() == aerosol->name; };
+  if (std::ranges::any_of(parameters, of_aerosol, &FreeParameter::id) ||
+      std::ranges::any_of(options.fix | std::views::keys, of_aerosol))
+    return std::nullopt;
+  for (const Parameter& id : parameters_of(atmosphere)) {
+    if (!of_aerosol(id) || !model.can_fit(id)) continue;
+    return fmt::format(
+        "{}, the aerosol, stays as the preset has it: by default parameters of an aerosol named "
+        "mie are free; --free names others, as {} (skyfit parameters lists them)",
+        aerosol->name, parameter_info(id, atmosphere).name);
+  }
+  return std::nullopt;
 }
 
 Atmosphere<double> as_given(Atmosphere<double> atmosphere, const FitOptions& options) {

@@ -3,9 +3,11 @@
 // the tables of docs/fits.md.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fit/problem/free_parameters.h"
 #include "fit/problem/options.h"
 
 namespace skyfit::fit {
@@ -20,6 +22,12 @@ Atmosphere<double> as_given(Atmosphere<double> atmosphere, const FitOptions& opt
 
 // What is assumed of a measured sky whose site does not state enough, in sentences.
 std::vector<std::string> assumptions(const refs::Reference& reference, const FitOptions& options);
+
+// That none of the main aerosol's parameters is free by default, where the model could fit some:
+// those of `mie` are, other names are the preset's.
+std::optional<std::string> held_aerosol(const FitOptions& options, const SkyModel& model,
+                                        const Atmosphere<double>& atmosphere,
+                                        const std::vector<FreeParameter>& parameters);
 
 // Of irradiances only what they tell is free, and what has a prior.
 FitOptions with_free_of_irradiances(FitOptions options, const refs::Reference& reference,

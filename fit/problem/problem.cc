@@ -280,6 +280,8 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
       with_default_parameters(with_free_of_irradiances(options, reference, model, base), model,
                               several_wavelengths, pointing != Pointing::kStated, base);
   const std::vector<FreeParameter> parameters = choose_free_parameters(with_defaults, model, base);
+  if (auto note = held_aerosol(options, model, base, parameters))
+    problem.assumptions.push_back(std::move(*note));
   problem.starts = choose_starts(base, parameters, options.starts, options.start.has_value());
   problem.start = start_state(problem.starts.front().atmosphere, problem.scans());
   problem.given =

@@ -79,14 +79,11 @@ void add_summary(xml_node body, const Result& result) {
   item("Started from", result.start_name);
   item("Likelihood", likelihood_text(result));
   item("Samples", samples_text(result));
-  item("Solver", fmt::format("{} after {} iterations of all {} starts; {} model solutions, {} with "
-                             "derivatives; {:.3g} s",
-                             result.termination, result.iterations, result.starts.size(),
-                             result.model_evaluations + result.derivative_evaluations,
-                             result.derivative_evaluations, result.wall_seconds));
+  item("Solver", fmt::format("{} after {}; {:.3g} s", result.termination, effort_text(result),
+                             result.wall_seconds));
   for (const std::string& note : result.reference.notes) item("Note", note);
   for (const auto& [reason, count] : result.samples_left_out)
-    item("Left out", fmt::format("{} samples: {}", count, reason));
+    item("Left out", fmt::format("{}: {}", counted(count, "sample"), reason));
 }
 
 // Names in one document are unique: those of each figure get a prefix, and what refers to them too.
@@ -222,8 +219,8 @@ std::vector<std::string> what_the_data_do_not_tell(const Result& result) {
     }
   }
   if (result.downweighted > 0) {
-    sentences.push_back(fmt::format("The loss leaves {} samples less than half their weight.",
-                                    result.downweighted));
+    sentences.push_back(fmt::format("The loss leaves {} less than half their weight.",
+                                    counted(result.downweighted, "sample")));
   }
   return sentences;
 }

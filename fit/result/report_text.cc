@@ -32,12 +32,10 @@ std::string header(const Result& result) {
       "model       {} ({} transfer, skyfit {}), started from {}\n"
       "likelihood  {}\n"
       "samples     {}\n"
-      "solver      {} after {} iterations of all {} starts; {} model solutions, {} with "
-      "derivatives\n\n",
+      "solver      {} after {}\n\n",
       result.preset.name, result.reference.description, result.model_name,
       transfer_name(result.transfer), result.version, result.start_name, likelihood_text(result),
-      samples_text(result), result.termination, result.iterations, result.starts.size(),
-      result.model_evaluations + result.derivative_evaluations, result.derivative_evaluations);
+      samples_text(result), result.termination, effort_text(result));
 }
 
 // What is known of the reference, and its samples without weight by reason.
@@ -266,8 +264,8 @@ std::string hold_out_text(const std::vector<HoldOut>& hold_outs) {
 
 std::string downweighted_text(const Result& result) {
   if (result.downweighted == 0) return "";
-  return fmt::format("The loss leaves {} samples less than half their weight.\n\n",
-                     result.downweighted);
+  return fmt::format("The loss leaves {} less than half their weight.\n\n",
+                     counted(result.downweighted, "sample"));
 }
 
 }  // namespace

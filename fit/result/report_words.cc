@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "data_refs/units.h"
 #include "model/base/misfit.h"
@@ -58,13 +59,26 @@ std::string scan_name(const Result& result, std::size_t scan) {
                      info.sun_zenith * kDegreesPerRadian);
 }
 
+std::string counted(std::ptrdiff_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string effort_text(const Result& result) {
+  const std::ptrdiff_t starts = std::ssize(result.starts);
+  return fmt::format(
+      "{} of {}{}; {}, {} with derivatives", counted(result.iterations, "iteration"),
+      starts > 1 ? "all " : "", counted(starts, "start"),
+      counted(result.model_evaluations + result.derivative_evaluations, "model solution"),
+      result.derivative_evaluations);
+}
+
 std::string samples_text(const Result& result) {
   if (refs::is_irradiance(result.reference.quantity))
-    return fmt::format("{} under {} sun{}", result.samples, result.scans.size(),
-                       result.scans.size() == 1 ? "" : "s");
-  std::string text = fmt::format(
-      "{} in {} directions of {} scans, {:.4g} deg around the sun left out", result.samples,
-      result.directions, scans_of_sky(result), result.exclude_sun * kDegreesPerRadian);
+    return fmt::format("{} under {}", result.samples, counted(std::ssize(result.scans), "sun"));
+  std::string text =
+      fmt::format("{} in {} of {}, {:.4g} deg around the sun left out", result.samples,
+                  counted(result.directions, "direction"), counted(scans_of_sky(result), "scan"),
+                  result.exclude_sun * kDegreesPerRadian);
   int beside = 0;
   for (const IrradianceErrors& errors : result.irradiances) beside += errors.samples;
   if (beside > 0) {
@@ -140,8 +154,8 @@ std::string sigma_text(const Result& result) {
         result.sigma_percent,
         std::isfinite(result.chi_square_per_dof)
             ? fmt::format(
-                  "chi^2 per degree of\nfreedom = {:.4g} (well above 1: the misfit is larger "
-                  "than the noise)",
+                  "chi^2 per degree of\nfreedom = {:.4g} (well above 1 the misfit is larger "
+                  "than the noise,\nwell below 1 the noise is stated too large)",
                   result.chi_square_per_dof)
             : "there are no more\nsamples than unknowns, so that chi^2 says nothing");
   } else {

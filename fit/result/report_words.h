@@ -2,6 +2,7 @@
 // Sentences and cells that the reports as text and as a page share.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,10 @@ std::string sigma_text(const Result& result);
 // What "RMS of log", "luminance", "spectral" and "own" errors are.
 std::string errors_meaning(const Result& result);
 std::string hold_outs_meaning();
+// "1 scan", "3 scans".
+std::string counted(std::ptrdiff_t count, std::string_view noun);
+// "4 iterations of all 3 starts; 20 model solutions, 8 with derivatives".
+std::string effort_text(const Result& result);
 // A sentence for each prior that the misfit overrides; the same lines.
 std::vector<std::string> pulled_priors(const Result& result);
 

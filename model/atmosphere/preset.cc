@@ -12,6 +12,7 @@
 #include "model/atmosphere/preset_tables.h"
 #include "model/atmosphere/preset_v1.h"
 #include "model/base/preset_reader.h"
+#include "model/base/text.h"
 
 namespace skyfit {
 namespace {
@@ -88,7 +89,7 @@ Preset read_preset(const PresetReader& root, const PresetTables& tables) {
         {"skyfit_preset", "name", "note", "planet", "star", "ground", "constituents", "fit"});
   }
   Preset preset;
-  preset.name = root.text("name");
+  preset.name = printable(root.text("name"));  // it is shown
   const PresetReader planet = root.object("planet");
   planet.expect_only({"bottom_radius_m", "top_radius_m"});
   preset.atmosphere.bottom_radius_m = planet.number("bottom_radius_m");

@@ -2,10 +2,12 @@
 #include "model/literature/hosek_wilkie.h"
 
 #include <algorithm>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "model/atmosphere/ground_spectrum.h"
 #include "model/literature/hosek_wilkie_table.h"
@@ -13,17 +15,16 @@
 namespace skyfit {
 namespace {
 
-constexpr literature::TurbidityDomain kDomain = {"hosek-wilkie", 1, 10, 0};
+constexpr literature::TurbidityDomain kDomain = {"hosek-wilkie", 1, 10, 3e3};
 
 constexpr int kControlPoints = 6;
-using Bezier = std::array<HosekWilkieShape<double>, kControlPoints>;
-// [channel][albedo][turbidity]
-using Beziers = std::array<std::array<std::array<Bezier, 10>, 2>, 3>;
+// [channel][control point]
+using Beziers = std::array<std::array<HosekWilkieShapes, kControlPoints>, 3>;
 
 Beziers parsed_table() {
   Beziers beziers{};
   std::istringstream table{std::string(literature::hosek_wilkie_table())};
-  int rows = 0;
+  std::size_t rows = 0;
   for (std::string line; std::getline(table, line);) {
     if (line.starts_with('#') || line.starts_with("channel")) continue;
     std::ranges::replace(line, ',', ' ');
@@ -32,9 +33,9 @@ Beziers parsed_table() {
     std::size_t albedo = 0, turbidity = 0, control_point = 0;
     fields >> channel >> albedo >> turbidity >> control_point;
     HosekWilkieShape<double>& shape = beziers.at(static_cast<std::size_t>(channel - 'X'))
+                                          .at(control_point)
                                           .at(albedo)
-                                          .at(turbidity - 1)
-                                          .at(control_point);
+                                          .at(turbidity - 1);
     for (double& number : shape) fields >> number;
     if (!fields) throw std::logic_error("the table of hosek-wilkie: " + line);
     ++rows;
@@ -44,22 +45,24 @@ Beziers parsed_table() {
   return beziers;
 }
 
+const Beziers& all_beziers() {
+  static const Beziers beziers = parsed_table();
+  return beziers;
+}
+
 }  // namespace
 
 std::array<HosekWilkieShapes, 3> hosek_wilkie_shapes(double sun_zenith) {
-  static const Beziers beziers = parsed_table();
-  const double x = std::cbrt(1 - sun_zenith / (0.5 * std::numbers::pi)), y = 1 - x;
-  const std::array<double, kControlPoints> weights = {
-      y * y * y * y * y,      5 * x * y * y * y * y, 10 * x * x * y * y * y,
-      10 * x * x * x * y * y, 5 * x * x * x * x * y, x * x * x * x * x};
+  Shared<double> shared;
+  const double elevation = shared.hosek_wilkie_elevation(sun_zenith);
   std::array<HosekWilkieShapes, 3> all{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t ground = 0; ground < 2; ++ground) {
-      for (std::size_t t = 0; t < 10; ++t) {
-        HosekWilkieShape<double>& shape = all[c][ground][t];
-        for (std::size_t k = 0; k < weights.size(); ++k) {
-          for (std::size_t i = 0; i < shape.size(); ++i)
-            shape[i] += weights[k] * beziers[c][ground][t][k][i];
+  for (std::size_t k = 0; k < kControlPoints; ++k) {
+    const double weight = shared.hosek_wilkie_weight(static_cast<int>(k), elevation);
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t ground = 0; ground < 2; ++ground) {
+        for (std::size_t t = 0; t < 10; ++t) {
+          for (std::size_t i = 0; i < all[c][ground][t].size(); ++i)
+            all[c][ground][t][i] += weight * all_beziers()[c][k][ground][t][i];
         }
       }
     }
@@ -90,6 +93,24 @@ SkyValues HosekWilkieModel::radiance(const Atmosphere<double>& atmosphere,
           return xyz;
         };
       });
+}
+
+std::optional<SkyRayTables> HosekWilkieModel::sky_rays(
+    const Atmosphere<double>& atmosphere, std::span<const WavelengthNode, 4> nodes) const {
+  SkyRayTables rays = literature::rays_of_formula(kDomain, SkyRayMapping::kHosekWilkie, spectrum_,
+                                                  atmosphere, nodes);
+  const double albedo = ground_albedo_at(atmosphere, GroundSpectrum::kWavelengthNm);
+  constexpr int kNumbers = std::tuple_size_v<HosekWilkieShape<double>>;
+  rays.air = {kNumbers, kControlPoints, 1, std::vector<float>(4 * kNumbers * kControlPoints)};
+  for (std::size_t k = 0; k < kControlPoints; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const HosekWilkieShape<double> shape =
+          hosek_wilkie_shape(all_beziers()[c][k], rays.formula.turbidity, albedo);
+      for (std::size_t i = 0; i < kNumbers; ++i)
+        rays.air.rgba[4 * (k * kNumbers + i) + c] = static_cast<float>(shape[i]);
+    }
+  }
+  return rays;
 }
 
 bool HosekWilkieModel::can_fit(const Parameter& parameter) const {

@@ -10,14 +10,16 @@
 // tracing. The turbidity is the preset's, literature::turbidity_of(), the albedo that of the ground
 // at 550 nm. The spectrum is not that of the paper: it is the one that literature::SpectrumOfXyz
 // has for the model's X, Y, Z. Left out: everything else of the atmosphere. Valid on the ground,
-// toward the sky, sun above the horizon, turbidity 1 .. 10, albedo 0 .. 1; throws std::domain_error
-// for a turbidity outside.
+// up to 3 km high, toward the sky, sun above the horizon, turbidity 1 .. 10, albedo 0 .. 1; throws
+// std::domain_error for a turbidity outside. Before the ground, frames have the paths of
+// model/literature/preetham.h, which the paper leaves open, in the light of this sky.
 #pragma once
 
 #include <array>
 #include <cmath>
 
 #include "model/literature/turbidity_sky.h"
+#include "model/shared/shared.h"
 
 namespace skyfit {
 
@@ -54,14 +56,9 @@ HosekWilkieShape<T> hosek_wilkie_shape(const HosekWilkieShapes& shapes, const T&
 // sun, radians.
 template <class T>
 T hosek_wilkie_light(const HosekWilkieShape<T>& shape, double mu, double gamma) {
-  using std::exp, std::sqrt;
-  constexpr double kLumensPerWatt = 683;
   const auto& [a, b, c, d, e, f, g, h, i, mean] = shape;
-  const double nu = std::cos(gamma);
-  const T denominator = T(1.0) + h * h - 2.0 * nu * h;
-  const T chi = T(1 + nu * nu) / (denominator * sqrt(denominator));
-  return kLumensPerWatt * mean * (T(1.0) + a * exp((1 / (mu + 0.01)) * b)) *
-         (c + d * exp(gamma * e) + nu * nu * f + g * chi + std::sqrt(mu) * i);
+  return Shared<T>{}.hosek_wilkie_light(T(mu), T(gamma), T(std::cos(gamma)), a, b, c, d, e, f, g, h,
+                                        i, mean);
 }
 
 class HosekWilkieModel final : public SkyModel {
@@ -71,6 +68,8 @@ class HosekWilkieModel final : public SkyModel {
   SkyValues radiance(const Atmosphere<double>& atmosphere,
                      std::span<const WavelengthNode> wavelengths, std::span<const SkyPoint> points,
                      std::span<const Parameter> derivatives) const override;
+  std::optional<SkyRayTables> sky_rays(const Atmosphere<double>& atmosphere,
+                                       std::span<const WavelengthNode, 4> nodes) const override;
   // The aerosol's amount and the ground's albedo.
   bool can_fit(const Parameter& parameter) const override;
 

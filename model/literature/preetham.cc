@@ -50,18 +50,8 @@ SkyValues PreethamModel::radiance(const Atmosphere<double>& atmosphere,
 
 std::optional<SkyRayTables> PreethamModel::sky_rays(
     const Atmosphere<double>& atmosphere, std::span<const WavelengthNode, 4> nodes) const {
-  literature::check_request(kDomain.model, atmosphere, {}, {});
-  literature::check_exponential(kDomain.model, atmosphere);
-  SkyRayTables rays = literature::closed_form(
-      SkyRayMapping::kPreetham, {std::string(kDomain.model), kDomain.highest_m}, atmosphere);
-  const double turbidity = literature::turbidity_of(atmosphere);
-  const bool lit = literature::is_lit(kDomain, turbidity);
-  // Of a dark sky any turbidity does: radiance_from_xyz is 0.
-  rays.preetham.turbidity = lit ? turbidity : kDomain.least;
-  if (!lit) return rays;
-  for (std::size_t k = 0; k < 4; ++k)
-    rays.preetham.radiance_from_xyz[k] = spectrum_.at(nodes[k].wavelength_nm);
-  return rays;
+  return literature::rays_of_formula(kDomain, SkyRayMapping::kPreetham, spectrum_, atmosphere,
+                                     nodes);
 }
 
 bool PreethamModel::can_fit(const Parameter& parameter) const {

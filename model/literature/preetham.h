@@ -9,12 +9,12 @@
 // the ground, up to 3 km high, toward the sky, sun above the horizon, T 1.7 .. 10 (below, F is
 // negative at the zenith); throws std::domain_error for a turbidity outside.
 //
-// Frames have his paths before the ground, section 4: air and aerosol with the exponential
-// densities of the preset, lit by the sun as from the ground and by the sky. Deviations: he fills a
-// table of the scattered light over all directions and fits polynomials to the integrals along a
-// path, here the sky's light comes evenly from its half of all directions, and a path is summed in
-// 8 steps; the sun's beam is that of these constituents through Kasten's air mass, without his
-// ozone and gases.
+// Frames, also those of `hosek-wilkie`, have his paths before the ground, section 4: air and
+// aerosol with the exponential densities of the preset, lit by the sun as from the ground and by
+// the sky. Deviations: he fills a table of the scattered light over all directions and fits
+// polynomials to the integrals along a path, here the sky's light comes evenly from its half of all
+// directions, and a path is summed in 8 steps; the sun's beam is that of these constituents through
+// Kasten's air mass, without his ozone and gases.
 #pragma once
 
 #include "model/literature/turbidity_sky.h"

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 #include "model/numerics/angles.h"
 
@@ -67,6 +68,23 @@ void check_formula_points(const TurbidityDomain& domain, std::span<const SkyPoin
                       point.view_zenith * kDegreesPerRadian,
                       "below 90: the model has the sky alone");
   }
+}
+
+SkyRayTables rays_of_formula(const TurbidityDomain& domain, SkyRayMapping mapping,
+                             const SpectrumOfXyz& spectrum, const Atmosphere<double>& atmosphere,
+                             std::span<const WavelengthNode, 4> nodes) {
+  check_request(domain.model, atmosphere, {}, {});
+  check_exponential(domain.model, atmosphere);
+  SkyRayTables rays =
+      closed_form(mapping, {std::string(domain.model), domain.highest_m}, atmosphere);
+  const double turbidity = turbidity_of(atmosphere);
+  const bool lit = is_lit(domain, turbidity);
+  // Of a dark sky any turbidity does: radiance_from_xyz is 0.
+  rays.formula.turbidity = lit ? turbidity : domain.least;
+  if (!lit) return rays;
+  for (std::size_t k = 0; k < 4; ++k)
+    rays.formula.radiance_from_xyz[k] = spectrum.at(nodes[k].wavelength_nm);
+  return rays;
 }
 
 }  // namespace skyfit::literature

@@ -63,6 +63,12 @@ class SpectrumOfXyz {
 // height.
 void check_formula_points(const TurbidityDomain& domain, std::span<const SkyPoint> points);
 
+// SkyModel::sky_rays() of such a formula, with the numbers that all have. Throws as is_lit() does,
+// and std::invalid_argument for profiles of air and aerosol that are not exponential.
+SkyRayTables rays_of_formula(const TurbidityDomain& domain, SkyRayMapping mapping,
+                             const SpectrumOfXyz& spectrum, const Atmosphere<double>& atmosphere,
+                             std::span<const WavelengthNode, 4> nodes);
+
 // SkyModel::radiance() of such a formula. formula(atmosphere, turbidity), with dual numbers,
 // returns what gives X, Y, Z, cd/m^2, for a SkyPoint and its angle from the sun, radians. Throws
 // as check_formula_points() and is_lit() do.

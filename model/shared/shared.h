@@ -43,6 +43,7 @@ struct Shared {
 #include "model/shared/bodare_mapping.glsl"
 #include "model/shared/bruneton_mapping.glsl"
 #include "model/shared/hillaire_mapping.glsl"
+#include "model/shared/hosek_wilkie.glsl"
 #include "model/shared/media.glsl"
 #include "model/shared/phase.glsl"
 #undef OUT

@@ -103,8 +103,8 @@ constexpr double kShare = 0.8, kTwilightShare = 0.6;
 // In deep twilight, where light comes from a node of the sun grid further, and through one layer
 // more, with each step or two.
 int twilight_couplings(int levels) {
-  constexpr int kCouplingsOfDefault = 18;
-  return kCouplingsOfDefault + 2 * std::max(levels - twilight_levels(kDefaultLevels), 0) / 3;
+  constexpr int kCouplingsOfDefault = 18, kTwilightLevels = 40;  // of kDefaultLevels by day
+  return kCouplingsOfDefault + 2 * std::max(levels - kTwilightLevels, 0) / 3;
 }
 
 // Nodes of the sun grid beyond 105 deg, and beyond 96, which few steps do not reach.

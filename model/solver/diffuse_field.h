@@ -58,9 +58,14 @@ struct DiffuseOptions {
   int levels = kDefaultLevels;  // LevelGrid::asked()
 };
 
-// Levels of a field that knows deep twilight, where one of the day has `levels`: light of one layer
-// comes from places under suns that stand degrees apart.
-constexpr int twilight_levels(int levels) { return levels * 10 / 7; }
+// How finely a field is solved, where that of a thin atmosphere's day has so many levels and the
+// fewest rays along the limb. In deep twilight light of one layer comes from places under suns that
+// stand degrees apart; of an extended atmosphere, that of Mars or Titan, at every hour.
+struct FieldGrid {
+  int levels;
+  LimbRays limb_rays;
+};
+FieldGrid field_grid(const Shells& shells, int levels_by_day, bool deep_twilight);
 
 // The first sun of the grid that has light from neighbouring places under their own sun. On a
 // planet whose atmosphere is thin against its radius, as the Earth's, that matters for low suns

@@ -171,7 +171,7 @@ template <int N>
 std::vector<SkyValues> solve_points(const Question<N>& question, std::span<const SkyPoint> points,
                                     bool deep_twilight, const LightTurns* turns) {
   const auto& [shells, optics, derivatives, options, wanted] = question;
-  const LevelGrid levels(shells, deep_twilight ? twilight_levels(options.levels) : options.levels);
+  const LevelGrid levels(shells, field_grid(shells, options.levels, deep_twilight).levels);
   const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
   const SunsAlongRays suns = suns_along_rays(shells, rays, points, turns);
   const bool first = options.order <= 1, further = options.order != 1;

@@ -32,7 +32,7 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
     suns.push_back(grid_.mu(i));
   }
   const Streams streams(shells_.bottom_radius, levels_.heights(), options.streams,
-                        deep_twilight ? LimbRays::kOfTwilight : LimbRays::kOfDay);
+                        field_grid(shells_, options.levels, deep_twilight).limb_rays);
   fields_ = solve_diffuse_fields<N>(
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
       sun_coupling(grid_, shells_, solved_, streams, first),

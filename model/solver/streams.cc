@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -12,14 +13,28 @@ namespace skyfit {
 namespace {
 
 // Where limb rays begin: at the levels nearest to these cube roots of the height over the top's.
-// Three times as many rays of the day change the multiple scattering seen from 0 .. 20 km and along
-// the limb by less than 1 %.
+// Three times as many rays of the Earth's day change the multiple scattering seen from 0 .. 20 km
+// and along the limb by less than 1 %; on Mars and Titan there must be as many.
 std::span<const double> limb_levels(LimbRays rays) {
   static constexpr double kOfDay[] = {0.2, 0.35, 0.47, 0.6, 0.7, 0.8, 0.9};
   static constexpr double kOfTwilight[] = {0.2,  0.35, 0.42, 0.46, 0.5, 0.54, 0.58,
                                            0.62, 0.66, 0.7,  0.75, 0.8, 0.85, 0.9};
-  if (rays == LimbRays::kOfDay) return kOfDay;
-  return kOfTwilight;
+  static constexpr std::array<double, 28> kOfExtended = [] {
+    constexpr double kFirst = 0.1, kLast = 0.95;
+    std::array<double, 28> shares{};
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      shares[i] = kFirst + (kLast - kFirst) * static_cast<double>(i) / (shares.size() - 1);
+    return shares;
+  }();
+  switch (rays) {
+    case LimbRays::kOfDay:
+      return kOfDay;
+    case LimbRays::kOfTwilight:
+      return kOfTwilight;
+    case LimbRays::kOfExtended:
+      return kOfExtended;
+  }
+  return {};
 }
 
 // P_l(mu), l = 0 .. count - 1.

@@ -10,8 +10,9 @@
 namespace skyfit {
 
 // How many rays go along the limb. In deep twilight all light comes along the horizon, most of it
-// through the narrow band of heights that the sun still lights.
-enum class LimbRays { kOfDay, kOfTwilight };
+// through the narrow band of heights that the sun still lights; in an extended atmosphere they are
+// a large part of all directions.
+enum class LimbRays { kOfDay, kOfTwilight, kOfExtended };
 
 class Streams {
  public:

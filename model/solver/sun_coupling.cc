@@ -108,11 +108,21 @@ void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalC
 
 double top_over_radius(const Shells& shells) { return shells.top / shells.bottom_radius; }
 
+bool is_extended(const Shells& shells) {
+  constexpr double kThin = 0.02;
+  return top_over_radius(shells) > kThin;
+}
+
 }  // namespace
 
+FieldGrid field_grid(const Shells& shells, int levels_by_day, bool deep_twilight) {
+  if (is_extended(shells)) return {2 * levels_by_day, LimbRays::kOfExtended};
+  if (deep_twilight) return {levels_by_day * 10 / 7, LimbRays::kOfTwilight};
+  return {levels_by_day, LimbRays::kOfDay};
+}
+
 int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
-  constexpr double kThin = 0.02;
-  if (top_over_radius(shells) > kThin) return 0;
+  if (is_extended(shells)) return 0;
   constexpr double kLow = 86 * kRadiansPerDegree;
   int i = 0;
   while (grid.zenith(i) < kLow) ++i;

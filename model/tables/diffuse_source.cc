@@ -16,7 +16,8 @@
 namespace skyfit {
 namespace {
 
-constexpr int kZeniths = 91;  // of the table: even steps of the view zenith
+constexpr bool kDeepTwilight = true;  // tables know all suns
+constexpr int kZeniths = 91;          // of the table: even steps of the view zenith
 
 // docs/theory (9.12).
 // cos m phi = sum_k row[m][k] cos(4 [k / 4] phi) cos^(k mod 4) phi: by Chebyshev's polynomials up
@@ -59,7 +60,7 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
     : moments_(options.moments),
       blocks_(blocks_of(options.moments)),
       suns_(shells),
-      levels_(shells, twilight_levels(options.levels)) {
+      levels_(shells, field_grid(shells, options.levels, kDeepTwilight).levels) {
   const int count = static_cast<int>(heights.size());
   for (const Scatterer<0>& scatterer : optics[0].scatterers) {
     const int blocks = scatterer.moments.size() <= kPowers ? 1 : blocks_;
@@ -71,14 +72,14 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   std::vector<int> all(sun_mu.size());
   std::iota(all.begin(), all.end(), 0);
   const Streams streams(shells.bottom_radius, levels_.heights(), options.streams,
-                        LimbRays::kOfTwilight);
+                        field_grid(shells, options.levels, kDeepTwilight).limb_rays);
   const HorizontalCoupling coupling =
       sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells));
   const auto fields_of = [&](int order) {
     return solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams, coupling,
                                    {.moments = options.moments,
                                     .order = order,
-                                    .deep_twilight = true,
+                                    .deep_twilight = kDeepTwilight,
                                     .polarised = light.transfer == Transfer::kVector,
                                     .levels = levels_.asked()});
   };

@@ -36,10 +36,15 @@ enum class SkyRayMapping {
   kNielsen,
   kHoffmanPreetham,
   kPreetham,
+  kHosekWilkie,  // `air`: its curves, of X, Y and Z, x: numbers of the shape, y: control points
 };
+// A sky over the turbidity, and paths by the exponential densities of the preset.
+constexpr bool is_formula(SkyRayMapping mapping) {
+  return mapping == SkyRayMapping::kPreetham || mapping == SkyRayMapping::kHosekWilkie;
+}
 constexpr bool is_closed_form(SkyRayMapping mapping) {
   return mapping == SkyRayMapping::kNielsen || mapping == SkyRayMapping::kHoffmanPreetham ||
-         mapping == SkyRayMapping::kPreetham;
+         is_formula(mapping);
 }
 
 // What kNielsen leaves open, see model/literature/nielsen.h.
@@ -73,8 +78,9 @@ struct ONeilChoices {
   ONeilDepths depths = ONeilDepths::kExact;
 };
 
-// What kPreetham needs of the preset and of the colour rule, see model/literature/preetham.h.
-struct PreethamSky {
+// What kPreetham and kHosekWilkie need of the preset and of the colour rule, see
+// model/literature/turbidity_sky.h.
+struct FormulaSky {
   double turbidity = 0;
   // [node]: per cd/m^2 of X, Y and Z.
   std::array<std::array<double, 3>, 4> radiance_from_xyz = {};
@@ -91,7 +97,7 @@ struct SkyRayTables {
   Table air, aerosol;  // by which of them light was scattered last
   NielsenChoices nielsen = {};
   ONeilChoices oneil = {};
-  PreethamSky preetham = {};
+  FormulaSky formula = {};
   std::optional<DaylightLimits> limits = {};
   Table gathered = {};  // kBodare: all light but the sun's that falls on a place, x: sun, y: height
   BrunetonChoices bruneton = {};

@@ -85,6 +85,12 @@ Table interpolated(const Table& a, const Table& b, double share) {
   return result;
 }
 
+// Of one colour rule.
+FormulaSky interpolated(FormulaSky a, const FormulaSky& b, double share) {
+  a.turbidity = std::lerp(a.turbidity, b.turbidity, share);
+  return a;
+}
+
 }  // namespace
 
 Atmosphere<double> interpolated_atmosphere(const Atmosphere<double>& a, const Atmosphere<double>& b,
@@ -138,15 +144,10 @@ AtmosphereTables interpolated_tables(const AtmosphereTables& a, const Atmosphere
           interpolated(a.rayleigh_like, b.rayleigh_like, share),
           interpolated(a.single, b.single, share),
           interpolated(a.phase, b.phase, share),
-          {a.sky_rays.mapping,
-           interpolated(a.sky_rays.air, b.sky_rays.air, share),
-           interpolated(a.sky_rays.aerosol, b.sky_rays.aerosol, share),
-           a.sky_rays.nielsen,
-           a.sky_rays.oneil,
-           {std::lerp(a.sky_rays.preetham.turbidity, b.sky_rays.preetham.turbidity, share),
-            a.sky_rays.preetham.radiance_from_xyz},
-           a.sky_rays.limits,
-           interpolated(a.sky_rays.gathered, b.sky_rays.gathered, share),
+          {a.sky_rays.mapping, interpolated(a.sky_rays.air, b.sky_rays.air, share),
+           interpolated(a.sky_rays.aerosol, b.sky_rays.aerosol, share), a.sky_rays.nielsen,
+           a.sky_rays.oneil, interpolated(a.sky_rays.formula, b.sky_rays.formula, share),
+           a.sky_rays.limits, interpolated(a.sky_rays.gathered, b.sky_rays.gathered, share),
            a.sky_rays.bruneton}};
 }
 

@@ -35,7 +35,7 @@ struct Header {
   NielsenChoices nielsen;
   ONeilChoices oneil;
   BrunetonChoices bruneton;
-  PreethamSky preetham;
+  FormulaSky formula;
   bool limited;
   double highest_m;
   int deck_node;
@@ -54,7 +54,7 @@ auto all_tables(Tables& tables) {
 constexpr std::size_t kBefore = 3;
 
 void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tables) {
-  const auto& [mapping, air, aerosol, nielsen, oneil, preetham, limits, gathered, bruneton] =
+  const auto& [mapping, air, aerosol, nielsen, oneil, formula, limits, gathered, bruneton] =
       tables.sky_rays;
   Header header{};
   header.sizes = tables.sizes;
@@ -62,7 +62,7 @@ void keep(ContentCache& cache, const CacheKey& key, const AtmosphereTables& tabl
   header.nielsen = nielsen;
   header.oneil = oneil;
   header.bruneton = bruneton;
-  header.preetham = preetham;
+  header.formula = formula;
   header.limited = limits.has_value();
   header.highest_m = limits ? limits->highest_m : 0;
   header.deck_node = tables.heights.deck_node();
@@ -107,7 +107,7 @@ bool find(ContentCache& cache, const CacheKey& key, AtmosphereTables& tables) {
   tables.sky_rays.nielsen = header.nielsen;
   tables.sky_rays.oneil = header.oneil;
   tables.sky_rays.bruneton = header.bruneton;
-  tables.sky_rays.preetham = header.preetham;
+  tables.sky_rays.formula = header.formula;
   if (header.limited) tables.sky_rays.limits = DaylightLimits{model, header.highest_m};
   return true;
 }

@@ -54,7 +54,8 @@ __all__ = [
     "views",
 ]
 
-_MAX_ALTITUDE_M = 1e12  # as in `skyfit sky`
+_MAX_ALTITUDE_M, _MAX_THREADS = 1e12, 1024  # as in `skyfit sky`
+_MAX_SCANS = 2**31 - 1
 
 
 class Arrays(_Mapping):
@@ -117,13 +118,25 @@ Preset.to_dict.__doc__ = "What json.loads() makes of to_json()."
 
 
 def _preset(preset):
-    return preset if isinstance(preset, Preset) else Preset(preset)
+    if isinstance(preset, Preset):
+        return preset
+    if not isinstance(preset, (str, _os.PathLike)):
+        raise TypeError(
+            f"preset: expected a Preset, a shipped preset's name or a file, got {_kind(preset)}"
+        )
+    return Preset(preset)
+
+
+def _kind(value):
+    return type(value).__name__
 
 
 def _word(value):
     """One value as the command line spells it."""
-    if isinstance(value, (int, str)) and not isinstance(value, bool):
-        return str(value)
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (int, _np.integer)) and not isinstance(value, bool):
+        return str(int(value))
     if isinstance(value, _os.PathLike):
         return _os.fspath(value)
     return repr(float(value))
@@ -131,7 +144,13 @@ def _word(value):
 
 def _pair(value):
     """A value, or (mean, sigma) and (lower, upper), as the command line spells them."""
-    return ":".join(map(_word, value)) if isinstance(value, (tuple, list)) else _word(value)
+    return ":".join(map(_word, value)) if _is_list(value) else _word(value)
+
+
+def _is_list(value):
+    if isinstance(value, _np.ndarray):
+        return value.ndim > 0
+    return isinstance(value, (list, tuple, set, frozenset, range))
 
 
 # Tuples of numbers that the command line joins by something else than a comma.
@@ -141,25 +160,43 @@ _SEPARATORS = {"size": "x", "height_range_m": "..", "noise": ":"}
 def _words(name, value):
     if value is True:
         return []
-    if isinstance(value, _Mapping):
-        return [f"{key}={_pair(one)}" for key, one in value.items()]
-    if isinstance(value, (list, tuple, set, _np.ndarray)) and _np.ndim(value) > 0:
-        words = [_word(one) for one in value]
-        return [_SEPARATORS[name].join(words)] if name in _SEPARATORS else words
-    return [_word(value)]
+    try:
+        if isinstance(value, _Mapping):
+            return [f"{key}={_pair(one)}" for key, one in value.items()]
+        if _is_list(value):
+            words = [_word(one) for one in value]
+            return [_SEPARATORS[name].join(words)] if name in _SEPARATORS else words
+        return [_word(value)]
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"{name}: expected numbers, texts or files, alone, in a list or as a dict's values"
+        ) from None
 
 
 def _options(options):
     """The options that are given; None and False are not."""
+    given = {
+        name: bool(value) if isinstance(value, _np.bool_) else value
+        for name, value in options.items()
+    }
     return {
         name: _words(name, value)
-        for name, value in options.items()
+        for name, value in given.items()
         if value is not None and value is not False
     }
 
 
+def _numbers(name, values):
+    if _np.ma.is_masked(values):
+        raise ValueError(f"{name}: expected numbers, got masked elements")
+    try:
+        return _np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: expected a number or an array of numbers") from None
+
+
 def _within(name, values, lower, upper):
-    values = _np.asarray(values, dtype=float)
+    values = _numbers(name, values)
     bad = ~((values >= lower) & (values <= upper))
     if bad.any():
         first = values[bad].flat[0]
@@ -200,12 +237,21 @@ def _how(model, derivatives, scalar, refraction, threads):
     if isinstance(derivatives, str):
         derivatives = [derivatives]
     derivatives = list(derivatives or [])
-    how = _skyfit.How(model, derivatives, scalar, refraction, threads or default_threads())
+    if threads is None:
+        threads = default_threads()
+    if not isinstance(threads, (int, _np.integer)) or not 1 <= threads <= _MAX_THREADS:
+        raise ValueError(f"threads: expected a whole number from 1 to {_MAX_THREADS}")
+    how = _skyfit.How(model, derivatives, bool(scalar), bool(refraction), int(threads))
     return how, derivatives
 
 
 def _wavelengths(wavelength_nm):
-    return None if wavelength_nm is None else _np.atleast_1d(_np.asarray(wavelength_nm, float))
+    if wavelength_nm is None:
+        return None
+    nm = _np.atleast_1d(_numbers("wavelength_nm", wavelength_nm))
+    if nm.size == 0:
+        raise ValueError("wavelength_nm: expected at least one number")
+    return nm
 
 
 def sky(
@@ -323,7 +369,13 @@ def reference(
     without it every sun zenith angle is one.
     """
     arrays = _np.broadcast_arrays(
-        sun_zenith_deg, view_zenith_deg, relative_azimuth_deg, wavelength_nm, value, sigma, weight
+        _numbers("sun_zenith_deg", sun_zenith_deg),
+        _numbers("view_zenith_deg", view_zenith_deg),
+        _numbers("relative_azimuth_deg", relative_azimuth_deg),
+        _numbers("wavelength_nm", wavelength_nm),
+        _numbers("value", value),
+        _numbers("sigma", sigma),
+        _numbers("weight", weight),
     )
     sun, view, azimuth, nm, value, sigma, weight = (
         _np.ascontiguousarray(array, dtype=float).ravel() for array in arrays
@@ -333,7 +385,10 @@ def reference(
     if scan is None:
         scan = _np.unique(sun, return_inverse=True)[1]
     else:
-        scan = _np.ascontiguousarray(_np.broadcast_to(scan, arrays[0].shape)).ravel()
+        numbers = _within("scan", scan, 0, _MAX_SCANS)
+        if (numbers != _np.floor(numbers)).any():
+            raise ValueError("scan: expected whole numbers")
+        scan = _np.broadcast_to(numbers.astype(int), arrays[0].shape).ravel()
     places = _np.stack([scan, view, azimuth])
     direction = _np.unique(places, axis=1, return_inverse=True)[1].ravel()
     return _skyfit.reference_of(
@@ -398,9 +453,9 @@ _READING = frozenset(_skyfit.reading_options())
 
 
 def _samples(self):
-    """Samples by name: places, which irradiance where they are such, value, sigma (NaN where none
-    is stated), weight, scan; of a fit the values of the fitted and of the start's model, and as
-    sigma what one sample scatters by."""
+    """Samples by name: value, sigma (NaN where none is stated), weight; of a fit the values of the
+    fitted and of the start's model, and as sigma what one sample scatters by. The places, scans and
+    which irradiance, where they are such, are their `coords`."""
     arrays = self._samples() if isinstance(self, Fit) else self._arrays()
     places = (
         "sun_zenith_deg",

@@ -228,6 +228,49 @@ def test_errors_are_one_line_that_names_the_value(call, expected):
     assert "\n" not in str(error.value)
 
 
+MASKED = np.ma.array([30.0, 60.0], mask=[False, True])
+
+
+@pytest.mark.parametrize(
+    "call, expected",
+    [
+        (lambda: skyfit.sky("earth-clear", MASKED, 20), "sun_zenith_deg: .* masked"),
+        (lambda: skyfit.sky("earth-clear", None, 20), "sun_zenith_deg: expected a number"),
+        (lambda: skyfit.sky("earth-clear", 30, 20, wavelength_nm=[]), "wavelength_nm: .* one"),
+        (lambda: skyfit.irradiance("earth-clear", 30, wavelength_nm=[]), "wavelength_nm: .* one"),
+        (lambda: skyfit.sky("earth-clear", 30, 20, threads=0), "threads: .* 1 to 1024"),
+        (lambda: skyfit.sky("earth-clear", 30, 20, threads=1.5), "threads: .* 1 to 1024"),
+        (lambda: reference_of(MASKED), "value: .* masked"),
+        (lambda: reference_of([1.0, 2.0], scan=[0, 0.5]), "scan: expected whole numbers"),
+        (lambda: reference_of([1.0, 2.0], scan=[0, np.nan]), "scan = nan: .* 0 to"),
+        (lambda: skyfit.fit("cie:12", starts=object()), "starts: expected numbers"),
+    ],
+)
+def test_arrays_are_checked_before_they_are_used(call, expected):
+    test_errors_are_one_line_that_names_the_value(call, expected)
+
+
+def reference_of(value, **options):
+    return skyfit.reference(value, 30, [10, 20], 0, quantity="luminance", **options)
+
+
+def test_no_points_have_no_derivatives_of_each_parameter():
+    sky = skyfit.sky("earth-clear", [], 20, derivatives=["mie.scattering"])
+    assert sky["d_luminance_cd_m2"].shape == (1, 0)
+
+
+def test_options_take_what_numpy_and_python_count_with(small_fit):
+    again = skyfit.fit(
+        "cie:12",
+        free={"mie.scattering"},
+        lobes=np.int64(1),
+        starts=np.int32(1),
+        sun_zenith_deg=range(20, 61, 40),
+    )
+    assert again.report_dict["samples"] == small_fit.report_dict["samples"]
+    assert without_time(again.report_dict) == without_time(small_fit.report_dict)
+
+
 FIT = dict(free=["mie.scattering"], lobes=1, starts=1, sun_zenith_deg=[20, 60])
 
 

@@ -20,8 +20,7 @@ constexpr std::array<MeasuredFigure, 6> kFigures = {{
     {"maps", "measured, model and their ratio over the sky, a row per scan (at most 6)", false,
      has_directions,
      [](Outcomes fits, int, const Sheet& sheet) { return maps_figure(fits[0], sheet); }},
-    {"spectra",
-     "up to six directions of one scan with what a sample scatters by; spectral scans only", false,
+    {"spectra", "up to six directions of one spectral scan with what a sample scatters by", false,
      [](const MeasuredOutcome& outcome) { return outcome.spectral; },
      [](Outcomes fits, int scan, const Sheet& sheet) {
        return spectra_figure(fits[0], scan, sheet);
@@ -29,14 +28,13 @@ constexpr std::array<MeasuredFigure, 6> kFigures = {{
     {"residuals", "model / measured - 1 against scattering angle, view zenith and wavelength",
      false, has_directions,
      [](Outcomes fits, int, const Sheet& sheet) { return residuals_figure(fits[0], sheet); }},
-    {"irradiances", "irradiances against the sun's zenith angle, where a fit has some", false,
-     has_irradiances,
+    {"irradiances", "irradiances against the sun's zenith angle", false, has_irradiances,
      [](Outcomes fits, int, const Sheet& sheet) { return irradiances_figure(fits[0], sheet); }},
     {"corner", "the covariance: densities, and pairs with ellipses of 1 and 2 sigma", false,
      [](const MeasuredOutcome& outcome) { return outcome.covariance.size() >= 2; },
      [](Outcomes fits, int, const Sheet& sheet) { return corner_figure(fits[0], sheet); }},
-    {"series", "unknowns over the time of their scans with one sigma; takes several fits", true,
-     has_series, [](Outcomes fits, int, const Sheet& sheet) { return series_figure(fits, sheet); }},
+    {"series", "unknowns over the time of their scans with one sigma", true, has_series,
+     [](Outcomes fits, int, const Sheet& sheet) { return series_figure(fits, sheet); }},
 }};
 
 }  // namespace

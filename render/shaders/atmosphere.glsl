@@ -30,14 +30,14 @@ const float change_heights = float(CHANGE_HEIGHTS);
 const int kClasses = CLASSES;  // of phase functions but the Rayleigh-like one, model/tables/phase_classes.h
 
 // Of closed forms: the scattering coefficients of air and aerosol at density 1, 1/m; by Nielsen the asymmetry of thick haze
-// and the factor on the Mie coefficient; by the others the scale heights; by Preetham the turbidity and the radiances per cd/m^2
-// of X, Y and Z.
+// and the factor on the Mie coefficient; by the others the scale heights; of formulas over the turbidity the turbidity and the
+// radiances per cd/m^2 of X, Y and Z.
 #if defined(NIELSEN)
 #define CLOSED_FORM_CONSTANTS(EACH) EACH(vec4, air_beta) EACH(vec4, aerosol_beta) EACH(vec2, nielsen_haze)
-#elif defined(PREETHAM)
-#define CLOSED_FORM_CONSTANTS(EACH)                                              \
-  EACH(vec4, air_beta) EACH(vec4, aerosol_beta) EACH(vec2, scale_heights_m)     \
-  EACH(float, turbidity) EACH(vec4[3], radiance_from_xyz)
+#elif defined(FORMULA_SKY)
+#define CLOSED_FORM_CONSTANTS(EACH)                                         \
+  EACH(vec4, air_beta) EACH(vec4, aerosol_beta) EACH(vec2, scale_heights_m) \
+  EACH(vec4[3], radiance_from_xyz) EACH(float, turbidity)
 #elif defined(CLOSED_FORM)
 #define CLOSED_FORM_CONSTANTS(EACH) EACH(vec4, air_beta) EACH(vec4, aerosol_beta) EACH(vec2, scale_heights_m)
 #else

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light along straight paths by the closed forms of Nielsen 2003 (NIELSEN), of Hoffman & Preetham 2002 and of Preetham, Shirley &
-// Smits 1999 (PREETHAM), as model/literature/nielsen.cc, hoffman_preetham.cc and preetham.cc compute it, with the ground at its
-// own height. They know no light from below the horizon and no space. Included by atmosphere.glsl, which has the constants and
-// the formulas.
-#ifdef PREETHAM
+// Light along straight paths by the closed forms of Nielsen 2003 (NIELSEN), of Hoffman & Preetham 2002, and of the formulas over
+// the turbidity (FORMULA_SKY) of Preetham, Shirley & Smits 1999 and of Hosek & Wilkie 2012 (HOSEK_WILKIE), as
+// model/literature/nielsen.cc, hoffman_preetham.cc, preetham.cc and hosek_wilkie.cc compute it, with the ground at its own
+// height. They know no light from below the horizon and no space. Included by atmosphere.glsl, which has the constants and the
+// formulas.
+#ifdef FORMULA_SKY
+#include "model/shared/hosek_wilkie.glsl"
 #include "model/shared/preetham.glsl"
 #endif
 #ifdef NIELSEN
@@ -58,7 +60,7 @@ vec4 closed_form_to_sky(float h, float mu) {
 }
 
 vec4 closed_form_in_air(float from_h, float to_h, float length_km) {
-#ifdef PREETHAM
+#ifdef FORMULA_SKY
   return closed_form_dimming(preetham_path_depth(1e3 * from_h, 1e3 * to_h, 1e3 * length_km, scale_heights_m.x),
                              preetham_path_depth(1e3 * from_h, 1e3 * to_h, 1e3 * length_km, scale_heights_m.y));
 #else
@@ -86,16 +88,42 @@ vec4 closed_form_mixture(vec4 air_extinction, vec4 air, vec4 aerosol_extinction,
   return sum;
 }
 
-#ifdef PREETHAM
+#ifdef FORMULA_SKY
 vec4 sky_irradiance(float h, float mu_s);
+
+// X, Y and Z of the sky, cd/m^2.
+#ifdef HOSEK_WILKIE
+TABLE(5, sampler2D, hosek_wilkie_curves)
+
+vec3 hosek_wilkie_number(int i, float elevation) {
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < 6; ++k) sum += hosek_wilkie_weight(k, elevation) * texelFetch(hosek_wilkie_curves, ivec2(i, k), 0).xyz;
+  return sum;
+}
+
+vec3 formula_xyz(float mu, float gamma, float nu, float sun_zenith) {
+  float at = hosek_wilkie_elevation(sun_zenith);
+  vec3 a = hosek_wilkie_number(0, at), b = hosek_wilkie_number(1, at), c = hosek_wilkie_number(2, at);
+  vec3 d = hosek_wilkie_number(3, at), e = hosek_wilkie_number(4, at), f = hosek_wilkie_number(5, at);
+  vec3 g = hosek_wilkie_number(6, at), h = hosek_wilkie_number(7, at), i = hosek_wilkie_number(8, at);
+  vec3 mean = hosek_wilkie_number(9, at);
+  return vec3(hosek_wilkie_light(mu, gamma, nu, a.x, b.x, c.x, d.x, e.x, f.x, g.x, h.x, i.x, mean.x),
+              hosek_wilkie_light(mu, gamma, nu, a.y, b.y, c.y, d.y, e.y, f.y, g.y, h.y, i.y, mean.y),
+              hosek_wilkie_light(mu, gamma, nu, a.z, b.z, c.z, d.z, e.z, f.z, g.z, h.z, i.z, mean.z));
+}
+#else
+vec3 formula_xyz(float mu, float gamma, float nu, float sun_zenith) {
+  float luminance = preetham_luminance(turbidity, mu, gamma, sun_zenith);
+  float x = preetham_x(turbidity, mu, gamma, sun_zenith), y = preetham_y(turbidity, mu, gamma, sun_zenith);
+  return (luminance / y) * vec3(x, y, 1.0 - x - y);
+}
+#endif
 
 vec4 closed_form_sky(Place from, float nu) {
   if (from.mu_s <= 0.0) return vec4(0.0);
-  float mu = max(from.mu, 1e-3), gamma = acos(nu), sun_zenith = acos(from.mu_s);  // below the horizon: as at it
-  float luminance = preetham_luminance(turbidity, mu, gamma, sun_zenith);
-  float x = preetham_x(turbidity, mu, gamma, sun_zenith), y = preetham_y(turbidity, mu, gamma, sun_zenith);
-  return (luminance / y) *
-         (x * radiance_from_xyz[0] + y * radiance_from_xyz[1] + (1.0 - x - y) * radiance_from_xyz[2]);
+  float mu = max(from.mu, 1e-3);  // below the horizon: as at it
+  vec3 xyz = formula_xyz(mu, acos(clamp(nu, -1.0, 1.0)), nu, acos(from.mu_s));
+  return xyz.x * radiance_from_xyz[0] + xyz.y * radiance_from_xyz[1] + xyz.z * radiance_from_xyz[2];
 }
 
 // What a path scatters toward its beginning, of the sun's beam and of `sky`, the light of the sky from each of its directions.
@@ -106,10 +134,13 @@ vec4 preetham_path(Place from, float nu, float to_h, float length_km, vec4 sky) 
   vec4 air = beam * closed_form_air_phase(nu) + 0.5 * sky;
   vec4 aerosol = beam * closed_form_aerosol_phase(from.h, from.mu_s, nu) + 0.5 * sky;
   vec4 sum = vec4(0.0), before = vec4(1.0);
+  float share_before = 0.0;
   for (int i = 1; i <= kSteps; ++i) {
-    float share = float(i) / float(kSteps);
+    // Short steps at the lower end, where the aerosol changes most.
+    float near = float(i) / float(kSteps), share = to_h > from.h ? near * near : near * (2.0 - near);
     vec4 through = closed_form_in_air(from.h, mix(from.h, to_h, share), share * length_km);
-    vec2 density = exp(-1e3 * mix(from.h, to_h, share - 0.5 / float(kSteps)) / scale_heights_m);
+    vec2 density = exp(-1e3 * mix(from.h, to_h, 0.5 * (share_before + share)) / scale_heights_m);
+    share_before = share;
     sum += before * closed_form_mixture(density.x * air_beta, air, density.y * aerosol_beta, aerosol,
                                         through / max(before, 1e-30));
     before = through;

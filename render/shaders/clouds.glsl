@@ -92,8 +92,8 @@ float clear_of_clouds(vec3 position, Place at, vec3 sun, int own, float width_km
 }
 const int kNoCloud = -1;
 
-// Two thirds of the light come back from the side that it falls on, the rest passes. The roughness keeps a low sun's beam
-// from vanishing.
+// Two thirds of the light come back from the side that it falls on, the rest passes; of a beam along the sheet half each. The
+// roughness keeps a low sun's beam from vanishing.
 // `lit`: share of the beam that other sheets let through.
 vec4 cloud_radiance(float cloud_km, Place at, float eye_h, float lit) {
   bool from_above = eye_h > cloud_km;
@@ -101,7 +101,7 @@ vec4 cloud_radiance(float cloud_km, Place at, float eye_h, float lit) {
   vec4 sky = sky_irradiance(at.h, at.mu_s);
   vec4 direct = beam * ((abs(at.mu_s) + 0.2) / 1.2);
   vec4 ground = ground_albedo * (beam * max(at.mu_s, 0.0) + sky);
-  float sunny_side = (at.mu_s > 0.0) == from_above ? 0.62 : 0.31;
+  float sunny_side = mix(0.31, 0.62, smoothstep(-0.1, 0.1, from_above ? at.mu_s : -at.mu_s));
   float sky_side = from_above ? 0.62 : 0.31;
   return (sunny_side * direct + sky_side * sky + (0.93 - sky_side) * ground) / kPi;
 }

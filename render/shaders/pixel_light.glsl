@@ -215,10 +215,10 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   const float in_air = kInfinity;
 #endif
 #ifdef SHADOWS
-  if (ray.air) path.in_scatter = max(path.in_scatter - shaded_light(ray, start, nu, in_air, i), 0.0);
+  if (ray.air) path.in_scatter = without_shaded(path.in_scatter, light_under_terrain(ray, start, nu, in_air, i));
 #endif
 #ifdef CLOUD_SHADOWS
-  if (ray.air) path.in_scatter = max(path.in_scatter - shaded_by_clouds(ray, start, nu, in_air, i), 0.0);
+  if (ray.air) path.in_scatter = without_shaded(path.in_scatter, light_under_clouds(ray, start, nu, in_air, i));
 #endif
 #ifdef CLOUDS
   // Of the light behind a cloud the cloud lets the rest pass; from the farthest sheet to the nearest.
@@ -237,9 +237,12 @@ PathLight light_of(int i, ViewRay ray, float clear) {
         scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground)), nu);
 #endif
 #ifdef CLOUD_SHADOWS
-    before = max(before - shaded_before_sheets[c], 0.0);
+    before = without_shaded(before, light_before_sheets[c]);
 #endif
-    path.in_scatter = mix(path.in_scatter, min(before, path.in_scatter), opacity);
+#ifndef FORMULA_SKY  // whose sky is not the sum of its paths
+    before = min(before, path.in_scatter);
+#endif
+    path.in_scatter = mix(path.in_scatter, before, opacity);
     float lit = clear_of_clouds(cloud_distances[c] * ray.direction, at, sun, c, cloud_distances[c] * pixel_angle);
     of_clouds = mix(of_clouds, dimming * cloud_radiance(cloud_sheets[c].x, at, ray.h, lit), opacity);
   }

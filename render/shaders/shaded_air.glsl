@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shadows in the air, of the terrain (SHADOWS) and of sheets of clouds (CLOUD_SHADOWS): of the light that a sun's beam scatters
 // into a view ray up to a distance, as the model has it lit all along, the part that comes from where the beam does not reach.
-// By steps along the ray: under the terrain begun at another place in each pixel, under clouds, of which each step takes the
-// mean over its length, from their middles.
+// By steps along the ray: under the terrain begun at another place in each sample of a pixel, under clouds, of which each step
+// takes the mean over its length, from their middles.
 #include "render/shaders/densities.glsl"
 #include "render/shaders/view_ray.glsl"
 #ifdef SHADOWS
@@ -29,8 +29,48 @@ vec4 beam_light(ViewRay ray, Place start, float nu, float t, float step_km, floa
 #endif
 }
 
+// All light of the beam between two places of the ray, as far as it is in air.
+vec4 beam_light_between(ViewRay ray, Place start, float nu, float begin_km, float end_km) {
+  float in_air = ray.hits_ground ? ray.to_ground : distance_to_outer_sphere(bottom_km, ray.h, ray.mu, thickness_km);
+  float whole = min(end_km, in_air) - begin_km;
+  if (whole <= 0.0) return vec4(0.0);
+#ifdef CLOSED_FORM
+  Place begin = place_along(start, nu, begin_km);
+  vec4 through = begin_km > 0.0 ? closed_form_through(start, begin.h, begin_km) : vec4(1.0);
+  return through * closed_form_beam_inscatter(begin, nu, place_along(start, nu, begin_km + whole).h, whole);
+#else
+  const int kSteps = 8;
+  vec4 sum = vec4(0.0), unused = vec4(0.0);
+  for (int i = 0; i < kSteps; ++i) {
+    // Short steps first, as air grows thin.
+    vec2 part = vec2(float(i), float(i + 1)) / float(kSteps);
+    part *= part;
+    float step_km = (part.y - part.x) * whole, step_end = begin_km + part.y * whole;
+    sum += beam_light(ray, start, nu, step_end - 0.5 * step_km, step_km, step_end, unused);
+  }
+  return sum;
+#endif
+}
+
+// All light of the beam along a path, and the part of it that is shaded.
+struct BeamLight {
+  vec4 all, shaded;
+};
+
+BeamLight no_beam_light() {
+  BeamLight beam;
+  beam.all = beam.shaded = vec4(0.0);
+  return beam;
+}
+
+// The rest of what a model has as light of the path. Models whose light is not the sum of these steps, as the formulas of whole
+// skies, may have less than the sum: they lose the same share.
+vec4 without_shaded(vec4 light, BeamLight beam) {
+  return max(light - beam.shaded * min(light / max(beam.all, 1e-30), 1.0), 0.0);
+}
+
 #ifdef SHADOWS
-vec2 pixel_centre;  // that seen_at() is asked for
+vec2 pixel_centre;  // that seen_at() is asked for; of samples
 
 // Share of a sun's beam that the terrain takes from a place in the air.
 float terrain_shade(vec3 position, int sun) {
@@ -40,26 +80,35 @@ float terrain_shade(vec3 position, int sun) {
   return shadow_strength(position, sun) * (1.0 - lit);
 }
 
-vec4 shaded_light(ViewRay ray, Place start, float nu, float length_km, int sun) {
+// Where in its steps a sample begins, 0 to 1: a quarter of its own in each block of 2 x 2 samples, so that the mean of a pixel is
+// that of four times as many steps, and in it by interleaved gradient noise (Jimenez 2014).
+float step_begin_of_sample() {
+  vec2 cell = mod(floor(pixel_centre), 2.0), block = floor(0.5 * pixel_centre);
+  float noise = fract(52.9829189 * fract(dot(block, vec2(0.06711056, 0.00583715))));
+  return 0.25 * (2.0 * abs(cell.x - cell.y) + cell.y + noise);
+}
+
+BeamLight light_under_terrain(ViewRay ray, Place start, float nu, float length_km, int sun) {
   const int kSteps = 24;
+  BeamLight beam = no_beam_light();
   float reach = min(length_km, shadow_reach_km - ray.entry);
-  if (reach <= 0.0) return vec4(0.0);
-  float step_km = reach / float(kSteps);
-  // Jimenez 2014: interleaved gradient noise.
-  float begin = fract(52.9829189 * fract(dot(pixel_centre, vec2(0.06711056, 0.00583715))));
-  vec4 sum = vec4(0.0), before = vec4(0.0);
+  if (reach <= 0.0) return beam;
+  float step_km = reach / float(kSteps), begin = step_begin_of_sample();
+  vec4 before = vec4(0.0);
   for (int i = 0; i < kSteps; ++i) {
     float t = (float(i) + begin) * step_km;
-    float shaded = terrain_shade((ray.entry + t) * ray.direction, sun);
-    sum += shaded * beam_light(ray, start, nu, t, step_km, float(i + 1) * step_km, before);
+    vec4 light = beam_light(ray, start, nu, t, step_km, float(i + 1) * step_km, before);
+    beam.all += light;
+    beam.shaded += terrain_shade((ray.entry + t) * ray.direction, sun) * light;
   }
-  return sum;
+  beam.all += beam_light_between(ray, start, nu, reach, length_km);
+  return beam;
 }
 #endif
 
 #ifdef CLOUD_SHADOWS
-// Of the light before each sheet the part that clouds shade, of the ray and sun that shaded_by_clouds() was asked for.
-vec4 shaded_before_sheets[CLOUDS];
+// The light before each sheet, of the ray and sun that light_under_clouds() was asked for.
+BeamLight light_before_sheets[CLOUDS];
 
 // Where the ray runs below the highest sheet, from its entry into the air on, km.
 vec2 below_sheets(ViewRay ray, float length_km) {
@@ -79,16 +128,19 @@ vec2 below_sheets(ViewRay ray, float length_km) {
 }
 
 // What the terrain shades already does not count.
-vec4 shaded_by_clouds(ViewRay ray, Place start, float nu, float length_km, int sun) {
+BeamLight light_under_clouds(ViewRay ray, Place start, float nu, float length_km, int sun) {
   const int kSteps = 32;
-  for (int c = 0; c < CLOUDS; ++c) shaded_before_sheets[c] = vec4(0.0);
+  for (int c = 0; c < CLOUDS; ++c) light_before_sheets[c] = no_beam_light();
+  BeamLight beam = no_beam_light();
   vec2 part = below_sheets(ray, length_km);
   float whole = part.y - part.x;
-  vec4 sum = vec4(0.0), before = vec4(0.0);
-  if (whole <= 0.0) return sum;
-#ifdef CLOSED_FORM
-  if (part.x > 0.0) before = closed_form_beam_inscatter(start, nu, place_along(start, nu, part.x).h, part.x);
-#endif
+  if (whole <= 0.0) return beam;
+  vec4 before = vec4(0.0);
+  if (part.x > 0.0) {
+    before = beam_light_between(ray, start, nu, 0.0, part.x);
+    beam.all = before;
+    for (int c = 0; c < CLOUDS; ++c) light_before_sheets[c].all = before;
+  }
   for (int i = 0; i < kSteps; ++i) {
     // Short steps near the eye, where a pixel shows more.
     float step_begin = float(i) / float(kSteps), step_end = float(i + 1) / float(kSteps);
@@ -99,15 +151,23 @@ vec4 shaded_by_clouds(ViewRay ray, Place start, float nu, float length_km, int s
     float step_km = (step_end - step_begin) * whole, t = part.x + step_begin * whole + 0.5 * step_km;
     vec4 light = beam_light(ray, start, nu, t, step_km, part.x + step_end * whole, before);
     vec3 position = (ray.entry + t) * ray.direction;
-    float shaded = 1.0 - clear_of_clouds(position, place_along(start, nu, t), suns[sun].xyz, kNoCloud, step_km);
+    Place at = place_along(start, nu, t);
+    // What the step's ends are apart on a sheet, seen from the sun: nothing where one looks toward it.
+    float width_km = step_km * length(ray.direction - suns[sun].xyz * (at.mu / max(at.mu_s, 1e-3)));
+    float shaded = 1.0 - clear_of_clouds(position, at, suns[sun].xyz, kNoCloud, width_km);
 #ifdef SHADOWS
-    shaded *= 1.0 - terrain_shade(position, sun);
+    light *= 1.0 - terrain_shade(position, sun);
 #endif
-    sum += shaded * light;
+    beam.all += light;
+    beam.shaded += shaded * light;
     for (int c = 0; c < CLOUDS; ++c) {
-      if (ray.entry + t < cloud_distances[c]) shaded_before_sheets[c] += shaded * light;
+      if (ray.entry + t < cloud_distances[c]) {
+        light_before_sheets[c].all += light;
+        light_before_sheets[c].shaded += shaded * light;
+      }
     }
   }
-  return sum;
+  beam.all += beam_light_between(ray, start, nu, part.y, length_km);
+  return beam;
 }
 #endif

@@ -155,9 +155,9 @@ INSTANTIATE_TEST_SUITE_P(
                                                    : sun < 98 ? 0.01
                                                               : 0.03; }},
                     Stated{"mars", 0.08,
-                           [](double sun) { return sun < 99    ? 0.035
-                                                   : sun < 101 ? 0.06
-                                                               : 0.09; }}),
+                           [](double sun) { return sun < 99    ? 0.027
+                                                   : sun < 101 ? 0.05
+                                                               : 0.08; }}),
     [](const auto& test) { return test.param.of == "mars" ? "DustOnMars" : "ClearAirOnEarth"; });
 
 }  // namespace

@@ -124,8 +124,9 @@ TEST(HosekWilkie, RefusesWhatItHasNoCoefficientsFor) {
               ThrowsMessage<std::domain_error>(HasSubstr("11: must be in 1 .. 10")));
   EXPECT_NO_THROW(sky(10, kSide)());
   EXPECT_NO_THROW(sky(1, kSide)());
-  EXPECT_THAT(sky(3, {100, 0.5, 0.5, 0}), ThrowsMessage<std::invalid_argument>(
-                                              HasSubstr("altitude_m = 100: must be at most 0")));
+  EXPECT_THAT(
+      sky(3, {3100, 0.5, 0.5, 0}),
+      ThrowsMessage<std::invalid_argument>(HasSubstr("altitude_m = 3100: must be at most 3000")));
   EXPECT_THROW(sky(3, {0, 1.6, 0.5, 0})(), std::invalid_argument);  // twilight
   EXPECT_THROW(sky(3, {0, 0.5, 2, 0})(), std::invalid_argument);    // ground
 }

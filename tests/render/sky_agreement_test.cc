@@ -152,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
         Sky{"nielsen", "earth-hazy", {{"10km", {88}}}},
         Sky{"nielsen:rayleigh-phase:sun-through-sky", "nielsen-2003", {{"10km", {60}}}},
         Sky{"hoffman-preetham", "nielsen-2003", {{"10km", {30}}}},
-        Sky{"preetham", "earth-hazy", {{"ground", {30, 80}}}}));
+        Sky{"preetham", "earth-hazy", {{"ground", {30, 80}}}},
+        Sky{"hosek-wilkie", "earth-hazy", {{"ground", {30, 80}}}}));
 
 INSTANTIATE_TEST_SUITE_P(
     SlowViews, SkyAgreement,

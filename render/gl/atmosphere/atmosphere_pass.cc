@@ -134,7 +134,7 @@ void AtmospherePass::set_tables(const AtmosphereTables& tables, const TableCodes
   tables_.sky_rays.nielsen = tables.sky_rays.nielsen;
   tables_.sky_rays.oneil = tables.sky_rays.oneil;
   tables_.sky_rays.bruneton = tables.sky_rays.bruneton;
-  tables_.sky_rays.preetham = tables.sky_rays.preetham;
+  tables_.sky_rays.formula = tables.sky_rays.formula;
   tables_.sky_rays.air = without_values(tables.sky_rays.air);
   tables_.phases = tables.phases;
   scattering_coefficients_ = scattering_texture(tables);

@@ -51,22 +51,23 @@ void set_closed_form(const AtmosphereTables& tables, UniformBlock& block) {
   } else {
     block.set("scale_heights_m", glm::vec2(air.air_scale_height_m, air.aerosol_scale_height_m));
   }
-  if (tables.sky_rays.mapping != SkyRayMapping::kPreetham) return;
-  const PreethamSky& sky = tables.sky_rays.preetham;
+  if (!is_formula(tables.sky_rays.mapping)) return;
+  const FormulaSky& sky = tables.sky_rays.formula;
   std::vector<glm::vec4> from_xyz(3);
   for (int node = 0; node < 4; ++node) {
     for (std::size_t c = 0; c < 3; ++c)
       from_xyz[c][node] =
           static_cast<float>(sky.radiance_from_xyz[static_cast<std::size_t>(node)][c]);
   }
-  block.set("turbidity", sky.turbidity);
   block.set("radiance_from_xyz", std::span<const glm::vec4>(from_xyz));
+  block.set("turbidity", sky.turbidity);
 }
 
 // What render/shaders/closed_form.glsl is compiled for.
 void define_closed_form(const AtmosphereTables& tables, std::vector<std::string>& defined) {
   defined.emplace_back("CLOSED_FORM");
-  if (tables.sky_rays.mapping == SkyRayMapping::kPreetham) defined.emplace_back("PREETHAM");
+  if (is_formula(tables.sky_rays.mapping)) defined.emplace_back("FORMULA_SKY");
+  if (tables.sky_rays.mapping == SkyRayMapping::kHosekWilkie) defined.emplace_back("HOSEK_WILKIE");
   if (tables.sky_rays.mapping != SkyRayMapping::kNielsen) return;
   const NielsenChoices& choices = tables.sky_rays.nielsen;
   defined.emplace_back("NIELSEN");
