@@ -235,7 +235,7 @@ MASKED = np.ma.array([30.0, 60.0], mask=[False, True])
     "call, expected",
     [
         (lambda: skyfit.sky("earth-clear", MASKED, 20), "sun_zenith_deg: .* masked"),
-        (lambda: skyfit.sky("earth-clear", None, 20), "sun_zenith_deg: expected a number"),
+        (lambda: skyfit.sky("earth-clear", "high", 20), "sun_zenith_deg: expected a number"),
         (lambda: skyfit.sky("earth-clear", 30, 20, wavelength_nm=[]), "wavelength_nm: .* one"),
         (lambda: skyfit.irradiance("earth-clear", 30, wavelength_nm=[]), "wavelength_nm: .* one"),
         (lambda: skyfit.sky("earth-clear", 30, 20, threads=0), "threads: .* 1 to 1024"),

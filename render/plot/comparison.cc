@@ -47,7 +47,7 @@ Layout layout_on_screen(const Suns& suns, const Comparison& comparison, const Sh
   const double width = wide ? std::max(1600.0, suns.has_hemisphere ? 0 : legend_width) : 1080;
   const double right = suns.has_hemisphere ? 910 : width - 10;
   const double body = row_height * static_cast<double>(rows);
-  Header header(sheet, width, comparison.title, subtitle, legend);
+  Header header(sheet, width, comparison.title, subtitle, legend, right - kLeft);
   const double height = header.height_px() + body + kFooter;
   const Box maps{right + 20, kFooter, width - right - 30, body};
   const double scale = std::min(maps.width * 0.8, 520.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/plot/header.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace skyfit::plot {
@@ -18,12 +19,13 @@ double rows_px(std::size_t count, double row_px) { return static_cast<double>(co
 }  // namespace
 
 Header::Header(const Sheet& sheet, double width_px, const std::string& title,
-               const std::string& subtitle, const std::vector<LegendEntry>& legend)
+               const std::string& subtitle, const std::vector<LegendEntry>& legend,
+               double legend_width_px)
     : title_line_(sheet.on_page() ? 18 : 26) {
   const double width = width_px - 2 * margin(sheet);
   if (sheet.has_title) title_ = wrapped(title, width / title_to_text(sheet), sheet);
   if (!subtitle.empty()) subtitle_ = wrapped(subtitle, width, sheet);
-  legend_ = legend_rows(legend, width, sheet);
+  legend_ = legend_rows(legend, std::min(width, legend_width_px), sheet);
   height_ = margin(sheet) + rows_px(title_.size(), title_line_) +
             rows_px(subtitle_.size() + legend_.size(), sheet.line_px()) + kBelow;
 }

@@ -3,6 +3,7 @@
 // need.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,11 @@ namespace skyfit::plot {
 
 class Header {
  public:
-  // For a figure that is `width_px` wide; the sheet may do without the title.
+  // For a figure that is `width_px` wide, of which the legend may have less; the sheet may do
+  // without the title.
   Header(const Sheet& sheet, double width_px, const std::string& title, const std::string& subtitle,
-         const std::vector<LegendEntry>& legend = {});
+         const std::vector<LegendEntry>& legend = {},
+         double legend_width_px = std::numeric_limits<double>::infinity());
 
   double height_px() const { return height_; }
 
