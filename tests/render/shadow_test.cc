@@ -211,6 +211,7 @@ constexpr Shafts kShafts[] = {{"reference", 0.4, 0.95},
                               {"oneil:isotropic-air", kOnce, kAll},
                               {"nielsen:sun-through-sky", kOnce, kAll},
                               {"preetham", 0.4, 0.95},
+                              {"hosek-wilkie", 0.4, 0.95},
                               {"hoffman-preetham", kOnce, kAll}};
 // The last, whose shafts have lines of the shader of their own; the others take a minute.
 INSTANTIATE_TEST_SUITE_P(Models, ShaftsBy, ::testing::Values(kShafts[std::size(kShafts) - 1]));
@@ -223,6 +224,35 @@ TEST(Shadow, EveryModelThatDrawsHasShafts) {
       return std::string_view(shafts.model).starts_with(entry.name);
     })) << entry.name;
   }
+}
+
+// Of a formula, whose sky may hold less light than the beam that the steps of the shadow find.
+TEST(Shadow, OfCloudsLeavesLightInTheSkyOfAFormula) {
+  constexpr double kDark = 0.02;  // share of the light before
+  Renderer renderer;
+  const Preset preset = shipped("earth-hazy");
+  const SpectralData& spectra = refs::standard_spectral_data();
+  renderer.set_atmosphere(
+      preset, compute_tables_of(*make_sky_model("preetham", spectra, 2), preset.atmosphere,
+                                color_rule(spectra), TableSizes{}, 2, {}));
+  FrameOptions options = options_of("sunset", 96, 54);
+  options.sun_zenith = 75 * kDegree;
+  options.clouds = {CloudLayer{.altitude_m = 2000, .cover = 0.4}};
+  options.layers = true;
+  const Frame lit = renderer.draw(options);
+  options.shadows = true;
+  const Frame shaded = renderer.draw(options);
+  int skies = 0, shaded_skies = 0;
+  for (std::size_t i = 0; i < lit.luminance.size(); ++i) {
+    if (!is_sky(lit, i)) continue;
+    ++skies;
+    const double before = luminance_of(lit.layers->in_scatter, i),
+                 after = luminance_of(shaded.layers->in_scatter, i);
+    EXPECT_GT(after, kDark * before) << "pixel " << i;
+    shaded_skies += after < 0.9 * before ? 1 : 0;
+  }
+  EXPECT_GT(skies, 1000);
+  EXPECT_GT(shaded_skies, 300);
 }
 
 // Two suns of the same light: which of them is the first makes no difference.
