@@ -214,7 +214,7 @@ std::optional<std::string> held_aerosol(const FitOptions& options, const SkyMode
   for (const Parameter& id : parameters_of(atmosphere)) {
     if (!of_aerosol(id) || !model.can_fit(id)) continue;
     return fmt::format(
-        "{}, the aerosol, stays as the preset has it: by default parameters of an aerosol named "
+        "the aerosol {} stays as the preset has it: by default parameters of an aerosol named "
         "mie are free; --free names others, as {} (skyfit parameters lists them)",
         aerosol->name, parameter_info(id, atmosphere).name);
   }
