@@ -23,8 +23,8 @@ Atmosphere<double> as_given(Atmosphere<double> atmosphere, const FitOptions& opt
 // What is assumed of a measured sky whose site does not state enough, in sentences.
 std::vector<std::string> assumptions(const refs::Reference& reference, const FitOptions& options);
 
-// That none of the main aerosol's parameters is free by default, where the model could fit some:
-// those of `mie` are, other names are the preset's.
+// A sentence where nothing is said of what is free, the main aerosol is not named `mie` and so
+// stays as it is, and the model could fit it: what would free it.
 std::optional<std::string> held_aerosol(const FitOptions& options, const SkyModel& model,
                                         const Atmosphere<double>& atmosphere,
                                         const std::vector<FreeParameter>& parameters);

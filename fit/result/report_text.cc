@@ -44,7 +44,7 @@ std::string reference_remarks(const Result& result) {
   for (const std::string& note : result.reference.notes)
     text += fmt::format("note        {}\n", note);
   for (const auto& [reason, count] : result.samples_left_out)
-    text += fmt::format("left out    {} sample{}: {}\n", count, count == 1 ? "" : "s", reason);
+    text += fmt::format("left out    {}: {}\n", counted(count, "sample"), reason);
   return text.empty() ? text : text + "\n";
 }
 
@@ -286,9 +286,9 @@ std::string brief_report(const Result& result) {
                                      log_misfit_digits_with_unit(result.start_errors.rms_log, 3))
                        : fmt::format("{}", fmt::join(absolute, ", "));
   return fmt::format(
-      "{}: {}, {} samples, {}{}", result.preset.name, errors, result.samples,
+      "{}: {}, {}, {}{}", result.preset.name, errors, counted(result.samples, "sample"),
       result.converged ? "converged" : "NOT CONVERGED",
-      open > 0 ? fmt::format(", {} unknown{} not identifiable", open, open == 1 ? "" : "s") : "");
+      open > 0 ? fmt::format(", {} not identifiable", counted(open, "unknown")) : "");
 }
 
 std::string full_report(const Result& result, const Checks& checks) {

@@ -82,9 +82,9 @@ std::string samples_text(const Result& result) {
   int beside = 0;
   for (const IrradianceErrors& errors : result.irradiances) beside += errors.samples;
   if (beside > 0) {
-    text += fmt::format("; with {} {}{}, log residuals, scale fixed, noise known", beside,
-                        refs::quantity_name(result.reference.irradiance_quantity.value()),
-                        beside == 1 ? "" : "s");
+    text += fmt::format(
+        "; with {}, log residuals, scale fixed, noise known",
+        counted(beside, refs::quantity_name(result.reference.irradiance_quantity.value())));
   }
   return text;
 }

@@ -5,8 +5,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "model/atmosphere/ground_spectrum.h"
@@ -54,6 +52,7 @@ const Beziers& all_beziers() {
 
 std::array<HosekWilkieShapes, 3> hosek_wilkie_shapes(double sun_zenith) {
   Shared<double> shared;
+  const Beziers& beziers = all_beziers();
   const double elevation = shared.hosek_wilkie_elevation(sun_zenith);
   std::array<HosekWilkieShapes, 3> all{};
   for (std::size_t k = 0; k < kControlPoints; ++k) {
@@ -62,7 +61,7 @@ std::array<HosekWilkieShapes, 3> hosek_wilkie_shapes(double sun_zenith) {
       for (std::size_t ground = 0; ground < 2; ++ground) {
         for (std::size_t t = 0; t < 10; ++t) {
           for (std::size_t i = 0; i < all[c][ground][t].size(); ++i)
-            all[c][ground][t][i] += weight * all_beziers()[c][k][ground][t][i];
+            all[c][ground][t][i] += weight * beziers[c][k][ground][t][i];
         }
       }
     }

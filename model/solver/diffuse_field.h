@@ -16,6 +16,7 @@
 #include "model/solver/level_grid.h"
 #include "model/solver/rayleigh_stokes.h"
 #include "model/solver/stream_light.h"
+#include "model/solver/streams.h"
 #include "model/solver/sun_grid.h"
 
 namespace skyfit {

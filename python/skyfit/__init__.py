@@ -121,21 +121,18 @@ def _preset(preset):
     if isinstance(preset, Preset):
         return preset
     if not isinstance(preset, (str, _os.PathLike)):
-        raise TypeError(
-            f"preset: expected a Preset, a shipped preset's name or a file, got {_kind(preset)}"
+        raise ValueError(
+            "preset: expected a Preset, a shipped preset's name or a file, "
+            f"got {type(preset).__name__}"
         )
     return Preset(preset)
-
-
-def _kind(value):
-    return type(value).__name__
 
 
 def _word(value):
     """One value as the command line spells it."""
     if isinstance(value, str):
         return value
-    if isinstance(value, (int, _np.integer)) and not isinstance(value, bool):
+    if _is_whole(value):
         return str(int(value))
     if isinstance(value, _os.PathLike):
         return _os.fspath(value)
@@ -145,6 +142,10 @@ def _word(value):
 def _pair(value):
     """A value, or (mean, sigma) and (lower, upper), as the command line spells them."""
     return ":".join(map(_word, value)) if _is_list(value) else _word(value)
+
+
+def _is_whole(value):
+    return isinstance(value, (int, _np.integer)) and not isinstance(value, bool)
 
 
 def _is_list(value):
@@ -158,7 +159,7 @@ _SEPARATORS = {"size": "x", "height_range_m": "..", "noise": ":"}
 
 
 def _words(name, value):
-    if value is True:
+    if _is_flag(value):  # True, see _options()
         return []
     try:
         if isinstance(value, _Mapping):
@@ -175,15 +176,21 @@ def _words(name, value):
 
 def _options(options):
     """The options that are given; None and False are not."""
-    given = {
-        name: bool(value) if isinstance(value, _np.bool_) else value
-        for name, value in options.items()
-    }
     return {
         name: _words(name, value)
-        for name, value in given.items()
-        if value is not None and value is not False
+        for name, value in options.items()
+        if value is not None and not (_is_flag(value) and not value)
     }
+
+
+def _is_flag(value):
+    return isinstance(value, (bool, _np.bool_))
+
+
+def _flag(name, value):
+    if not _is_flag(value):
+        raise ValueError(f"{name}: expected True or False")
+    return bool(value)
 
 
 def _numbers(name, values):
@@ -239,10 +246,10 @@ def _how(model, derivatives, scalar, refraction, threads):
     derivatives = list(derivatives or [])
     if threads is None:
         threads = default_threads()
-    if not isinstance(threads, (int, _np.integer)) or not 1 <= threads <= _MAX_THREADS:
+    if not _is_whole(threads) or not 1 <= threads <= _MAX_THREADS:
         raise ValueError(f"threads: expected a whole number from 1 to {_MAX_THREADS}")
-    how = _skyfit.How(model, derivatives, bool(scalar), bool(refraction), int(threads))
-    return how, derivatives
+    flags = _flag("scalar", scalar), _flag("refraction", refraction)
+    return _skyfit.How(model, derivatives, *flags, int(threads)), derivatives
 
 
 def _wavelengths(wavelength_nm):
@@ -289,6 +296,7 @@ def sky(
     shape, dims, coords, flat = _points(places)
     how, derivatives = _how(model, derivatives, scalar, refraction, threads)
     nm = _wavelengths(wavelength_nm)
+    stokes = _flag("stokes", stokes)
     if stokes and nm is None:
         raise ValueError("wavelength_nm: expected wavelengths with stokes=True")
     if stokes and scalar:

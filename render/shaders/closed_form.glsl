@@ -5,8 +5,10 @@
 // height. They know no light from below the horizon and no space. Included by atmosphere.glsl, which has the constants and the
 // formulas.
 #ifdef FORMULA_SKY
-#include "model/shared/hosek_wilkie.glsl"
 #include "model/shared/preetham.glsl"
+#endif
+#ifdef HOSEK_WILKIE
+#include "model/shared/hosek_wilkie.glsl"
 #endif
 #ifdef NIELSEN
 #include "model/shared/nielsen_horizon.glsl"
@@ -95,21 +97,19 @@ vec4 sky_irradiance(float h, float mu_s);
 #ifdef HOSEK_WILKIE
 TABLE(5, sampler2D, hosek_wilkie_curves)
 
-vec3 hosek_wilkie_number(int i, float elevation) {
-  vec3 sum = vec3(0.0);
-  for (int k = 0; k < 6; ++k) sum += hosek_wilkie_weight(k, elevation) * texelFetch(hosek_wilkie_curves, ivec2(i, k), 0).xyz;
-  return sum;
-}
-
 vec3 formula_xyz(float mu, float gamma, float nu, float sun_zenith) {
-  float at = hosek_wilkie_elevation(sun_zenith);
-  vec3 a = hosek_wilkie_number(0, at), b = hosek_wilkie_number(1, at), c = hosek_wilkie_number(2, at);
-  vec3 d = hosek_wilkie_number(3, at), e = hosek_wilkie_number(4, at), f = hosek_wilkie_number(5, at);
-  vec3 g = hosek_wilkie_number(6, at), h = hosek_wilkie_number(7, at), i = hosek_wilkie_number(8, at);
-  vec3 mean = hosek_wilkie_number(9, at);
-  return vec3(hosek_wilkie_light(mu, gamma, nu, a.x, b.x, c.x, d.x, e.x, f.x, g.x, h.x, i.x, mean.x),
-              hosek_wilkie_light(mu, gamma, nu, a.y, b.y, c.y, d.y, e.y, f.y, g.y, h.y, i.y, mean.y),
-              hosek_wilkie_light(mu, gamma, nu, a.z, b.z, c.z, d.z, e.z, f.z, g.z, h.z, i.z, mean.z));
+  float elevation = hosek_wilkie_elevation(sun_zenith);
+  vec3 shape[10];
+  for (int i = 0; i < 10; ++i) shape[i] = vec3(0.0);
+  for (int k = 0; k < 6; ++k) {
+    float weight = hosek_wilkie_weight(k, elevation);
+    for (int i = 0; i < 10; ++i) shape[i] += weight * texelFetch(hosek_wilkie_curves, ivec2(i, k), 0).xyz;
+  }
+  vec3 xyz;
+  for (int c = 0; c < 3; ++c)
+    xyz[c] = hosek_wilkie_light(mu, gamma, nu, shape[0][c], shape[1][c], shape[2][c], shape[3][c], shape[4][c], shape[5][c],
+                                shape[6][c], shape[7][c], shape[8][c], shape[9][c]);
+  return xyz;
 }
 #else
 vec3 formula_xyz(float mu, float gamma, float nu, float sun_zenith) {

@@ -29,6 +29,10 @@ vec4 beam_light(ViewRay ray, Place start, float nu, float t, float step_km, floa
 #endif
 }
 
+// Models whose light may be less than the beam's along the path: formulas, and sums of few steps.
+#if defined(CLOSED_FORM) || defined(ONEIL) || defined(HILLAIRE)
+#define LESS_THAN_THE_BEAM
+
 // All light of the beam between two places of the ray, as far as it is in air.
 vec4 beam_light_between(ViewRay ray, Place start, float nu, float begin_km, float end_km) {
   float in_air = ray.hits_ground ? ray.to_ground : distance_to_outer_sphere(bottom_km, ray.h, ray.mu, thickness_km);
@@ -51,8 +55,10 @@ vec4 beam_light_between(ViewRay ray, Place start, float nu, float begin_km, floa
   return sum;
 #endif
 }
+#endif
 
-// All light of the beam along a path, and the part of it that is shaded.
+// Light of the beam along a path, and the part of it that is shaded. All of it is known of models whose light may be less, of
+// others that of the steps.
 struct BeamLight {
   vec4 all, shaded;
 };
@@ -63,8 +69,7 @@ BeamLight no_beam_light() {
   return beam;
 }
 
-// The rest of what a model has as light of the path. Models whose light is not the sum of these steps, as the formulas of whole
-// skies, may have less than the sum: they lose the same share.
+// The rest of what a model has as light of the path. Where that is less than the beam's it loses the same share.
 vec4 without_shaded(vec4 light, BeamLight beam) {
   return max(light - beam.shaded * min(light / max(beam.all, 1e-30), 1.0), 0.0);
 }
@@ -101,7 +106,9 @@ BeamLight light_under_terrain(ViewRay ray, Place start, float nu, float length_k
     beam.all += light;
     beam.shaded += terrain_shade((ray.entry + t) * ray.direction, sun) * light;
   }
+#ifdef LESS_THAN_THE_BEAM
   beam.all += beam_light_between(ray, start, nu, reach, length_km);
+#endif
   return beam;
 }
 #endif
@@ -136,11 +143,13 @@ BeamLight light_under_clouds(ViewRay ray, Place start, float nu, float length_km
   float whole = part.y - part.x;
   if (whole <= 0.0) return beam;
   vec4 before = vec4(0.0);
+#ifdef LESS_THAN_THE_BEAM
   if (part.x > 0.0) {
     before = beam_light_between(ray, start, nu, 0.0, part.x);
     beam.all = before;
     for (int c = 0; c < CLOUDS; ++c) light_before_sheets[c].all = before;
   }
+#endif
   for (int i = 0; i < kSteps; ++i) {
     // Short steps near the eye, where a pixel shows more.
     float step_begin = float(i) / float(kSteps), step_end = float(i + 1) / float(kSteps);
@@ -167,7 +176,9 @@ BeamLight light_under_clouds(ViewRay ray, Place start, float nu, float length_km
       }
     }
   }
+#ifdef LESS_THAN_THE_BEAM
   beam.all += beam_light_between(ray, start, nu, part.y, length_km);
+#endif
   return beam;
 }
 #endif

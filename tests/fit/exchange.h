@@ -2,6 +2,7 @@
 // What the tests of exports share.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -26,13 +27,14 @@ inline Atmosphere<double> shipped(const std::string& name) {
   return parse_preset(refs::shipped_preset_json(name), name).atmosphere;
 }
 
-inline Exported exported(const Preset& preset, std::string_view to, double zenith, double azimuth) {
+inline Exported exported(const Preset& preset, std::string_view to, double zenith, double azimuth,
+                         const std::filesystem::path& file = "folder/sky.x") {
   return program_named(to).write({.preset = preset,
                                   .spectra = spectra(),
                                   .models = kScalarTruth,
                                   .sun_zenith = zenith,
                                   .sun_azimuth = azimuth,
-                                  .file = "folder/sky.x",
+                                  .file = file,
                                   .write_sky_map = {}});
 }
 

@@ -97,6 +97,16 @@ TEST(Radiance, ReadsTheSkyThatIsWritten) {
   }
 }
 
+// Blanks part the words of a scene, of which the names of data are some.
+TEST(Radiance, NamesOfDataHaveNoBlanks) {
+  const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
+  const Exported sky = exported(preset, "radiance", 1, 0, "a folder/my sky.rad");
+  ASSERT_EQ(sky.files.size(), 4U);
+  EXPECT_EQ(sky.files[1].path, "a folder/my_sky_red.dat");
+  EXPECT_THAT(sky.files[0].text,
+              HasSubstr("\n9 red green blue my_sky_red.dat my_sky_green.dat my_sky_blue.dat . "));
+}
+
 TEST(Radiance, SunGivesTheBeam) {
   const Preset preset{"earth-clear", shipped("earth-clear"), nullptr};
   const double zenith = 50 * kRadiansPerDegree;

@@ -17,6 +17,8 @@
 namespace skyfit::fit {
 namespace {
 
+using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -70,6 +72,24 @@ TEST(MeasuredAir, IsNotThatOfRelativeLuminancesAndPresets) {
   relative.quantity = refs::Quantity::kRelativeLuminance;
   for (refs::Sample& sample : relative.samples) sample.wavelength_nm = 0;
   EXPECT_NE(unknown(problem_of(relative, {}), "rayleigh.scattering"), nullptr);
+}
+
+// By default parameters of `mie` are free; an aerosol of another name stays, and that is said.
+TEST(MeasuredAir, AnAerosolOfAnotherNameThatStaysIsSaid) {
+  FitOptions options;
+  options.start = power_law_air();
+  EXPECT_THAT(problem_of(scans(), options).assumptions, IsEmpty());
+  options.start->atmosphere.at("mie").name = "dust";
+  const Problem problem = problem_of(scans(), options);
+  EXPECT_EQ(unknown(problem, "dust.scattering"), nullptr);
+  EXPECT_THAT(problem.assumptions,
+              ElementsAre(AllOf(HasSubstr("the aerosol dust stays"), HasSubstr("--free names"),
+                                HasSubstr("dust.scattering"))));
+  options.free = std::vector{Parameter::kGroundAlbedo};
+  EXPECT_THAT(problem_of(scans(), options).assumptions, IsEmpty()) << "asked for";
+  options.free.reset();
+  options.fix[{"dust", Quantity::kScattering}] = 1e-5;
+  EXPECT_THAT(problem_of(scans(), options).assumptions, IsEmpty()) << "asked for";
 }
 
 // Air of 950 hPa, noise of a thousandth, and a site that states 1000 hPa: the sky tells it well.

@@ -50,6 +50,8 @@ TEST(ExtendedAir, IsThatOfMonteCarlo) {
   std::uint64_t seed = 0;
   for (const auto& [point, error] :
        {Stated{{0, 60 * kDegree, 10 * kDegree, 0}, 0.01},
+        Stated{{0, 85 * kDegree, 60 * kDegree, 90 * kDegree}, 0.05},
+        Stated{{0, 92 * kDegree, 75 * kDegree, 0}, 0.05},
         Stated{{100e3, 70 * kDegree, 60 * kDegree, 180 * kDegree}, 0.01},
         Stated{{100e3, 88 * kDegree, 80 * kDegree, 60 * kDegree}, 0.04}}) {
     const truth::MonteCarloResult truth = monte_carlo.radiance(point, kHistories, ++seed);

@@ -55,6 +55,12 @@ std::string complaint(const std::string& text) {
   return "accepted";
 }
 
+// It is shown on terminals.
+TEST(PresetTest, NameIsPrintable) {
+  const std::string text = with("\"test\"", "\"a\\u001b[31m\\nb\"");
+  EXPECT_EQ(parse_preset(text, "a.json").name, "a?[31m b");
+}
+
 TEST(Preset, ReadsEveryField) {
   const Preset preset = parse_preset(kText, "my.json");
   EXPECT_EQ(preset.name, "test");

@@ -41,6 +41,26 @@ TEST(Clouds, ThatCoverAllHideTheSun) {
   EXPECT_NEAR(behind / beside, 1, 0.05);
 }
 
+// Seen from 400 km about the place where the sun sets on the ground, 4 deg of view or 0.3 of the
+// sun's height.
+TEST(Clouds, HaveNoEdgeWhereTheSunSets) {
+  constexpr int kRows = 32;
+  constexpr double kRow = 0.02;  // of the light of the row before
+  FrameOptions options = options_at({400e3, 164 * kDegree, 0, 4 * kDegree}, 91 * kDegree, 8, kRows);
+  options.clouds = {CloudLayer{5000, 1, 1}};
+  const Frame frame = renderer().draw(options);
+  double before = 0;
+  for (int row = 0; row < kRows; ++row) {
+    double light = 0;
+    for (int x = 0; x < 8; ++x) light += frame.luminance[static_cast<std::size_t>(8 * row + x)];
+    if (row > 0) {
+      EXPECT_NEAR(light / before, 1, kRow) << "row " << row;
+    }
+    before = light;
+  }
+  EXPECT_GT(before, 0);
+}
+
 TEST(Clouds, CoverTheirShareOfThePlanet) {
   for (const double cover : {0.3, 0.5, 0.7}) {
     FrameOptions options =

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "model/registry.h"
 #include "plot_samples.h"
@@ -63,6 +65,31 @@ TEST_F(PlotTest, TextOfTheFigureIsComplete) {
                            "fitted", "reference", "ln(model / reference)", "4.0"})
     EXPECT_THAT(svg, HasSubstr(text));
   EXPECT_THAT(svg, ::testing::Not(HasSubstr("start values"))) << "there are none";
+}
+
+// Where a text of an SVG file begins, or for a centred one its centre, px.
+double place_of(const std::string& svg, const std::string& text) {
+  const std::size_t at = svg.find(text);
+  EXPECT_NE(at, svg.npos) << text;
+  const std::size_t moved = svg.rfind("translate(", at);
+  EXPECT_NE(moved, svg.npos) << text;
+  return std::stod(svg.substr(moved + std::string_view("translate(").size()));
+}
+
+TEST_F(PlotTest, LegendOfSeveralFitsStaysBesideTheMaps) {
+  Comparison comparison = comparison_at({20, 50});
+  comparison.curves.front().label = "cie:12, two lobes";
+  comparison.curves.front().plane.front().weight = 0;
+  comparison.curves.push_back(curve_at({30, 80}, 0.1));
+  comparison.curves.back().label = "cie:3, two lobes";
+  write_comparison(comparison, {folder_ / "c.svg"});
+  const std::string svg = bytes_of(folder_ / "c.svg");
+  constexpr double kPanels = 910, kMark = 36, kText = 250;  // px; what a text takes at most
+  for (const char* text :
+       {"reference of cie:12, two lobes", "reference of cie:3, two lobes", "left out of the fit"}) {
+    EXPECT_GT(place_of(svg, text), kMark) << text;
+    EXPECT_LT(place_of(svg, text), kPanels - kText) << text;
+  }
 }
 
 TEST_F(PlotTest, AnyNumberOfSunsAndCurvesIsDrawn) {
