@@ -98,11 +98,14 @@ BeamLight light_under_terrain(ViewRay ray, Place start, float nu, float length_k
   BeamLight beam = no_beam_light();
   float reach = min(length_km, shadow_reach_km - ray.entry);
   if (reach <= 0.0) return beam;
-  float step_km = reach / float(kSteps), begin = step_begin_of_sample();
+  float begin = step_begin_of_sample();
   vec4 before = vec4(0.0);
   for (int i = 0; i < kSteps; ++i) {
-    float t = (float(i) + begin) * step_km;
-    vec4 light = beam_light(ray, start, nu, t, step_km, float(i + 1) * step_km, before);
+    // Short steps near the eye, where a pixel shows more.
+    vec3 part = (float(i) + vec3(0.0, begin, 1.0)) / float(kSteps);
+    part *= part * reach;
+    float t = part.y;
+    vec4 light = beam_light(ray, start, nu, t, part.z - part.x, part.z, before);
     beam.all += light;
     beam.shaded += terrain_shade((ray.entry + t) * ray.direction, sun) * light;
   }
