@@ -54,28 +54,31 @@ float cloud_distance(float cloud_km, ViewRay ray) {
   bool meets = ray.air && (below ? !ray.hits_ground : ray.mu < 0.0 && impact < bottom_km + cloud_km);
   float d = below ? distance_to_outer_sphere(bottom_km, ray.h, ray.mu, cloud_km)
                   : distance_to_inner_sphere(bottom_km, ray.h, ray.mu, cloud_km);
-  return meets ? ray.entry + d : uintBitsToFloat(0x7f800000u);
+  return meets ? ray.entry + d : kInfinity;
 }
 
-// Of the ray that seen_at() is asked for: where it meets each sheet, km, and how much that takes; 0 beyond the distance `end`.
-float cloud_distances[CLOUDS];
-float cloud_opacities[CLOUDS];
+// How a ray meets the sheets: where, km from its eye; how much each takes; what all of them let pass.
+struct MetClouds {
+  float distances[CLOUDS], opacities[CLOUDS];
+  float clear;
+};
 
-// Returns the share that all of them let pass.
-float meet_clouds(ViewRay ray, float end) {
-  float clear = 1.0;
+// Up to the distance `end`; clouds are seen as their mean over the angle `spread`.
+MetClouds meet_clouds(ViewRay ray, float end, float spread) {
+  MetClouds met;
+  met.clear = 1.0;
   for (int i = 0; i < CLOUDS; ++i) {
     float d = cloud_distance(cloud_sheets[i].x, ray);
     float opacity = 0.0;
     if (!isinf(d) && d < end) {
-      vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + d * ray.direction;
-      opacity = slanted(cloud_opacity_at(cloud_sheets[i], from_centre, d * pixel_angle), dot(normalize(from_centre), ray.direction));
+      vec3 from_centre = vec3(0.0, 0.0, bottom_km + camera_km) + ray.eye + d * ray.direction;
+      opacity = slanted(cloud_opacity_at(cloud_sheets[i], from_centre, d * spread), dot(normalize(from_centre), ray.direction));
     }
-    cloud_distances[i] = d;
-    cloud_opacities[i] = opacity;
-    clear *= 1.0 - opacity;
+    met.distances[i] = d;
+    met.opacities[i] = opacity;
+    met.clear *= 1.0 - opacity;
   }
-  return clear;
+  return met;
 }
 
 // Share of a sun's beam that gets through the sheets on its way to a place, as the mean over about `width_km`; `position` is

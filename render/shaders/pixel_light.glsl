@@ -12,14 +12,21 @@
 #ifdef VOLUME
 #include "render/shaders/aerial_volume.glsl"
 #endif
-#ifdef SEA
-#include "render/shaders/sea_light.glsl"
-#endif
 #ifdef CLOUDS
 #include "render/shaders/clouds.glsl"
+#else
+struct MetClouds {
+  float clear;
+};
 #endif
 #if defined(SHADOWS) || defined(CLOUD_SHADOWS)
 #include "render/shaders/shaded_air.glsl"
+#endif
+#ifdef CLOUDS
+#include "render/shaders/cloudy_path.glsl"
+#endif
+#ifdef SEA
+#include "render/shaders/sea_light.glsl"
 #endif
 
 layout(binding = 7) uniform usampler2D gbuffer;
@@ -30,8 +37,6 @@ const mat4 light_from_nodes = mat4(LIGHT_FROM_NODES);  // in the frame's primari
 // From the second sun's light to light of the first that looks the same (render/glsl/light_matrices.h).
 const mat4 alike_nodes = mat4(SECOND_COLOR);
 #endif
-
-const float kInfinity = uintBitsToFloat(0x7f800000u);
 
 vec3 color_of(vec4 nodes) { return (light_from_nodes * nodes).rgb; }
 
@@ -128,7 +133,7 @@ struct Surface {
   bool water;
 };
 
-PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
+PathLight light_of(int i, ViewRay ray, Surface surface, MetClouds met) {
   vec3 sun = suns[i].xyz;
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Place start = place_of(ray, sun, nu);
@@ -179,18 +184,18 @@ PathLight light_of(int i, ViewRay ray, Surface surface, float clear) {
 #endif
   vec4 reflected = (kInversePi * surface.reflectance) * surface_irradiance(at, surface.normal, surface.up, sun, lit);
 #ifdef SEA
-  if (surface.water) reflected += sea_radiance(at, -ray.direction, surface.up, sun, lit);
+  if (surface.water) reflected += sea_radiance(at, surface.d * ray.direction, surface.up, i, lit);
 #endif
-  path.reflected = clear * path.transmittance * reflected;
+  path.reflected = met.clear * path.transmittance * reflected;
 #ifdef LAYERS
   path.direct = (kInversePi * surface.reflectance) * direct_irradiance(at, surface.normal, sun, lit);
 #ifdef SEA
   if (surface.water) path.direct += sea_glitter_radiance(at, -ray.direction, surface.up, sun, lit);
 #endif
-  path.direct *= clear * path.transmittance;
+  path.direct *= met.clear * path.transmittance;
 #endif
 #else
-PathLight light_of(int i, ViewRay ray, float clear) {
+PathLight light_of(int i, ViewRay ray, MetClouds met) {
   vec3 sun = suns[i].xyz;
   float nu = clamp(dot(ray.direction, sun), -1.0, 1.0);
   Place start = place_of(ray, sun, nu);
@@ -207,7 +212,7 @@ PathLight light_of(int i, ViewRay ray, float clear) {
   }
 #ifdef DISC
   vec2 disc_and_cover = disc(square_ray, square_across, square_along, i);
-  path.disc = suns[i].w * clear * path.transmittance * (disc_and_cover.x / disc_solid_angle(i));
+  path.disc = suns[i].w * met.clear * path.transmittance * (disc_and_cover.x / disc_solid_angle(i));
   path.disc_cover = disc_and_cover.y;
 #endif
 #endif
@@ -217,36 +222,8 @@ PathLight light_of(int i, ViewRay ray, float clear) {
 #ifdef SHADOWS
   if (ray.air) path.in_scatter = without_shaded(path.in_scatter, light_under_terrain(ray, start, nu, in_air, i));
 #endif
-#ifdef CLOUD_SHADOWS
-  if (ray.air) path.in_scatter = without_shaded(path.in_scatter, light_under_clouds(ray, start, nu, in_air, i));
-#endif
 #ifdef CLOUDS
-  // Of the light behind a cloud the cloud lets the rest pass; from the farthest sheet to the nearest.
-  vec4 of_clouds = vec4(0.0);
-  for (int c = CLOUDS - 1; c >= 0; --c) {
-    float opacity = cloud_opacities[c];
-    if (opacity <= 0.0) continue;
-    float d = cloud_distances[c] - ray.entry;
-    Place at = place_along(start, nu, d);
-#ifdef CLOSED_FORM
-    vec4 dimming = closed_form_through(start, at.h, d);
-    vec4 before = closed_form_inscatter(start, nu, at.h, d);
-#else
-    vec4 dimming = transmittance_between(start, at, ray.hits_ground);
-    vec4 before = radiance(
-        scattering_before(scattering(start, nu, ray.hits_ground), dimming, scattering(at, nu, ray.hits_ground)), nu);
-#endif
-#ifdef CLOUD_SHADOWS
-    before = without_shaded(before, light_before_sheets[c]);
-#endif
-#ifndef FORMULA_SKY  // whose sky is not the sum of its paths
-    before = min(before, path.in_scatter);
-#endif
-    path.in_scatter = mix(path.in_scatter, before, opacity);
-    float lit = clear_of_clouds(cloud_distances[c] * ray.direction, at, sun, c, cloud_distances[c] * pixel_angle);
-    of_clouds = mix(of_clouds, dimming * cloud_radiance(cloud_sheets[c].x, at, ray.h, lit), opacity);
-  }
-  path.reflected += of_clouds;
+  if (ray.air) path.reflected += among_clouds(path.in_scatter, ray, start, nu, in_air, met, pixel_angle, i, kCloudShadowSteps);
 #endif
   path.in_scatter *= suns[i].w;
   path.reflected *= suns[i].w;
@@ -316,21 +293,21 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   const float d = kInfinity;
 #endif
 #ifdef CLOUDS
-  float clear = meet_clouds(ray, d);
+  MetClouds met = meet_clouds(ray, d, pixel_angle);
 #else
-  const float clear = 1.0;
+  const MetClouds met = MetClouds(1.0);
 #endif
 #ifdef SURFACE
-  PathLight path = light_of(0, ray, surface, clear);
+  PathLight path = light_of(0, ray, surface, met);
 #else
-  PathLight path = light_of(0, ray, clear);
+  PathLight path = light_of(0, ray, met);
 #endif
 #ifdef SECOND_SUN
   // Not a loop, which the software renderer does not unroll.
 #ifdef SURFACE
-  PathLight other = light_of(1, ray, surface, clear);
+  PathLight other = light_of(1, ray, surface, met);
 #else
-  PathLight other = light_of(1, ray, clear);
+  PathLight other = light_of(1, ray, met);
 #endif
 #ifdef SECOND_COLOR
   other.in_scatter = alike_nodes * other.in_scatter;
@@ -362,7 +339,7 @@ Seen seen_at(ivec2 pixel, vec3 site_ray, vec3 planet_ray) {
   vec3 white = color_of(vec4(1.0)), direct = color_of(path.direct);
   seen.in_scatter = vec4(color_of(path.in_scatter), direct.r);
   seen.reflected = vec4(color_of(path.reflected), direct.g);
-  seen.transmittance = vec4(color_of(clear * path.transmittance) / white, direct.b);
+  seen.transmittance = vec4(color_of(met.clear * path.transmittance) / white, direct.b);
 #ifdef SURFACE
   seen.albedo = vec4(color_of(surface.reflectance) / white, 1.0);
   seen.normal = vec4(surface.normal, 1.0);

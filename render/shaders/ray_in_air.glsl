@@ -4,6 +4,7 @@
 #include "render/shaders/atmosphere.glsl"
 
 struct ViewRay {
+  vec3 eye;  // relative to the camera
   vec3 direction;
   bool air;          // meets the atmosphere
   bool hits_ground;  // its sphere
@@ -17,6 +18,7 @@ ViewRay ray_in_air(vec3 direction, float eye_km) {
   // The impact parameter keeps the digits that the cosine of the zenith angle would lose.
   float impact = r0 * length(direction.xy);
   ViewRay ray;
+  ray.eye = vec3(0.0);
   ray.direction = direction;
   ray.air = true;
   ray.hits_ground = direction.z < 0.0 && impact < bottom_km;

@@ -107,7 +107,7 @@ BeamLight light_under_terrain(ViewRay ray, Place start, float nu, float length_k
     float t = part.y;
     vec4 light = beam_light(ray, start, nu, t, part.z - part.x, part.z, before);
     beam.all += light;
-    beam.shaded += terrain_shade((ray.entry + t) * ray.direction, sun) * light;
+    beam.shaded += terrain_shade(ray.eye + (ray.entry + t) * ray.direction, sun) * light;
   }
 #ifdef LESS_THAN_THE_BEAM
   beam.all += beam_light_between(ray, start, nu, reach, length_km);
@@ -117,8 +117,10 @@ BeamLight light_under_terrain(ViewRay ray, Place start, float nu, float length_k
 #endif
 
 #ifdef CLOUD_SHADOWS
-// The light before each sheet, of the ray and sun that light_under_clouds() was asked for.
-BeamLight light_before_sheets[CLOUDS];
+// Of a path and of its part before each sheet that it meets.
+struct LightUnderClouds {
+  BeamLight path, before[CLOUDS];
+};
 
 // Where the ray runs below the highest sheet, from its entry into the air on, km.
 vec2 below_sheets(ViewRay ray, float length_km) {
@@ -138,10 +140,10 @@ vec2 below_sheets(ViewRay ray, float length_km) {
 }
 
 // What the terrain shades already does not count.
-BeamLight light_under_clouds(ViewRay ray, Place start, float nu, float length_km, int sun) {
-  const int kSteps = 32;
-  for (int c = 0; c < CLOUDS; ++c) light_before_sheets[c] = no_beam_light();
-  BeamLight beam = no_beam_light();
+LightUnderClouds light_under_clouds(ViewRay ray, Place start, float nu, float length_km, MetClouds met, int sun, int steps) {
+  LightUnderClouds beam;
+  beam.path = no_beam_light();
+  for (int c = 0; c < CLOUDS; ++c) beam.before[c] = no_beam_light();
   vec2 part = below_sheets(ray, length_km);
   float whole = part.y - part.x;
   if (whole <= 0.0) return beam;
@@ -149,20 +151,20 @@ BeamLight light_under_clouds(ViewRay ray, Place start, float nu, float length_km
 #ifdef LESS_THAN_THE_BEAM
   if (part.x > 0.0) {
     before = beam_light_between(ray, start, nu, 0.0, part.x);
-    beam.all = before;
-    for (int c = 0; c < CLOUDS; ++c) light_before_sheets[c].all = before;
+    beam.path.all = before;
+    for (int c = 0; c < CLOUDS; ++c) beam.before[c].all = before;
   }
 #endif
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < steps; ++i) {
     // Short steps near the eye, where a pixel shows more.
-    float step_begin = float(i) / float(kSteps), step_end = float(i + 1) / float(kSteps);
+    float step_begin = float(i) / float(steps), step_end = float(i + 1) / float(steps);
     if (part.x == 0.0) {
       step_begin *= step_begin;
       step_end *= step_end;
     }
     float step_km = (step_end - step_begin) * whole, t = part.x + step_begin * whole + 0.5 * step_km;
     vec4 light = beam_light(ray, start, nu, t, step_km, part.x + step_end * whole, before);
-    vec3 position = (ray.entry + t) * ray.direction;
+    vec3 position = ray.eye + (ray.entry + t) * ray.direction;
     Place at = place_along(start, nu, t);
     // What the step's ends are apart on a sheet, seen from the sun: nothing where one looks toward it.
     float width_km = step_km * length(ray.direction - suns[sun].xyz * (at.mu / max(at.mu_s, 1e-3)));
@@ -170,17 +172,17 @@ BeamLight light_under_clouds(ViewRay ray, Place start, float nu, float length_km
 #ifdef SHADOWS
     light *= 1.0 - terrain_shade(position, sun);
 #endif
-    beam.all += light;
-    beam.shaded += shaded * light;
+    beam.path.all += light;
+    beam.path.shaded += shaded * light;
     for (int c = 0; c < CLOUDS; ++c) {
-      if (ray.entry + t < cloud_distances[c]) {
-        light_before_sheets[c].all += light;
-        light_before_sheets[c].shaded += shaded * light;
+      if (ray.entry + t < met.distances[c]) {
+        beam.before[c].all += light;
+        beam.before[c].shaded += shaded * light;
       }
     }
   }
 #ifdef LESS_THAN_THE_BEAM
-  beam.all += beam_light_between(ray, start, nu, part.y, length_km);
+  beam.path.all += beam_light_between(ray, start, nu, part.y, length_km);
 #endif
   return beam;
 }

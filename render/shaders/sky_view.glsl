@@ -39,7 +39,7 @@ ViewRay ray_in_view(vec2 texel, vec3 sun, vec3 size) {
   float sine = sqrt(max(1.0 - mu * mu, 0.0));
   vec2 sunward = length(sun.xy) > 1e-9 ? normalize(sun.xy) : vec2(1.0, 0.0);
   vec2 across = turn_cosine * sunward + turn_sine * vec2(-sunward.y, sunward.x);
-  return ViewRay(vec3(sine * across, mu), true, hits_ground, 0.0, h, mu,
+  return ViewRay(vec3(0.0), vec3(sine * across, mu), true, hits_ground, 0.0, h, mu,
                  distance_to_inner_sphere(bottom_km, h, mu, 0.0));
 }
 

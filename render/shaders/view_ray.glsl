@@ -2,6 +2,8 @@
 // The rays of a picture. Camera frame: z up at the camera, x toward the sun, y to the left of it; kilometres.
 #include "render/shaders/ray_in_air.glsl"
 
+const float kInfinity = uintBitsToFloat(0x7f800000u);
+
 #ifdef SECOND_SUN
 const int kSuns = 2;
 #else

@@ -106,5 +106,58 @@ TEST_F(SeaOfAMap, GlitterOfAFrameIsTheFormulas) {
   }
 }
 
+// Under closed clouds, from 2 m: the light of the level sea less the water's own is the share that
+// water reflects of what another picture shows in the mirrored directions. A clear sky is far from
+// it.
+TEST_F(SeaOfAMap, MirrorsTheCloudsAboveIt) {
+  Scene scene;
+  scene.height_map =
+      write("flat.png", 16, 8, 1, OIIO::TypeDesc::UINT8, std::vector<float>(16 * 8, 0.0f));
+  Renderer drawn = make_renderer(scene);
+  constexpr double kView = 78 * kDegree, kSun = 50 * kDegree, kAzimuth = 70 * kDegree;
+  const auto draw = [&](double view_zenith, std::vector<CloudLayer> clouds) {
+    FrameOptions options = options_at({2, view_zenith, kAzimuth, 10 * kDegree}, kSun, 32, 32);
+    options.wind_m_s = 0;
+    options.clouds = std::move(clouds);
+    options.shadows = true;
+    return draw_layers(options, drawn);
+  };
+  const AtmosphereTables& tables = small_tables();
+  double sky = 0;
+  const NodeValues irradiance = lookup_irradiance(tables, 0, std::cos(kSun));
+  for (std::size_t k = 0; k < 4; ++k) sky += tables.color.xyz_from_nodes[1][k] * irradiance[k];
+  const std::vector<CloudLayer> closed = {{3000, 1, 1}};
+  const Frame sea_frame = draw(std::numbers::pi - kView, closed), above = draw(kView, closed),
+              clear = draw(kView, {});
+  const double variance = sea.sea_slope_variance(0.0);
+  WorstPixel worst;
+  double difference = 0;
+  for (std::size_t i = 0; i < sea_frame.luminance.size(); ++i) {
+    const glm::dvec3 to_eye = -ray_of(sea_frame, i);
+    const double slope =
+        sea.sea_seen_slope(to_eye.z, variance) / std::sqrt(1 - to_eye.z * to_eye.z);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(slope * to_eye.x, slope * to_eye.y, 1));
+    const glm::dvec3 mirrored = glm::reflect(-to_eye, normal);
+    std::size_t nearest = 0;
+    for (std::size_t j = 0; j < above.luminance.size(); ++j)
+      if (glm::dot(ray_of(above, j), mirrored) > glm::dot(ray_of(above, nearest), mirrored))
+        nearest = j;
+    if (std::acos(std::min(glm::dot(ray_of(above, nearest), mirrored), 1.0)) > 0.4 * kDegree)
+      continue;
+    const double own = luminance_of(sea_frame.layers->albedo, i) / std::numbers::pi * sky;
+    const double reflected = luminance_of(sea_frame.layers->reflected, i) /
+                                 luminance_of(sea_frame.layers->transmittance, i) -
+                             own;
+    const double share = sea.water_reflectance(glm::dot(to_eye, normal));
+    worst.add(sea_frame, i, reflected / (share * above.luminance[nearest]) - 1);
+    difference =
+        std::max(difference, std::abs(above.luminance[nearest] / clear.luminance[nearest] - 1.0));
+  }
+  worst.print("mirrored clouds");
+  EXPECT_GT(worst.count(), 300);
+  EXPECT_LT(worst.error(), 0.02);
+  EXPECT_GT(difference, 0.2) << "of clouds to a clear sky";
+}
+
 }  // namespace
 }  // namespace skyfit
