@@ -20,7 +20,8 @@ namespace skyfit::refs {
 namespace {
 
 constexpr std::string_view kSample = "sample", kViewAzimuth = "view_azimuth_deg",
-                           kViewZenith = "view_zenith_deg", kRadiance = "radiance_";
+                           kViewZenith = "view_zenith_deg", kRadiance = "radiance_",
+                           kLuminance = "luminance_cd_m2";
 
 struct Band {
   std::string column;
@@ -109,10 +110,10 @@ Reference parse_spectral_scan(std::string_view text, std::string_view source,
   }
   for (const std::string& column : table.columns()) {
     if (!column.starts_with(kRadiance) && column != kSample && column != kViewAzimuth &&
-        column != kViewZenith)
+        column != kViewZenith && column != kLuminance)
       table.fail_header(in_quotes(column) +
                         ": unknown column, expected one of sample, view_azimuth_deg, "
-                        "view_zenith_deg and radiance_ with a wavelength in nm");
+                        "view_zenith_deg, luminance_cd_m2 and radiance_ with a wavelength in nm");
   }
   ScanHeader header = scan_header(text, source);
   read_unit(header);
@@ -123,6 +124,8 @@ Reference parse_spectral_scan(std::string_view text, std::string_view source,
                  sun_of_scan(facts, header.place(source, "sun_zenith_deg")));
   ScanReader reader(table, sky);
   for (const CsvRecord& record : table.records()) reader.read(record);
+  if (table.has(kLuminance))
+    sky.note(std::string(kLuminance) + " is not used: a luminance is that of the radiances");
   return sky.finish();
 }
 

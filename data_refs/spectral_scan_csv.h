@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A spectral scan of the sky, one direction a line. Columns: sample (a number of its own for every
-// direction), view_azimuth_deg, view_zenith_deg, and radiance_NM for every wavelength in nm; others
-// are not read. Comment lines before them state the facts of scan_header.h and the unit, as
-// `radiance_<nm> in UNIT`. Azimuths are clockwise from north unless the facts say otherwise.
+// direction), view_azimuth_deg, view_zenith_deg, and radiance_NM for every wavelength in nm; one
+// luminance_cd_m2 beside them is not used. Comment lines before them state the facts of
+// scan_header.h and the unit, as `radiance_<nm> in UNIT`. Azimuths are clockwise from north unless
+// the facts say otherwise.
 #pragma once
 
 #include <string_view>

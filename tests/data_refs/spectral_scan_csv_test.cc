@@ -33,6 +33,16 @@ std::string complaint(const std::string& text, const ImportOptions& options = {}
   return complaint_of([&] { parse(text, options); });
 }
 
+TEST(SpectralScan, MayHaveLuminancesBesideTheRadiances) {
+  const Reference scan = parse(kPlace + kUnit +
+                               "sample,view_azimuth_deg,view_zenith_deg,luminance_cd_m2,"
+                               "radiance_400,radiance_550\n0,90,60,8000,0.1,0.2\n");
+  ASSERT_EQ(scan.samples.size(), 2u);
+  EXPECT_EQ(scan.samples[0].value, 0.1);
+  EXPECT_EQ(scan.samples[1].value, 0.2);
+  EXPECT_THAT(scan.notes, testing::Contains(StartsWith("luminance_cd_m2 is not used")));
+}
+
 TEST(SpectralScan, HasASamplePerDirectionAndWavelength) {
   const Reference scan = parse(kPlace + kUnit + kColumns + kRecords);
   const SolarPosition sun =
