@@ -179,12 +179,15 @@ std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, con
   return result;
 }
 
+bool is_of_two_lobes(const Parameter& id) {
+  const Quantity quantity = id.quantity();
+  return quantity == Quantity::kPhaseG1 || quantity == Quantity::kPhaseG2 ||
+         quantity == Quantity::kPhaseWeight;
+}
+
 bool lobes_interchangeable(const std::vector<FreeParameter>& parameters) {
   return std::count_if(parameters.begin(), parameters.end(), [](const FreeParameter& parameter) {
-           const Quantity quantity = parameter.id.quantity();
-           return !parameter.prior &&
-                  (quantity == Quantity::kPhaseG1 || quantity == Quantity::kPhaseG2 ||
-                   quantity == Quantity::kPhaseWeight);
+           return !parameter.prior && is_of_two_lobes(parameter.id);
          }) == 3;
 }
 

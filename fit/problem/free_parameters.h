@@ -48,6 +48,8 @@ void check_lobes(const FitOptions& options, const SkyModel& model);
 std::vector<FreeParameter> choose_free_parameters(const FitOptions& options, const SkyModel& model,
                                                   const Atmosphere<double>& atmosphere);
 
+// g1, g2 or weight of a phase function.
+bool is_of_two_lobes(const Parameter& id);
 // Whether exchanging the two lobes leaves the problem as it is: g1, g2 and weight are free and have
 // no prior.
 bool lobes_interchangeable(const std::vector<FreeParameter>& parameters);

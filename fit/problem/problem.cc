@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "fit/problem/defaults.h"
+#include "model/atmosphere/derived.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
 
@@ -156,11 +157,7 @@ void check_counts(const refs::Reference& reference, const Problem& problem,
 
 // Shared by all scans or not at all, and without priors.
 bool may_swap_lobes(const FitOptions& options, const std::vector<FreeParameter>& parameters) {
-  const auto own = std::ranges::count_if(options.per_scan, [](const Parameter& id) {
-    const Quantity quantity = id.quantity();
-    return quantity == Quantity::kPhaseG1 || quantity == Quantity::kPhaseG2 ||
-           quantity == Quantity::kPhaseWeight;
-  });
+  const auto own = std::ranges::count_if(options.per_scan, is_of_two_lobes);
   return (own == 0 || own == 3) && lobes_interchangeable(parameters);
 }
 
@@ -176,6 +173,33 @@ void add_datasets(const refs::Reference& reference, const SpectralData& spectra,
   problem.medium = spectral ? selected(kMediumChannels) : problem.fitted;
   problem.coarse = selected(kSearchChannels);
   problem.all = dataset(reference, spectra, {true, 0, problem.likelihood.noise, 0});
+}
+
+// What the fit begins with, and what of it is free.
+struct Beginning {
+  Atmosphere<double> base;
+  std::vector<FreeParameter> parameters;
+};
+
+bool is_one_lobe(const Atmosphere<double>& atmosphere) {
+  const Constituent<double>* const aerosol = main_aerosol(atmosphere);
+  return aerosol != nullptr && has_parameter(atmosphere, {aerosol->name, Quantity::kPhaseG});
+}
+
+// Nothing is fitted, or the options speak of the asymmetry parameter of the one lobe that is given.
+bool asks_for_given_lobe(const FitOptions& options, const Atmosphere<double>& given) {
+  if (options.free && options.free->empty()) return true;
+  if (!is_one_lobe(given)) return false;
+  const Parameter g{main_aerosol(given)->name, Quantity::kPhaseG};
+  return options.fix.contains(g) || options.priors.contains(g) || options.bounds.contains(g) ||
+         (options.free && std::ranges::count(*options.free, g) > 0);
+}
+
+// Whether a parameter of two lobes is free or has a value that the options fix.
+bool varies_two_lobes(const FitOptions& options, const std::vector<FreeParameter>& parameters) {
+  return std::ranges::any_of(parameters, is_of_two_lobes, &FreeParameter::id) ||
+         std::ranges::any_of(options.fix,
+                             [](const auto& fixed) { return is_of_two_lobes(fixed.first); });
 }
 
 std::optional<std::string> polarisation_left_out(const refs::Reference& reference,
@@ -270,16 +294,31 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
     problem.assumptions.push_back(*note);
   add_datasets(reference, spectra, model, options, problem);
   const Atmosphere<double> given = given_atmosphere(reference, options);
-  const bool evaluate_only = options.free && options.free->empty();
-  const Atmosphere<double> base =
-      with_fixed_values(evaluate_only ? given : with_lobes(given, options.lobes), options);
   const Pointing pointing = pointing_of(options, reference);
   const bool several_wavelengths = only_sky(problem.fitted).channels.size() > 1 &&
                                    reference.quantity == refs::Quantity::kSpectralRadiance;
-  const FitOptions with_defaults =
-      with_default_parameters(with_free_of_irradiances(options, reference, model, base), model,
-                              several_wavelengths, pointing != Pointing::kStated, base);
-  const std::vector<FreeParameter> parameters = choose_free_parameters(with_defaults, model, base);
+  const auto beginning_with = [&](const Atmosphere<double>& unfixed) {
+    Beginning result{with_fixed_values(unfixed, options), {}};
+    result.parameters = choose_free_parameters(
+        with_default_parameters(with_free_of_irradiances(options, reference, model, result.base),
+                                model, several_wavelengths, pointing != Pointing::kStated,
+                                result.base),
+        model, result.base);
+    return result;
+  };
+  const Atmosphere<double> lobed =
+      asks_for_given_lobe(options, given) ? given : with_lobes(given, options.lobes);
+  Beginning beginning = beginning_with(lobed);
+  if (is_one_lobe(given) && !is_one_lobe(lobed)) {
+    if (!varies_two_lobes(options, beginning.parameters)) {
+      beginning = beginning_with(given);
+    } else {
+      problem.assumptions.push_back(fmt::format(
+          "{} is fitted with two lobes in place of the one of the preset; --lobes 1 keeps it",
+          main_aerosol(given)->name));
+    }
+  }
+  const auto& [base, parameters] = beginning;
   if (auto note = held_aerosol(options, model, base, parameters))
     problem.assumptions.push_back(std::move(*note));
   problem.starts = choose_starts(base, parameters, options.starts, options.start.has_value());
