@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fit/errors_beside.h"
 #include "fit/problem/problem.h"
 #include "fit/result/record.h"
 #include "fit/solve/multi_start.h"
@@ -22,6 +23,8 @@ namespace skyfit::fit {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// Below it chi^2 says nothing: data and priors determine as much as there is.
+constexpr double kLeastFreedom = 0.5;
 
 // How far the solver goes. Logarithms of a luminance are cheap and their minimum flat; spectra of a
 // day cost a hundred times as much, so that their noise is estimated from few wavelengths.
@@ -130,11 +133,25 @@ class Fit {
     return result;
   }
 
-  // The derivatives are asked for next.
-  Noise noise_at(const Problem& problem, Evaluations& at, const Eigen::VectorXd& scaled) {
-    const Whitened white = whiten(at.data(), problem.likelihood, at.at(scaled, true), 1);
-    return estimate_noise(at.data(), problem.likelihood, white.residual,
-                          static_cast<int>(problem.unknowns.size()) + problem.profiled_scales());
+  // Of the solution with a factor, by which the loss leaves its weights and the priors hold. The
+  // derivatives are asked for next.
+  Noise noise_at(const Problem& problem, Evaluations& at, const Eigen::VectorXd& scaled,
+                 double factor) {
+    const Whitened white = whiten(at.data(), problem.likelihood, at.at(scaled, true), factor);
+    const Eigen::VectorXd weights = problem.loss_weights(at.data(), white.residual);
+    const double determined =
+        uncertainty(variables_of(problem), scaled, weighted(white, weights)).determined;
+    return estimate_noise(at.data(), problem.likelihood, factor * white.residual, weights,
+                          determined + problem.profiled_scales());
+  }
+
+  static std::vector<Variable> variables_of(const Problem& problem) {
+    return {problem.unknowns.begin(), problem.unknowns.end()};
+  }
+
+  // The Jacobian with what the loss leaves.
+  static Eigen::MatrixXd weighted(const Whitened& white, const Eigen::VectorXd& weights) {
+    return weights.cwiseSqrt().asDiagonal() * white.jacobian_per_unit;
   }
 
   // `all`: evaluations of all that is fitted.
@@ -157,11 +174,11 @@ class Fit {
     Evaluations few(problem, problem.coarse);
     const bool few_are_all = problem.coarse.nodes.size() == problem.fitted.nodes.size();
     Evaluations& of_rounds = schedule_.rounds_with_all || few_are_all ? all : few;
-    double factor = 1;
+    double factor = schedule_.search_factor;
     bool agrees = false;
     for (int round = 0; round < schedule_.noise_rounds; ++round) {
       report(0.6 + 0.05 * round, "refining the best start");
-      noise_ = noise_at(problem, of_rounds, scaled);
+      noise_ = noise_at(problem, of_rounds, scaled, factor);
       const double before = std::exchange(
           factor, round < schedule_.independent_rounds ? noise_.independent_factor : noise_.factor);
       agrees =
@@ -172,10 +189,10 @@ class Fit {
     count_work(few);
     if (!schedule_.rounds_with_all) {
       report(0.85, "refining with all wavelengths");
-      noise_ = noise_at(problem, all, scaled);
+      noise_ = noise_at(problem, all, scaled, factor);
       solve(all, noise_.factor);
     } else if (!agrees) {
-      noise_ = noise_at(problem, all, scaled);
+      noise_ = noise_at(problem, all, scaled, factor);
     }
     return problem.with_ordered_lobes(scaled);
   }
@@ -210,8 +227,13 @@ class Fit {
     const refs::Reference& counted = result_.reference;
     result_.start_errors = errors_of(counted, result_.start_model, spectra_);
     result_.errors = errors_of(counted, result_.model, spectra_);
-    describe_polarisation(problem, start, fitted);
-    describe_irradiances(problem);
+    const Dataset readings = only_samples(problem.fitted, polarisations(problem.fitted));
+    if (!readings.samples.empty()) {
+      result_.polarisation =
+          polarisation_errors(readings, *problem.model, start, fitted, noise_.factor);
+      result_.model_evaluations += 2;
+    }
+    result_.irradiances = irradiance_errors(problem.fitted, result_.start_model, result_.model);
     result_.start_rms = rms_summary(reference_, result_.start_model, options_.exclude_sun);
     result_.rms = rms_summary(reference_, result_.model, options_.exclude_sun);
     const Dataset sky = only_sky(problem.fitted);
@@ -235,62 +257,10 @@ class Fit {
     }
   }
 
-  // What the readings of polarisation are off, by their kind.
-  void describe_polarisation(const Problem& problem, const SkyState& start,
-                             const SkyState& fitted) {
-    const Dataset data = only_samples(problem.fitted, polarisations(problem.fitted));
-    if (data.samples.empty()) return;
-    const Eigen::VectorXd at_start = sky_values(*problem.model, data, start, {}).value,
-                          at_end = sky_values(*problem.model, data, fitted, {}).value;
-    result_.model_evaluations += 2;
-    for (const auto what :
-         {refs::Polarisation::kQ, refs::Polarisation::kU, refs::Polarisation::kDegree}) {
-      PolarisationErrors errors{what};
-      for (std::size_t i = 0; i < data.samples.size(); ++i) {
-        const Sample& reading = data.samples[i];
-        if (reading.polarisation != what) continue;
-        const auto row = static_cast<Eigen::Index>(i);
-        ++errors.readings;
-        errors.start_rms += std::pow(at_start(row) - reading.value, 2);
-        errors.rms += std::pow(at_end(row) - reading.value, 2);
-        errors.sigma += std::pow(noise_.factor * reading.sigma, 2);
-      }
-      if (errors.readings == 0) continue;
-      for (double* const sum : {&errors.start_rms, &errors.rms, &errors.sigma})
-        *sum = 100 * std::sqrt(*sum / errors.readings);
-      result_.polarisation.push_back(errors);
-    }
-  }
-
-  // What the irradiances beside the sky are off, by their kind.
-  void describe_irradiances(const Problem& problem) {
-    const std::vector<int> beside = irradiances_beside_sky(problem.fitted);
-    for (int kind = 0; kind < kIrradianceCount; ++kind) {
-      IrradianceErrors errors{static_cast<Irradiance>(kind)};
-      for (const int i : beside) {
-        const Sample& sample = problem.fitted.samples[static_cast<std::size_t>(i)];
-        if (sample.irradiance != errors.what) continue;
-        const double at_start = result_.start_model[sample.index] / sample.value - 1,
-                     at_end = result_.model[sample.index] / sample.value - 1;
-        ++errors.samples;
-        errors.start_rms += at_start * at_start;
-        errors.rms += at_end * at_end;
-        errors.mean_bias += 100 * at_end;
-        errors.sigma += std::pow(sample.sigma / sample.value, 2);
-      }
-      if (errors.samples == 0) continue;
-      errors.mean_bias /= errors.samples;
-      for (double* const sum : {&errors.start_rms, &errors.rms, &errors.sigma})
-        *sum = 100 * std::sqrt(*sum / errors.samples);
-      result_.irradiances.push_back(errors);
-    }
-  }
-
   // The fit weighs with sigma * factor; under the linear link the residuals vary as the noise says.
   Uncertainty uncertainty_at(const Problem& problem, const Eigen::VectorXd& scaled,
-                             const Whitened& white) const {
-    const std::vector<Variable> variables(problem.unknowns.begin(), problem.unknowns.end());
-    const Eigen::MatrixXd& jacobian = white.jacobian_per_unit;
+                             const Eigen::MatrixXd& jacobian) const {
+    const std::vector<Variable> variables = variables_of(problem);
     const Uncertainty independent = uncertainty(variables, scaled, jacobian);
     const bool correlated = noise_.length != 0 || noise_.wavelength_correlation != 0;
     if (problem.likelihood.link == Link::kLog || !correlated) return independent;
@@ -306,22 +276,23 @@ class Fit {
                             const Eigen::VectorXd& scaled) {
     const SkyState fitted = problem.state(scaled);
     const Whitened white = whiten(problem.fitted, problem.likelihood, values, noise_.factor);
-    const Uncertainty uncertain = uncertainty_at(problem, scaled, white);
+    const Eigen::VectorXd weights = problem.loss_weights(problem.fitted, white.residual);
+    const Uncertainty uncertain = uncertainty_at(problem, scaled, weighted(white, weights));
     describe_unknowns(problem, fitted, uncertain);
-    const double freedom = static_cast<double>(problem.fitted.samples.size()) -
-                           static_cast<double>(problem.unknowns.size()) - problem.profiled_scales();
     Eigen::VectorXd assumed = white.residual;  // in the sigmas that were stated or assumed
     for (std::size_t i = 0; i < problem.fitted.samples.size(); ++i) {
       if (!problem.fitted.samples[i].beside_sky)
         assumed(static_cast<Eigen::Index>(i)) *= noise_.factor;
     }
-    result_.chi_square_per_dof = freedom > 0 ? assumed.squaredNorm() / freedom : kNan;
-    const std::vector<double> weights = problem.loss_weights(white.residual);
+    const double freedom = weights.sum() - uncertain.determined - problem.profiled_scales();
+    result_.chi_square_per_dof =
+        freedom > kLeastFreedom ? weights.dot(assumed.cwiseAbs2()) / freedom : kNan;
     result_.loss_weight.assign(result_.model.size(), kNan);
     result_.sigma.assign(result_.model.size(), kNan);
-    for (const Sample& sample : problem.fitted.samples) {
+    for (std::size_t i = 0; i < problem.fitted.samples.size(); ++i) {
+      const Sample& sample = problem.fitted.samples[i];
       if (sample.polarisation) continue;
-      result_.loss_weight[sample.index] = weights[static_cast<std::size_t>(sample.line_of_sight)];
+      result_.loss_weight[sample.index] = weights(static_cast<Eigen::Index>(i));
       result_.sigma[sample.index] =
           sample.sigma * (sample.beside_sky ? 1 : noise_.independent_factor);
     }

@@ -279,8 +279,14 @@ Minimum Problem::solve(Evaluations& evaluations, const Eigen::VectorXd& start_sc
   return minimise(least_squares(*this, evaluations.data(), &function), start_scaled, limits);
 }
 
-std::vector<double> Problem::loss_weights(const Eigen::VectorXd& residual) const {
-  return fit::loss_weights(least_squares(*this, fitted, nullptr), residual);
+Eigen::VectorXd Problem::loss_weights(const Dataset& data, const Eigen::VectorXd& residual) const {
+  const std::vector<double> of_lines =
+      fit::loss_weights(least_squares(*this, data, nullptr), residual);
+  Eigen::VectorXd weights(residual.size());
+  for (std::size_t i = 0; i < data.samples.size(); ++i)
+    weights(static_cast<Eigen::Index>(i)) =
+        of_lines[static_cast<std::size_t>(data.samples[i].line_of_sight)];
+  return weights;
 }
 
 Problem make_problem(const refs::Reference& reference, const SpectralData& spectra,

@@ -42,8 +42,9 @@ struct Problem {
   // The same where others ask for the same points: `evaluations` are of this problem.
   Minimum solve(Evaluations& evaluations, const Eigen::VectorXd& start_scaled, double factor,
                 const SolverLimits& limits) const;
-  // What the loss leaves of the weight of each line of sight of `fitted`.
-  std::vector<double> loss_weights(const Eigen::VectorXd& residual) const;
+  // What the loss leaves of the weight of each sample, 0 .. 1, the same within a line of sight.
+  // `residual`: whitened, of `data`.
+  Eigen::VectorXd loss_weights(const Dataset& data, const Eigen::VectorXd& residual) const;
 };
 
 // The model's values of a dataset at the latest points, for the next solution begins where the last

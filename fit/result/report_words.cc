@@ -157,7 +157,7 @@ std::string sigma_text(const Result& result) {
                   "chi^2 per degree of\nfreedom = {:.4g} (well above 1 the misfit is larger "
                   "than the noise,\nwell below 1 the noise is stated too large)",
                   result.chi_square_per_dof)
-            : "there are no more\nsamples than unknowns, so that chi^2 says nothing");
+            : "data and priors\ndetermine as much as there is, so that chi^2 says nothing");
   } else {
     text = fmt::format(
         "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "

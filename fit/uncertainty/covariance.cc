@@ -17,7 +17,8 @@ const double kUniformSigma = 1 / std::sqrt(12.0);
 // The normal matrix with unit diagonal; a zero column stays zero.
 struct Normalised {
   Eigen::MatrixXd matrix;
-  Eigen::VectorXd scale;  // square roots of the former diagonal
+  Eigen::VectorXd scale;   // square roots of the former diagonal
+  Eigen::VectorXd priors;  // their part of the diagonal, 0 .. 1
 };
 
 Normalised normal_matrix(const std::vector<Variable>& variables, const std::vector<int>& inside,
@@ -31,12 +32,13 @@ Normalised normal_matrix(const std::vector<Variable>& variables, const std::vect
     columns.col(k) = unit * jacobian.col(inside[k]);
     if (variable.prior) prior(k) = unit / variable.prior->sigma;
   }
-  Normalised result{columns.transpose() * columns, Eigen::VectorXd(count)};
+  Normalised result{columns.transpose() * columns, Eigen::VectorXd(count), {}};
   result.matrix.diagonal() += prior.cwiseAbs2();
   result.scale = result.matrix.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse =
       result.scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
   result.matrix = inverse.asDiagonal() * result.matrix * inverse.asDiagonal();
+  result.priors = prior.cwiseProduct(inverse).cwiseAbs2();
   return result;
 }
 
@@ -70,10 +72,12 @@ Uncertainty uncertainty(const std::vector<Variable>& variables, const Eigen::Vec
   for (Eigen::Index k = 0; k < count; ++k) {
     const bool is_held = values(k) > smallest && values(k) > 0;
     held(k) = is_held ? 1 / values(k) : 0;
+    result.determined += is_held;
     if (!is_held) open += eigen.eigenvectors().col(k).cwiseAbs2();
   }
   const Eigen::MatrixXd inverse =
       eigen.eigenvectors() * held.asDiagonal() * eigen.eigenvectors().transpose();
+  result.determined -= inverse.diagonal().dot(normal.priors);
   Eigen::VectorXd unit(count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Variable& variable = variables[result.inside[k]];

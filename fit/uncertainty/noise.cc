@@ -166,10 +166,12 @@ Eigen::MatrixXd times_correlation_of_kind(const Dataset& data, const Noise& nois
 
 // docs/theory (12.1) and (12.4).
 Noise estimate_noise(const Dataset& all, const Likelihood& likelihood,
-                     const Eigen::VectorXd& residual_of_all, int unknowns) {
+                     const Eigen::VectorXd& residual_of_all, const Eigen::VectorXd& weights_of_all,
+                     double determined) {
   const Dataset data = only_sky(all);
-  const Eigen::VectorXd residual =
-      residual_of_all.head(static_cast<Eigen::Index>(data.samples.size()));
+  const auto of_sky = static_cast<Eigen::Index>(data.samples.size());
+  const Eigen::VectorXd weights = weights_of_all.head(of_sky);
+  const Eigen::VectorXd residual = weights.cwiseSqrt().cwiseProduct(residual_of_all.head(of_sky));
   const auto count = static_cast<double>(data.samples.size());
   const std::vector<int> indices = radiances(data);
   const Dataset others = only_samples(data, indices);
@@ -180,7 +182,7 @@ Noise estimate_noise(const Dataset& all, const Likelihood& likelihood,
   const double of_wavelengths = share_of_wavelengths(others, noise.wavelength_correlation);
   const double of_all = share_of_directions(data, noise.length) * of_wavelengths;
   noise.effective_samples = std::max(1.0, count * of_all);
-  const double freedom = std::max(1.0, count - unknowns);
+  const double freedom = std::max(1.0, weights.sum() - determined);
   noise.independent_factor = std::sqrt(std::max(residual.squaredNorm() / freedom, 1e-12));
   if (likelihood.link == Link::kLinear) {
     noise.factor = noise.independent_factor / std::sqrt(of_wavelengths);

@@ -14,7 +14,9 @@
 // over the sum of the correlations of all pairs. White noise gives N.
 //
 // The factor on sigma with which the fit weighs data against priors is
-//   independent_factor = sqrt(chi^2 / (N - unknowns - profiled scales))
+//   independent_factor = sqrt(chi^2 / (N - determined - profiled scales))
+// with the samples and their squares as the loss weighs them and the number of unknowns that the
+// data determine beside the priors (covariance.h),
 // over the square root of a share: under the log link of N_eff / N; under the linear link of the
 // independent wavelengths alone, and the covariance allows for the lines of sight (covariance.h).
 // The two links differ because their noise does: a standard sky has none, so that all of its misfit
@@ -34,15 +36,17 @@ inline constexpr double kSmallestSigma = 1e-3;
 
 struct Noise {
   double factor = 1;                  // on sigma, see above
-  double independent_factor = 1;      // sqrt(chi^2 / degrees of freedom)
+  double independent_factor = 1;      // see above
   double effective_samples = 0;       // N_eff, 1 .. N
   double length = 0;                  // radians; 0 where neighbours do not agree
   double wavelength_correlation = 0;  // r
 };
 
-// `residual`: whitened with a factor of 1, one per sample. `unknowns`: with the profiled scales.
+// `residual`: whitened with a factor of 1, one per sample, as are `weights`, what the loss leaves.
+// `determined`: with the profiled scales.
 Noise estimate_noise(const Dataset& data, const Likelihood& likelihood,
-                     const Eigen::VectorXd& residual, int unknowns);
+                     const Eigen::VectorXd& residual, const Eigen::VectorXd& weights,
+                     double determined);
 
 // The correlation matrix of the samples, which are those of a sky, times `columns`, [sample][.].
 Eigen::MatrixXd times_correlation(const Dataset& data, const Noise& noise,

@@ -28,7 +28,8 @@ TEST(NoiseTest, WhiteNoiseCountsFully) {
   std::normal_distribution<double> normal(0, 0.03);
   Eigen::VectorXd residual(count);
   for (double& value : residual) value = normal(generator);
-  const Noise noise = estimate_noise(observed, kLog, whitened(residual), 9);
+  const Noise noise =
+      estimate_noise(observed, kLog, whitened(residual), Eigen::VectorXd::Ones(residual.size()), 9);
   // 132 samples: the neighbours' correlation is known to 1 / sqrt(132) = 0.09, the count to 0.2.
   EXPECT_NEAR(noise.effective_samples / static_cast<double>(count), 1, 0.25);
   EXPECT_NEAR(sigma_log(noise), 0.03, 0.006);
@@ -43,7 +44,8 @@ TEST(NoiseTest, SmoothMisfitCountsAsFewSamples) {
         0.03 * std::sqrt(2.0) *
         std::sin(3 * observed.lines_of_sight[static_cast<std::size_t>(i)].stated.view_zenith);
   }
-  const Noise noise = estimate_noise(observed, kLog, whitened(residual), 9);
+  const Noise noise =
+      estimate_noise(observed, kLog, whitened(residual), Eigen::VectorXd::Ones(residual.size()), 9);
   EXPECT_LT(noise.effective_samples, 0.15 * static_cast<double>(count));
   EXPECT_GT(noise.effective_samples, observed.scans.size());
   EXPECT_GT(sigma_log(noise), 2 * 0.03);
@@ -52,7 +54,8 @@ TEST(NoiseTest, SmoothMisfitCountsAsFewSamples) {
 TEST(NoiseTest, VanishingResidualsStopAtTheFloor) {
   const Dataset observed = data();
   const auto count = static_cast<Eigen::Index>(observed.samples.size());
-  const Noise noise = estimate_noise(observed, kLog, Eigen::VectorXd::Zero(count), 9);
+  const Noise noise =
+      estimate_noise(observed, kLog, Eigen::VectorXd::Zero(count), Eigen::VectorXd::Ones(count), 9);
   EXPECT_DOUBLE_EQ(sigma_log(noise), kSmallestSigma);
   EXPECT_NEAR(noise.effective_samples, static_cast<double>(count), 1e-9);
 }
