@@ -15,8 +15,7 @@
 #include "fit/problem/problem.h"
 #include "fit/result/record.h"
 #include "fit/solve/multi_start.h"
-#include "fit/uncertainty/covariance.h"
-#include "fit/uncertainty/noise.h"
+#include "fit/uncertainty/at_solution.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::fit {
@@ -133,25 +132,11 @@ class Fit {
     return result;
   }
 
-  // Of the solution with a factor, by which the loss leaves its weights and the priors hold. The
-  // derivatives are asked for next.
-  Noise noise_at(const Problem& problem, Evaluations& at, const Eigen::VectorXd& scaled,
-                 double factor) {
-    const Whitened white = whiten(at.data(), problem.likelihood, at.at(scaled, true), factor);
-    const Eigen::VectorXd weights = problem.loss_weights(at.data(), white.residual);
-    const double determined =
-        uncertainty(variables_of(problem), scaled, weighted(white, weights)).determined;
-    return estimate_noise(at.data(), problem.likelihood, factor * white.residual, weights,
-                          determined + problem.profiled_scales());
-  }
-
-  static std::vector<Variable> variables_of(const Problem& problem) {
-    return {problem.unknowns.begin(), problem.unknowns.end()};
-  }
-
-  // The Jacobian with what the loss leaves.
-  static Eigen::MatrixXd weighted(const Whitened& white, const Eigen::VectorXd& weights) {
-    return weights.cwiseSqrt().asDiagonal() * white.jacobian_per_unit;
+  // Of the solution with a factor. The derivatives are asked for next.
+  static Noise noise_at(const Problem& problem, Evaluations& at, const Eigen::VectorXd& scaled,
+                        double factor) {
+    return noise_of(problem, at.data(),
+                    at_solution(problem, at.data(), at.at(scaled, true), scaled, factor), factor);
   }
 
   // `all`: evaluations of all that is fitted.
@@ -259,27 +244,27 @@ class Fit {
 
   // The fit weighs with sigma * factor; under the linear link the residuals vary as the noise says.
   Uncertainty uncertainty_at(const Problem& problem, const Eigen::VectorXd& scaled,
-                             const Eigen::MatrixXd& jacobian) const {
-    const std::vector<Variable> variables = variables_of(problem);
-    const Uncertainty independent = uncertainty(variables, scaled, jacobian);
+                             const AtSolution& at) const {
     const bool correlated = noise_.length != 0 || noise_.wavelength_correlation != 0;
-    if (problem.likelihood.link == Link::kLog || !correlated) return independent;
+    if (problem.likelihood.link == Link::kLog || !correlated) return at.independent;
     const double variance = std::pow(noise_.independent_factor / noise_.factor, 2);
     const Dataset sky = only_sky(problem.fitted);
     const auto of_sky = static_cast<Eigen::Index>(sky.samples.size());
-    Eigen::MatrixXd spread = jacobian;  // irradiances beside the sky vary by themselves, as stated
-    spread.topRows(of_sky) = variance * times_correlation(sky, noise_, jacobian.topRows(of_sky));
-    return with_correlated_residuals(independent, variables, scaled, jacobian.transpose() * spread);
+    Eigen::MatrixXd spread = at.jacobian;  // irradiances beside the sky vary by themselves
+    spread.topRows(of_sky) = variance * times_correlation(sky, noise_, at.jacobian.topRows(of_sky));
+    return with_correlated_residuals(at.independent,
+                                     {problem.unknowns.begin(), problem.unknowns.end()}, scaled,
+                                     at.jacobian.transpose() * spread);
   }
 
   void describe_uncertainty(const Problem& problem, const SampleValues& values,
                             const Eigen::VectorXd& scaled) {
     const SkyState fitted = problem.state(scaled);
-    const Whitened white = whiten(problem.fitted, problem.likelihood, values, noise_.factor);
-    const Eigen::VectorXd weights = problem.loss_weights(problem.fitted, white.residual);
-    const Uncertainty uncertain = uncertainty_at(problem, scaled, weighted(white, weights));
+    const AtSolution at = at_solution(problem, problem.fitted, values, scaled, noise_.factor);
+    const Eigen::VectorXd& weights = at.weights;
+    const Uncertainty uncertain = uncertainty_at(problem, scaled, at);
     describe_unknowns(problem, fitted, uncertain);
-    Eigen::VectorXd assumed = white.residual;  // in the sigmas that were stated or assumed
+    Eigen::VectorXd assumed = at.residual;  // in the sigmas that were stated or assumed
     for (std::size_t i = 0; i < problem.fitted.samples.size(); ++i) {
       if (!problem.fitted.samples[i].beside_sky)
         assumed(static_cast<Eigen::Index>(i)) *= noise_.factor;

@@ -302,16 +302,17 @@ void add_checks(xml_node body, const Result& result, const Checks& checks) {
   if (!checks.profiles.empty()) {
     add_section(body, "Profile likelihoods");
     xml_node table = add_table(body, {"unknown", "unit", "68 %", "95 %"});
-    const auto interval = [](const Interval& i) {
-      return fmt::format("{} to {}", number_text(i.lower), number_text(i.upper));
-    };
     for (const Profile& profile : checks.profiles)
-      add_row(table, {profile.name, profile.unit, interval(profile.percent68),
-                      interval(profile.percent95)});
+      add_row(table, {profile.name, profile.unit, interval_text(profile, profile.percent68),
+                      interval_text(profile, profile.percent95)});
   }
   if (checks.bootstrap) {
     add_section(body, fmt::format("Bootstrap over the directions, {} repetitions, {} failed",
                                   checks.bootstrap->repetitions, checks.bootstrap->failed));
+    add(body, "p",
+        "Directions are drawn one by one: sigma is too small where the residuals of neighbours "
+        "agree. Priors are not drawn.",
+        "small");
     xml_node table = add_table(body, {"unknown", "mean", "sigma", "sigma of covariance"});
     for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
       add_row(table, {result.unknowns[u].unknown.name(), number_text(checks.bootstrap->mean[u]),

@@ -208,10 +208,9 @@ std::string findings_text(const Result& result) {
 std::string profiles_text(const std::vector<Profile>& profiles) {
   std::string text;
   for (const Profile& profile : profiles) {
-    text += fmt::format("Profile likelihood of {}, {}: 68 % {} .. {}, 95 % {} .. {}\n",
-                        profile.name, profile.unit, number_text(profile.percent68.lower),
-                        number_text(profile.percent68.upper), number_text(profile.percent95.lower),
-                        number_text(profile.percent95.upper));
+    text += fmt::format("Profile likelihood of {}, {}: 68 % {}, 95 % {}\n", profile.name,
+                        profile.unit, interval_text(profile, profile.percent68),
+                        interval_text(profile, profile.percent95));
     for (std::size_t i = 0; i < profile.value.size(); ++i)
       text += fmt::format("  {:>12}  chi^2 + {:.4g}\n", number_text(profile.value[i]),
                           profile.chi_square[i]);
@@ -222,8 +221,9 @@ std::string profiles_text(const std::vector<Profile>& profiles) {
 
 std::string bootstrap_text(const Result& result, const Bootstrap& bootstrap) {
   std::string text = fmt::format(
-      "Bootstrap over the directions (not the priors), {} "
-      "repetitions{}\n{:<32}{:>12}{:>12}{:>22}\n",
+      "Bootstrap over the directions (not the priors), {} repetitions{}; drawn one by one, so "
+      "that\n"
+      "its sigma is too small where the residuals of neighbours agree\n{:<32}{:>12}{:>12}{:>22}\n",
       bootstrap.repetitions,
       bootstrap.failed > 0 ? fmt::format(", {} failed", bootstrap.failed) : "", "unknown", "mean",
       "sigma", "sigma of covariance");

@@ -112,6 +112,15 @@ std::string errors_meaning(const Result& result) {
       kMostPercent, value_name(result), value_meaning);
 }
 
+std::string interval_text(const Profile& profile, const Interval& interval) {
+  if (profile.value.empty()) return "-";
+  const auto end = [](double value, double last) {
+    return std::isfinite(value) ? number_text(value) : "beyond " + number_text(last);
+  };
+  return fmt::format("{} to {}", end(interval.lower, profile.value.front()),
+                     end(interval.upper, profile.value.back()));
+}
+
 std::string hold_outs_meaning() {
   return "A scan left out is predicted with the mean instrument of the others (a profiled scale is "
          "its own),\nthen with its own pointing fitted.\n";

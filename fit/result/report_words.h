@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fit/result/result.h"
+#include "fit/uncertainty/checks.h"
 
 namespace skyfit::fit {
 
@@ -33,6 +34,8 @@ std::string irradiances_title(const Result& result);
 std::string sigma_text(const Result& result);
 // What "RMS of log", "luminance", "spectral" and "own" errors are.
 std::string errors_meaning(const Result& result);
+// Both ends of an interval of a profile; "beyond" its last value where it ends before.
+std::string interval_text(const Profile& profile, const Interval& interval);
 std::string hold_outs_meaning();
 // "1 scan", "3 scans".
 std::string counted(std::ptrdiff_t count, std::string_view noun);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "fit/problem/problem.h"
+#include "fit/uncertainty/at_solution.h"
 
 namespace skyfit::fit {
 namespace {
@@ -28,19 +29,6 @@ Eigen::VectorXd scaled_solution(const Result& result) {
   return scaled;
 }
 
-// What is fitted again, and the factor on its sigma. Where neighbouring wavelengths agree, few of
-// them hold what all do, and weigh as all did; where noise is known all are taken.
-struct Repeated {
-  const Dataset& data;
-  double factor;
-};
-Repeated repeated(const Problem& problem, const Result& result) {
-  if (problem.likelihood.noise_is_known) return {problem.fitted, result.sigma_factor};
-  return {problem.medium,
-          result.sigma_factor * std::sqrt(static_cast<double>(problem.medium.samples.size()) /
-                                          static_cast<double>(problem.fitted.samples.size()))};
-}
-
 SolverLimits limits_of(const FitOptions& options) { return {options.max_iterations, kTolerance}; }
 
 // Where the profile crosses `level` between the smallest value and the end in direction `step`.
@@ -48,14 +36,33 @@ double crossing(const Profile& profile, double level, int step) {
   const auto smallest =
       static_cast<int>(std::ranges::min_element(profile.chi_square) - profile.chi_square.begin());
   const int count = static_cast<int>(profile.value.size());
+  const bool is_bottom = smallest > 0 && smallest + 1 < count;
   for (int i = smallest; i + step >= 0 && i + step < count; i += step) {
     const auto at = static_cast<std::size_t>(i), next = static_cast<std::size_t>(i + step);
     if (profile.chi_square[next] < level) continue;
-    // The square root of a parabola is linear.
-    const double a = std::sqrt(profile.chi_square[at]), b = std::sqrt(profile.chi_square[next]);
-    return std::lerp(profile.value[at], profile.value[next], (std::sqrt(level) - a) / (b - a));
+    double a = profile.chi_square[at], b = profile.chi_square[next], crossed = level;
+    // The square root of a parabola is linear; from a bound, which is no bottom, chi^2 itself is.
+    if (is_bottom) {
+      for (double* const value : {&a, &b, &crossed}) *value = std::sqrt(*value);
+    }
+    return std::lerp(profile.value[at], profile.value[next], (crossed - a) / (b - a));
   }
   return kNan;
+}
+
+// How much the variance of an unknown under the residuals' correlation (12.6) exceeds that of
+// independent ones (12.5), which the profile is of. 1 where it has no sigma.
+double variance_ratio(const Problem& problem, const Result& result, const Eigen::VectorXd& solution,
+                      std::size_t index) {
+  if (problem.likelihood.link == Link::kLog || problem.likelihood.noise_is_known) return 1;
+  const SampleValues values =
+      sky_values(*problem.model, problem.fitted, problem.state(solution), problem.unknowns);
+  const Uncertainty independent =
+      at_solution(problem, problem.fitted, values, solution, result.sigma_factor).independent;
+  const double ratio = std::pow(result.unknowns[index].sigma *
+                                    problem.unknowns[index].unit_value() / independent.sigma[index],
+                                2);
+  return std::isfinite(ratio) ? ratio : 1;
 }
 
 // Three sigmas on both sides in eight steps; without a sigma, 15 % of the range of its bounds.
@@ -172,14 +179,50 @@ SkyState with_own_pointing(Problem problem, const refs::Reference& held,
   return problem.state(minimum.scaled);
 }
 
+struct Refitted {
+  double factor;
+  Eigen::VectorXd scaled;
+};
+
+// What is kept, fitted from the solution of all: its medium wavelengths, which weigh as all did.
+// Where priors hold something their share follows the noise of what is kept alone.
+Refitted fitted_to_kept(const Problem& kept, const Problem& whole, const Result& result,
+                        const FitOptions& options) {
+  const Eigen::VectorXd solution = scaled_solution(result);
+  const bool known = kept.likelihood.noise_is_known;
+  const Dataset& data = known ? kept.fitted : kept.medium;
+  const double share = known ? 1
+                             : std::sqrt(static_cast<double>(kept.medium.samples.size()) /
+                                         static_cast<double>(kept.fitted.samples.size()));
+  Refitted refitted{share * result.sigma_factor, {}};
+  const auto solve_from = [&](const Eigen::VectorXd& start) {
+    refitted.scaled = kept.solve(data, start, refitted.factor, limits_of(options)).scaled;
+  };
+  solve_from(solution);
+  const bool has_priors = std::ranges::any_of(
+      kept.unknowns, [](const Unknown& unknown) { return unknown.prior.has_value(); });
+  if (known || !has_priors) return refitted;
+  const auto noise = [&](const Problem& problem, const Eigen::VectorXd& scaled) {
+    const SampleValues values =
+        sky_values(*problem.model, problem.medium, problem.state(scaled), problem.unknowns);
+    return noise_of(problem, problem.medium,
+                    at_solution(problem, problem.medium, values, scaled, refitted.factor),
+                    refitted.factor)
+        .factor;
+  };
+  refitted.factor *= noise(kept, refitted.scaled) / noise(whole, solution);
+  solve_from(Eigen::VectorXd(refitted.scaled));
+  return refitted;
+}
+
 HoldOut held_out(const SpectralData& spectra, const SkyModel& model, const FitOptions& options,
                  const Result& result, const Marks& marked, const std::string& name) {
   const refs::Reference kept = without(result.reference, marked, false);
   const refs::Reference held = without(result.reference, marked, true);
   const Problem problem = make_problem(kept, spectra, model, options);
-  const auto [data, factor] = repeated(problem, result);
-  const Minimum minimum = problem.solve(data, scaled_solution(result), factor, limits_of(options));
-  SkyState state = problem.state(minimum.scaled);
+  const auto [factor, scaled] = fitted_to_kept(
+      problem, make_problem(result.reference, spectra, model, options), result, options);
+  SkyState state = problem.state(scaled);
   std::vector<bool> left_out(state.instrument.size(), true);
   for (const LineOfSight& line : problem.fitted.lines_of_sight)
     left_out[static_cast<std::size_t>(line.scan)] = false;
@@ -204,19 +247,20 @@ Profile profile_likelihood(const SpectralData& spectra, const SkyModel& model,
   Problem others = whole;
   others.unknowns.erase(others.unknowns.begin() + static_cast<std::ptrdiff_t>(index));
   Profile profile{std::string(name), std::string(unknown.unit()), {}, {}, {}, {}};
-  const auto [data, factor] = repeated(others, result);
   for (const double scaled : scaled_grid(result.unknowns[index], solution(at))) {
     others.start =
         with_unknowns(whole.state(solution), {unknown}, Eigen::VectorXd::Constant(1, scaled));
     const double value = unknown.value(scaled);
     const double pull = unknown.prior ? (value - unknown.prior->mean) / unknown.prior->sigma : 0.0;
-    const Minimum minimum = others.solve(data, scaled_values(others.unknowns, others.start), factor,
-                                         limits_of(options));
+    const Minimum minimum =
+        others.solve(others.fitted, scaled_values(others.unknowns, others.start),
+                     result.sigma_factor, limits_of(options));
     profile.value.push_back(value / unknown.unit_value());
     profile.chi_square.push_back(2 * minimum.cost + pull * pull);
   }
   const double smallest = *std::ranges::min_element(profile.chi_square);
-  for (double& value : profile.chi_square) value -= smallest;
+  const double ratio = variance_ratio(whole, result, solution, index);
+  for (double& value : profile.chi_square) value = (value - smallest) / ratio;
   profile.percent68 = {crossing(profile, 1, -1), crossing(profile, 1, 1)};
   profile.percent95 = {crossing(profile, 3.841, -1), crossing(profile, 3.841, 1)};
   return profile;
@@ -225,16 +269,16 @@ Profile profile_likelihood(const SpectralData& spectra, const SkyModel& model,
 Bootstrap bootstrap(const SpectralData& spectra, const SkyModel& model, const FitOptions& options,
                     const Result& result, int repetitions, std::uint64_t seed) {
   const Problem problem = make_problem(result.reference, spectra, model, as_pointed(options));
-  const auto [data, factor] = repeated(problem, result);
   const Eigen::VectorXd solution = scaled_solution(result);
   const std::size_t count = problem.unknowns.size();
   std::mt19937_64 generator(seed);
   Bootstrap outcome{repetitions, 0, std::vector(count, 0.0), std::vector(count, 0.0)};
   std::vector<Eigen::VectorXd> values;
   for (int k = 0; k < repetitions; ++k) {
-    const Dataset drawn = resampled(data, generator);
+    const Dataset drawn = resampled(problem.fitted, generator);
     try {
-      const Minimum minimum = problem.solve(drawn, solution, factor, limits_of(options));
+      const Minimum minimum =
+          problem.solve(drawn, solution, result.sigma_factor, limits_of(options));
       Eigen::VectorXd value(static_cast<Eigen::Index>(count));
       for (std::size_t u = 0; u < count; ++u) {
         const auto i = static_cast<Eigen::Index>(u);

@@ -85,5 +85,41 @@ TEST_F(ChecksTest, HoldOutsSeeTheNoise) {
   for (const HoldOut& held : parts) EXPECT_NEAR(held.predicted.spectral, 2, 0.6) << held.name;
 }
 
+// Residuals that agree with their neighbours widen sigma, and the profile with it.
+TEST_F(ChecksTest, ProfileIsAsWideAsSigmaUnderCorrelation) {
+  for (refs::Sample& sample : reference.samples)
+    sample.value *= 1 + 0.06 * std::cos(2 * sample.relative_azimuth);
+  options.noise.reset();
+  const Result correlated = fit_atmosphere(reference, spectra, model, options);
+  ASSERT_LT(correlated.effective_samples, 0.5 * correlated.samples);
+  const UnknownRow& row = correlated.unknowns[2];
+  const Profile profile =
+      profile_likelihood(spectra, model, options, correlated, row.unknown.name());
+  EXPECT_NEAR((profile.percent68.upper - profile.percent68.lower) / (2 * row.sigma), 1, 0.1);
+}
+
+// With priors and unknown noise: what is left out leaves no trace in the share of the priors.
+TEST_F(ChecksTest, HoldOutsAreThoseOfAFitOfTheRest) {
+  for (refs::Sample& sample : reference.samples) {
+    if (sample.scan == 1) sample.value *= 1.5;
+  }
+  options.noise.reset();
+  options.use_priors = true;
+  options.pointing = Pointing::kStated;
+  options.priors = {{Parameter::kMieScattering, Prior{2e-4, 4e-5}}};
+  const std::vector<HoldOut> held = leave_one_scan_out(
+      spectra, model, options, fit_atmosphere(reference, spectra, model, options));
+  const auto of_scan = [&](int scan) {
+    refs::Reference kept = reference;
+    for (refs::Sample& sample : kept.samples) {
+      if (sample.scan != scan) sample.weight = 0;
+    }
+    return kept;
+  };
+  const Result first = fit_atmosphere(of_scan(0), spectra, model, options);
+  const double alone = errors_of(of_scan(1), first.model, spectra).spectral;
+  EXPECT_NEAR(held[1].predicted.spectral / alone, 1, 0.01);
+}
+
 }  // namespace
 }  // namespace skyfit::fit

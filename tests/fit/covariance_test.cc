@@ -49,6 +49,20 @@ TEST(UncertaintyTest, IdentifiableWhenTheDataSayMoreThanThePrior) {
   EXPECT_TRUE(uncertainty(variables, kMiddle, strong).identifiable[0]);
 }
 
+// Of one variable a / (a + b), with a and b the data's and the prior's inverse variances; at a
+// bound none.
+TEST(UncertaintyTest, CountsWhatTheDataDetermine) {
+  constexpr double kData = 12, kPrior = 4;
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Constant(1, 1, std::sqrt(kData));
+  const auto determined = [&](std::optional<Prior> prior, double scaled) {
+    return uncertainty({{0, 1, false, prior}}, Eigen::VectorXd::Constant(1, scaled), jacobian)
+        .determined;
+  };
+  EXPECT_NEAR(determined(Prior{0.3, 1 / std::sqrt(kPrior)}, 0.5), kData / (kData + kPrior), 1e-12);
+  EXPECT_NEAR(determined(std::nullopt, 0.5), 1, 1e-12);
+  EXPECT_EQ(determined(std::nullopt, 1), 0);
+}
+
 // Two equal columns without prior: both open, the third parameter keeps its sigma, no matrix.
 TEST(UncertaintyTest, SingularDirectionIsReported) {
   const std::vector<Variable> variables = {{5000, 12000, true, std::nullopt},

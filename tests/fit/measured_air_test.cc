@@ -77,6 +77,7 @@ TEST(MeasuredAir, IsNotThatOfRelativeLuminancesAndPresets) {
 // By default parameters of `mie` are free; an aerosol of another name stays, and that is said.
 TEST(MeasuredAir, AnAerosolOfAnotherNameThatStaysIsSaid) {
   FitOptions options;
+  options.lobes = 1;
   options.start = power_law_air();
   EXPECT_THAT(problem_of(scans(), options).assumptions, IsEmpty());
   options.start->atmosphere.at("mie").name = "dust";

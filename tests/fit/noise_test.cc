@@ -60,5 +60,26 @@ TEST(NoiseTest, VanishingResidualsStopAtTheFloor) {
   EXPECT_NEAR(noise.effective_samples, static_cast<double>(count), 1e-9);
 }
 
+// Outliers to which a loss leaves nothing are as if they were not there.
+TEST(NoiseTest, SamplesWithoutWeightDoNotCount) {
+  const Dataset observed = data();
+  const auto count = static_cast<Eigen::Index>(observed.samples.size());
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal(0, 0.03);
+  Eigen::VectorXd residual(count), weights = Eigen::VectorXd::Ones(count);
+  for (double& value : residual) value = normal(generator);
+  double squares = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (i % 10 == 0) {
+      residual(i) = 5;
+      weights(i) = 0;
+    }
+    squares += weights(i) * residual(i) * residual(i);
+  }
+  const Noise noise = estimate_noise(observed, kLog, whitened(residual), weights, 9);
+  EXPECT_NEAR(noise.independent_factor * kLog.noise.relative,
+              std::sqrt(squares / (weights.sum() - 9)), 1e-12);
+}
+
 }  // namespace
 }  // namespace skyfit::fit

@@ -175,5 +175,27 @@ TEST(OptionsTest, StartAtAnotherWavelengthIsTheSameAtmosphere) {
               1, 1e-9);
 }
 
+// A preset's one lobe stays where no parameter of two is free; its asymmetry may be named. Where
+// they are free two are fitted, and the report says so.
+TEST(OptionsTest, OneLobeOfAPresetStaysUnlessTwoAreFitted) {
+  const refs::Reference reference = synthetic_reference(true_atmosphere(1), 0.02);
+  const auto result = [&](std::vector<Parameter> free, std::map<Parameter, double> fix) {
+    FitOptions options;
+    options.starts = 1;
+    options.start = Preset{"one lobe", true_atmosphere(1), {}};
+    options.free = std::move(free);
+    options.fix = std::move(fix);
+    return fit_atmosphere(reference, refs::standard_spectral_data(), ToySky(), options);
+  };
+  const Result amount = result({Parameter::kMieScattering}, {});
+  EXPECT_EQ(amount.preset.atmosphere.at("mie").phase.type, PhaseType::kCornetteShanks);
+  EXPECT_EQ(amount.preset.atmosphere.at("mie").phase.g, 0.6);
+  const Result named = result({Parameter::kMieScattering}, {{Parameter::kMiePhaseG, 0.5}});
+  EXPECT_EQ(named.preset.atmosphere.at("mie").phase.g, 0.5);
+  const Result two = result({Parameter::kMieScattering, Parameter::kMiePhaseG1}, {});
+  EXPECT_EQ(two.preset.atmosphere.at("mie").phase.type, PhaseType::kTwoLobe);
+  EXPECT_THAT(two.reference.notes, testing::Contains(HasSubstr("two lobes in place of the one")));
+}
+
 }  // namespace
 }  // namespace skyfit::fit
