@@ -58,6 +58,17 @@ void check_comments(const SkyFile& file, std::vector<std::string>& notes) {
   }
 }
 
+// The columns of samples say their unit; another one stated beside them contradicts them.
+void check_unit(std::string_view source, std::string_view stated, const Reference& samples) {
+  const std::optional<Unit> unit = find_unit(stated);
+  const bool agrees = unit && unit->quantity == samples.quantity &&
+                      (unit->factor == 1 || samples.quantity == Quantity::kRelativeLuminance);
+  if (agrees) return;
+  throw std::invalid_argument(
+      fmt::format("{}: unit = {}: expected none, the columns say that it is {}", source, stated,
+                  quantity_name(samples.quantity)));
+}
+
 Reference read_samples(const SkyFile& file, const ImportOptions& facts) {
   constexpr auto kNone = std::string_view::npos;
   const std::string_view line = file.line();
@@ -192,6 +203,8 @@ Reference load_measured_sky(const std::filesystem::path& path, const ImportOptio
           "{}: {}: expected none beside columns of luminance; \"times\" and \"plus\" of a column "
           "change its values",
           file.name(), row.name));
+    if (format.format == kSampleCsv && row.name == "unit")
+      check_unit(file.name(), *facts.unit, sky);
     sky.notes.push_back(row.name + " is not used: it is not about this format");
   }
   return sky;

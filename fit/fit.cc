@@ -281,8 +281,36 @@ class Fit {
       result_.sigma[sample.index] =
           sample.sigma * (sample.beside_sky ? 1 : noise_.independent_factor);
     }
+    if (problem.likelihood.loss == Loss::kNone) note_outliers(problem, at.residual);
     result_.downweighted = static_cast<int>(
         std::ranges::count_if(result_.loss_weight, [](double w) { return w < 0.5; }));
+  }
+
+  // Samples that no noise explains, as of an obstruction, and that take part in the fit in full.
+  void note_outliers(const Problem& problem, const Eigen::VectorXd& residual) {
+    constexpr double kFar = 8;           // of what samples scatter by
+    constexpr double kMostShare = 0.05;  // of the samples: more are a misfit
+    constexpr double kRounding = 0.02;   // of sigma: less is not noise
+    const Dataset sky = only_sky(problem.fitted);
+    Eigen::ArrayXd far = residual.head(static_cast<Eigen::Index>(sky.samples.size())).array().abs();
+    std::vector<double> sorted(far.begin(), far.end());
+    const auto median = sorted.begin() + std::ssize(sorted) / 2;
+    std::ranges::nth_element(sorted, median);
+    far /= std::max(1.4826 * *median, kRounding);  // of a normal distribution: its deviation
+    const auto count = (far > kFar).count();
+    if (count == 0 ||
+        static_cast<double>(count) > std::max(1.0, kMostShare * static_cast<double>(far.size())))
+      return;
+    Eigen::Index worst = 0;
+    const double largest = far.maxCoeff(&worst);
+    const refs::Sample& sample =
+        result_.reference.samples[sky.samples[static_cast<std::size_t>(worst)].index];
+    result_.reference.notes.push_back(fmt::format(
+        "{} more than {:g} times as far off as samples scatter, most of all {:.2g} times at view "
+        "zenith {:.4g} deg, azimuth {:.4g} deg from the sun: an obstruction, or a misfit there; "
+        "--loss takes weight from such samples",
+        count == 1 ? "1 sample is" : fmt::format("{} samples are", count), kFar, largest,
+        sample.view_zenith * kDegreesPerRadian, sample.relative_azimuth * kDegreesPerRadian));
   }
 
   void describe_unknowns(const Problem& problem, const SkyState& fitted,

@@ -8,6 +8,7 @@
 #include <ranges>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "fit/problem/starts.h"
@@ -200,6 +201,25 @@ std::vector<std::string> assumptions(const refs::Reference& reference, const Fit
                   "sea's level, {} hPa, by default (elevation_m, --site-pressure-hpa)",
                   kStandardPressureHpa));
   return notes;
+}
+
+std::optional<std::string> repeated_samples(const Dataset& data) {
+  std::set<std::tuple<double, double, double, int, double, int>> readings;
+  std::size_t repeated = 0;
+  for (const Sample& sample : data.samples) {
+    if (sample.irradiance) continue;
+    const SkyPoint& at = data.views[static_cast<std::size_t>(sample.view)].stated;
+    const int kind = sample.polarisation ? 1 + static_cast<int>(*sample.polarisation) : 0;
+    repeated += !readings
+                     .insert({at.sun_zenith, at.view_zenith, at.relative_azimuth, sample.channel,
+                              sample.value, kind})
+                     .second;
+  }
+  if (repeated == 0) return {};
+  return fmt::format(
+      "{} of {} samples repeat the direction, wavelength and value of another; each counts as a "
+      "reading of its own",
+      repeated, data.samples.size());
 }
 
 std::optional<std::string> held_aerosol(const FitOptions& options, const SkyModel& model,

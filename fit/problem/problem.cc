@@ -299,6 +299,7 @@ Problem make_problem(const refs::Reference& reference, const SpectralData& spect
   if (const auto note = polarisation_left_out(reference, model))
     problem.assumptions.push_back(*note);
   add_datasets(reference, spectra, model, options, problem);
+  if (auto note = repeated_samples(problem.fitted)) problem.assumptions.push_back(std::move(*note));
   const Atmosphere<double> given = given_atmosphere(reference, options);
   const Pointing pointing = pointing_of(options, reference);
   const bool several_wavelengths = only_sky(problem.fitted).channels.size() > 1 &&

@@ -171,11 +171,15 @@ std::string sigma_text(const Result& result) {
     text = fmt::format(
         "One sigma is from the residuals and the priors: {:.3g} % per sample, {:.3g} times what is "
         "assumed.\nCorrelated as the residuals are, {} samples{} count as {:.3g} independent "
-        "ones.\n"
-        "chi^2 per degree of freedom under the assumed noise: {:.4g}.\n",
+        "ones.\n{}",
         result.sigma_percent, result.sigma_factor, result.samples + readings,
         readings > 0 ? fmt::format(" ({} of polarisation)", readings) : "",
-        result.effective_samples, result.chi_square_per_dof);
+        result.effective_samples,
+        std::isfinite(result.chi_square_per_dof)
+            ? fmt::format("chi^2 per degree of freedom under the assumed noise: {:.4g}.\n",
+                          result.chi_square_per_dof)
+            : "Data and priors determine as much as there is: the residuals do not show the "
+              "noise.\n");
   }
   return text +
          "\"not identifiable\": the data say less about the unknown than its prior (without one: "

@@ -127,6 +127,9 @@ TEST_F(BadInputTest, SamplesWithTheWrongUnit) {
         "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,luminance_kcd_m2\n30,10,0,5\n");
   expect_fit_refusal("unit.csv", {"unit.csv:1", "luminance_kcd_m2", "luminance_cd_m2"});
   expect_refusal({"check", "unit.csv"}, {"unit.csv:1", "luminance_kcd_m2"});
+  write("sky.csv",
+        "sun_zenith_deg,view_zenith_deg,relative_azimuth_deg,luminance_cd_m2\n40,30,20,5000\n");
+  expect_refusal({"check", "sky.csv", "--unit", "kcd/m2"}, {"sky.csv: unit = kcd", "luminance"});
   write("word.csv", kHeader + std::string("30,10,0,bright\n"));
   expect_fit_refusal("word.csv", {"word.csv:2", "luminance_cd_m2", "bright"});
 }

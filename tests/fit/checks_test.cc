@@ -121,5 +121,18 @@ TEST_F(ChecksTest, HoldOutsAreThoseOfAFitOfTheRest) {
   EXPECT_NEAR(held[1].predicted.spectral / alone, 1, 0.01);
 }
 
+// A direction that an obstruction darkens, and a reading that is there twice.
+TEST_F(ChecksTest, SamplesThatNoNoiseExplainsAndRepeatedOnesAreNoted) {
+  EXPECT_THAT(result.reference.notes, testing::IsEmpty());
+  reference.samples[40].value *= 0.6;
+  reference.samples.push_back(reference.samples[7]);
+  const Result noted = fit_atmosphere(reference, spectra, model, options);
+  EXPECT_THAT(noted.reference.notes,
+              testing::UnorderedElementsAre(
+                  testing::HasSubstr("1 of 193 samples repeat the direction, wavelength and value"),
+                  testing::AllOf(testing::HasSubstr("more than 8 times as far off"),
+                                 testing::HasSubstr("zenith 45 deg"))));
+}
+
 }  // namespace
 }  // namespace skyfit::fit

@@ -173,5 +173,14 @@ TEST(IrradianceFit, IrradiancesHaveNoPointing) {
       ThrowsMessage<std::invalid_argument>(HasSubstr("fit.pointing = azimuth: must be stated")));
 }
 
+// Two values that no atmosphere has, with a known noise of 1 %: what is at a bound leaves a degree
+// of freedom, and chi^2 says that they contradict each other.
+TEST(IrradianceFit, ContradictingValuesShowInChiSquare) {
+  const Result result = fit_atmosphere(reference_of("direct=80000:800lx,diffuse=30000:300lx"),
+                                       refs::standard_spectral_data(), *scalar_reference(), {});
+  EXPECT_TRUE(result.unknown("mie.single_scattering_albedo").at_bound);
+  EXPECT_GT(result.chi_square_per_dof, 10);
+}
+
 }  // namespace
 }  // namespace skyfit::fit
