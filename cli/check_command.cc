@@ -176,6 +176,8 @@ std::string not_used_text(const json& summary) {
 std::string wavelengths_text(const json& summary) {
   const json& wavelengths = summary["wavelengths_nm"];
   if (wavelengths.empty()) return "";
+  if (wavelengths.size() == 1)
+    return fmt::format(" at {:.9g} nm", wavelengths.front().get<double>());
   return fmt::format(" at {} wavelengths from {:.9g} to {:.9g} nm", wavelengths.size(),
                      wavelengths.front().get<double>(), wavelengths.back().get<double>());
 }

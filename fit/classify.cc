@@ -11,6 +11,7 @@
 
 #include "fit/problem/likelihood.h"
 #include "fit/solve/least_squares.h"
+#include "model/base/counted.h"
 #include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 
@@ -249,9 +250,10 @@ Classification classify(const refs::Reference& reference, const SpectralData& sp
 }
 
 std::string classification_text(const Classification& classification) {
-  std::string text = fmt::format(
-      "{} directions of {} scans; RMS of log(formula / measured), percent, above {:g} a factor\n",
-      classification.directions, classification.scans.size(), kMostPercent);
+  std::string text =
+      fmt::format("{} of {}; RMS of log(formula / measured), percent, above {:g} a factor\n",
+                  counted(classification.directions, "direction"),
+                  counted(std::ssize(classification.scans), "scan"), kMostPercent);
   for (const SkyMatch& match : classification.types) {
     text += fmt::format("type {:>2} {:>7}  {}{}\n", match.sky.type,
                         log_misfit_digits(match.rms_log_percent, 3), match.sky.description,

@@ -16,6 +16,7 @@
 #include "fit/problem/starts.h"
 #include "fit/result/errors.h"
 #include "fit/result/record.h"
+#include "model/base/counted.h"
 #include "model/base/misfit.h"
 #include "model/base/text.h"
 #include "model/numerics/angles.h"
@@ -64,8 +65,8 @@ refs::Reference possible_part(refs::Reference reference, const SkyModel& model,
     }
   }
   for (const auto& [reason, suns] : refusals) {
-    problem += fmt::format("{}{} of {} suns refused: {}", problem.empty() ? "" : "; ", suns,
-                           all.scans.size(), reason);
+    problem += fmt::format("{}{} of {} refused: {}", problem.empty() ? "" : "; ", suns,
+                           counted(std::ssize(all.scans), "sun"), reason);
   }
   if (dark > 0) {
     problem +=

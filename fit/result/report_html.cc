@@ -15,6 +15,7 @@
 #include "fit/result/report.h"
 #include "fit/result/report_style.h"
 #include "fit/result/report_words.h"
+#include "model/base/counted.h"
 #include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 

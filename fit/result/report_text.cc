@@ -9,6 +9,7 @@
 #include "fit/result/record.h"
 #include "fit/result/report.h"
 #include "fit/result/report_words.h"
+#include "model/base/counted.h"
 #include "model/base/misfit.h"
 
 namespace skyfit::fit {

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "data_refs/units.h"
+#include "model/base/counted.h"
 #include "model/base/misfit.h"
 #include "model/numerics/angles.h"
 
@@ -57,10 +58,6 @@ std::string scan_name(const Result& result, std::size_t scan) {
   const std::string name = info.name.substr(info.name.rfind('/') + 1);
   return fmt::format("[{}] {}, sun {:.4g} deg", scan + 1, name.substr(0, 24),
                      info.sun_zenith * kDegreesPerRadian);
-}
-
-std::string counted(std::ptrdiff_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 std::string effort_text(const Result& result) {

@@ -2,7 +2,6 @@
 // Sentences and cells that the reports as text and as a page share.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +36,6 @@ std::string errors_meaning(const Result& result);
 // Both ends of an interval of a profile; "beyond" its last value where it ends before.
 std::string interval_text(const Profile& profile, const Interval& interval);
 std::string hold_outs_meaning();
-// "1 scan", "3 scans".
-std::string counted(std::ptrdiff_t count, std::string_view noun);
 // "4 iterations of all 3 starts; 20 model solutions, 8 with derivatives".
 std::string effort_text(const Result& result);
 // A sentence for each prior that the misfit overrides; the same lines.
