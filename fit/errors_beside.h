@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a fit is from what it takes beside radiances.
+// How far a fit is from what it takes beside radiances, in the units of errors.h.
 #pragma once
 
 #include <vector>

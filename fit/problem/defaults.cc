@@ -204,13 +204,13 @@ std::vector<std::string> assumptions(const refs::Reference& reference, const Fit
 }
 
 std::optional<std::string> repeated_samples(const Dataset& data) {
-  std::set<std::tuple<double, double, double, int, double, int>> readings;
+  std::set<std::tuple<double, double, double, int, double, int>> known;
   std::size_t repeated = 0;
   for (const Sample& sample : data.samples) {
     if (sample.irradiance) continue;
     const SkyPoint& at = data.views[static_cast<std::size_t>(sample.view)].stated;
     const int kind = sample.polarisation ? 1 + static_cast<int>(*sample.polarisation) : 0;
-    repeated += !readings
+    repeated += !known
                      .insert({at.sun_zenith, at.view_zenith, at.relative_azimuth, sample.channel,
                               sample.value, kind})
                      .second;
@@ -218,7 +218,7 @@ std::optional<std::string> repeated_samples(const Dataset& data) {
   if (repeated == 0) return {};
   return fmt::format(
       "{} of {} samples repeat the direction, wavelength and value of another; each counts as a "
-      "reading of its own",
+      "sample of its own",
       repeated, data.samples.size());
 }
 

@@ -23,8 +23,8 @@ Atmosphere<double> as_given(Atmosphere<double> atmosphere, const FitOptions& opt
 // What is assumed of a measured sky whose site does not state enough, in sentences.
 std::vector<std::string> assumptions(const refs::Reference& reference, const FitOptions& options);
 
-// A sentence where samples are the same reading as others: of one direction from one sun, one
-// wavelength and one value.
+// A sentence where samples repeat others: of one direction under one sun, one wavelength and one
+// value.
 std::optional<std::string> repeated_samples(const Dataset& data);
 
 // A sentence where nothing is said of what is free, the main aerosol is not named `mie` and so

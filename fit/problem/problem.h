@@ -12,7 +12,7 @@
 
 namespace skyfit::fit {
 
-inline constexpr int kMediumChannels = 12;  // wavelengths of what is repeated
+inline constexpr int kMediumChannels = 12;  // wavelengths of hold-outs
 
 class Evaluations;
 
@@ -20,7 +20,7 @@ struct Problem {
   const SkyModel* model;
   Likelihood likelihood;
   Dataset fitted;  // the samples that are fitted
-  Dataset medium;  // some wavelengths of them, for what is repeated
+  Dataset medium;  // some wavelengths of them, for hold-outs
   Dataset coarse;  // few wavelengths of them, or a coarse rule of luminance, for a search
   Dataset all;     // every sample of the reference
   SkyState given;  // as the options say

@@ -12,7 +12,7 @@ struct AtSolution {
   Eigen::VectorXd residual;  // whitened with the factor, per sample
   Eigen::VectorXd weights;   // what the loss leaves, per sample
   Eigen::MatrixXd jacobian;  // whitened, per unit of the unknowns, times the roots of the weights
-  Uncertainty independent;   // (12.5), of residuals without correlation
+  Uncertainty independent;   // docs/theory (12.5), of residuals without correlation
 };
 
 // `values`: of the model at the point, with derivatives; `factor`: on sigma.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -179,49 +180,63 @@ SkyState with_own_pointing(Problem problem, const refs::Reference& held,
   return problem.state(minimum.scaled);
 }
 
+// What the factor on sigma is times for the medium wavelengths, so that they weigh as all do.
+double medium_share(const Problem& problem) {
+  return std::sqrt(static_cast<double>(problem.medium.samples.size()) /
+                   static_cast<double>(problem.fitted.samples.size()));
+}
+
+// The factor that the residuals of the medium wavelengths show at a point.
+double medium_noise(const Problem& problem, const Eigen::VectorXd& scaled, double factor) {
+  const SampleValues values =
+      sky_values(*problem.model, problem.medium, problem.state(scaled), problem.unknowns);
+  return noise_of(problem, problem.medium,
+                  at_solution(problem, problem.medium, values, scaled, factor), factor)
+      .factor;
+}
+
+// Of all samples, where the share of the priors follows it: not of known noise or without priors.
+std::optional<double> medium_noise_of_all(const SpectralData& spectra, const SkyModel& model,
+                                          const FitOptions& options, const Result& result) {
+  const Problem whole = make_problem(result.reference, spectra, model, options);
+  const bool has_priors = std::ranges::any_of(
+      whole.unknowns, [](const Unknown& unknown) { return unknown.prior.has_value(); });
+  if (whole.likelihood.noise_is_known || !has_priors) return {};
+  return medium_noise(whole, scaled_solution(result), medium_share(whole) * result.sigma_factor);
+}
+
 struct Refitted {
   double factor;
   Eigen::VectorXd scaled;
 };
 
-// What is kept, fitted from the solution of all: its medium wavelengths, which weigh as all did.
+// What is kept, fitted from the solution of all: its medium wavelengths, unless the noise is known.
 // Where priors hold something their share follows the noise of what is kept alone.
-Refitted fitted_to_kept(const Problem& kept, const Problem& whole, const Result& result,
-                        const FitOptions& options) {
-  const Eigen::VectorXd solution = scaled_solution(result);
+Refitted fitted_to_kept(const Problem& kept, std::optional<double> noise_of_all,
+                        const Result& result, const FitOptions& options) {
   const bool known = kept.likelihood.noise_is_known;
   const Dataset& data = known ? kept.fitted : kept.medium;
-  const double share = known ? 1
-                             : std::sqrt(static_cast<double>(kept.medium.samples.size()) /
-                                         static_cast<double>(kept.fitted.samples.size()));
-  Refitted refitted{share * result.sigma_factor, {}};
-  const auto solve_from = [&](const Eigen::VectorXd& start) {
-    refitted.scaled = kept.solve(data, start, refitted.factor, limits_of(options)).scaled;
+  Refitted refitted{(known ? 1 : medium_share(kept)) * result.sigma_factor,
+                    scaled_solution(result)};
+  const auto solve = [&] {
+    refitted.scaled =
+        kept.solve(data, Eigen::VectorXd(refitted.scaled), refitted.factor, limits_of(options))
+            .scaled;
   };
-  solve_from(solution);
-  const bool has_priors = std::ranges::any_of(
-      kept.unknowns, [](const Unknown& unknown) { return unknown.prior.has_value(); });
-  if (known || !has_priors) return refitted;
-  const auto noise = [&](const Problem& problem, const Eigen::VectorXd& scaled) {
-    const SampleValues values =
-        sky_values(*problem.model, problem.medium, problem.state(scaled), problem.unknowns);
-    return noise_of(problem, problem.medium,
-                    at_solution(problem, problem.medium, values, scaled, refitted.factor),
-                    refitted.factor)
-        .factor;
-  };
-  refitted.factor *= noise(kept, refitted.scaled) / noise(whole, solution);
-  solve_from(Eigen::VectorXd(refitted.scaled));
+  solve();
+  if (!noise_of_all) return refitted;
+  refitted.factor *= medium_noise(kept, refitted.scaled, refitted.factor) / *noise_of_all;
+  solve();
   return refitted;
 }
 
 HoldOut held_out(const SpectralData& spectra, const SkyModel& model, const FitOptions& options,
-                 const Result& result, const Marks& marked, const std::string& name) {
+                 const Result& result, std::optional<double> noise_of_all, const Marks& marked,
+                 const std::string& name) {
   const refs::Reference kept = without(result.reference, marked, false);
   const refs::Reference held = without(result.reference, marked, true);
   const Problem problem = make_problem(kept, spectra, model, options);
-  const auto [factor, scaled] = fitted_to_kept(
-      problem, make_problem(result.reference, spectra, model, options), result, options);
+  const auto [factor, scaled] = fitted_to_kept(problem, noise_of_all, result, options);
   SkyState state = problem.state(scaled);
   std::vector<bool> left_out(state.instrument.size(), true);
   for (const LineOfSight& line : problem.fitted.lines_of_sight)
@@ -307,14 +322,16 @@ std::vector<HoldOut> leave_one_scan_out(const SpectralData& spectra, const SkyMo
     throw std::invalid_argument(fmt::format(
         "fit.hold_out: {} scan: must be at least 2 to leave one out", result.scans.size()));
   }
+  const std::optional<double> noise_of_all =
+      medium_noise_of_all(spectra, model, as_pointed(options), result);
   std::vector<HoldOut> outcomes;
   for (const ScanOutcome& scan : result.scans) {
     if (scan.directions == 0 && result.reference.irradiance_quantity) continue;
     Marks marked;
     for (const refs::Sample& sample : result.reference.samples)
       marked.push_back(sample.scan == scan.info.number);
-    outcomes.push_back(
-        held_out(spectra, model, as_pointed(options), result, marked, scan.info.name));
+    outcomes.push_back(held_out(spectra, model, as_pointed(options), result, noise_of_all, marked,
+                                scan.info.name));
   }
   return outcomes;
 }
@@ -331,6 +348,8 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
   std::ranges::shuffle(dealt, std::mt19937_64(seed));
   auto next = dealt.begin();
   for (auto& [direction, part] : part_of) part = *next++;
+  const std::optional<double> noise_of_all =
+      medium_noise_of_all(spectra, model, as_pointed(options), result);
   std::vector<HoldOut> outcomes;
   for (int part = 0; part < parts; ++part) {
     Marks marked;
@@ -338,7 +357,7 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
       const auto of = part_of.find(refs::direction_from_sun(s));
       marked.push_back(of != part_of.end() && of->second == part);
     }
-    outcomes.push_back(held_out(spectra, model, as_pointed(options), result, marked,
+    outcomes.push_back(held_out(spectra, model, as_pointed(options), result, noise_of_all, marked,
                                 fmt::format("directions, part {} of {}", part + 1, parts)));
   }
   return outcomes;

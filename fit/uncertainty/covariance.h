@@ -17,7 +17,8 @@ struct Uncertainty {
   Eigen::MatrixXd covariance;      // empty when singular
   Eigen::MatrixXd correlation;     // empty when singular
   // How many of the variables not at a bound the data determine beside the priors: the trace of
-  // (J^T J + P)^-1 J^T J. Of N samples the sum of the squared residuals is N less that, on average.
+  // (J^T J + P)^-1 J^T J, docs/theory (12.1). Of N samples the sum of the squared residuals is N
+  // less that, on average.
   double determined = 0;
   double condition_number = 0;  // of the normal matrix with unit diagonal; infinite when singular
 };

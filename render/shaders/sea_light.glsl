@@ -39,8 +39,9 @@ vec4 sea_radiance(Place at, vec3 position, vec3 up, int i, float lit) {
   ray.entry = ray.to_ground = 0.0;
   ray.h = sky.h;
   ray.mu = sky.mu;
+  const int kShadowSteps = 8;  // of a mean
   float spread = 2.0 * sqrt(slope_variance);
-  vec4 of_clouds = among_clouds(mirrored_light, ray, sky, nu, kInfinity, meet_clouds(ray, kInfinity, spread), spread, i, 8);
+  vec4 of_clouds = among_clouds(mirrored_light, ray, sky, nu, kInfinity, meet_clouds(ray, kInfinity, spread), spread, i, kShadowSteps);
   mirrored_light += of_clouds;
 #endif
   return light + water_reflectance(dot(to_eye, normal)) * mirrored_light;

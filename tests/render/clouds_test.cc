@@ -41,7 +41,7 @@ TEST(Clouds, ThatCoverAllHideTheSun) {
   EXPECT_NEAR(behind / beside, 1, 0.05);
 }
 
-// Seen from 400 km about the place where the sun sets on the ground, 4 deg of view or 0.3 of the
+// From 400 km, a field of view of 4 deg about the place where the sun sets on the ground: 0.3 of the
 // sun's height.
 TEST(Clouds, HaveNoEdgeWhereTheSunSets) {
   constexpr int kRows = 32;

@@ -155,7 +155,7 @@ TEST_F(SeaOfAMap, MirrorsTheCloudsAboveIt) {
   }
   worst.print("mirrored clouds");
   EXPECT_GT(worst.count(), 300);
-  EXPECT_LT(worst.error(), 0.02);
+  EXPECT_LT(worst.error(), 0.02);  // the nearest pixel is up to 0.2 deg off
   EXPECT_GT(difference, 0.2) << "of clouds to a clear sky";
 }
 
