@@ -41,8 +41,8 @@ TEST(Clouds, ThatCoverAllHideTheSun) {
   EXPECT_NEAR(behind / beside, 1, 0.05);
 }
 
-// From 400 km, a field of view of 4 deg about the place where the sun sets on the ground: 0.3 of the
-// sun's height.
+// From 400 km, a field of view of 4 deg about the place where the sun sets on the ground: 0.3 of
+// the sun's height.
 TEST(Clouds, HaveNoEdgeWhereTheSunSets) {
   constexpr int kRows = 32;
   constexpr double kRow = 0.02;  // of the light of the row before
