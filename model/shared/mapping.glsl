@@ -115,13 +115,22 @@ Number sun_from_unit(Number x, Number lowest) {
 }
 
 // docs/theory (9.7).
+// How high the light of the night side comes from, where the atmosphere is thick against its planet: 110 km on Titan, 0
+// on Mars and the Earth. By the shape of the planet alone, so that it stays while constituents change.
+Number height_of_night_haze(Number bottom, Number thickness) {
+  return max(0.3 * (thickness - 0.05 * bottom), Number(0.0));
+}
+
 // The sun's height and azimuth in the scattering table are those at a point of the ray about which most of the light is
-// scattered: along a limb they change by many degrees, and with the azimuth. It is the ground where the ray ends there,
-// otherwise three quarters of the way to the ray's lowest point, rounded off over a hundredth of the radius, so that rays
-// to either side of the horizontal go together. Distance to that point. Deviation: Bruneton 2017 takes the sun at the
-// ray's beginning.
+// scattered: along a limb they change by many degrees, and with the azimuth. Of a ray that ends on the ground it is where
+// the ray comes down to the haze of the night; otherwise three quarters of the way to the ray's lowest point, rounded off
+// over a hundredth of the radius, so that rays to either side of the horizontal go together. Distance to that point.
+// Deviation: Bruneton 2017 takes the sun at the ray's beginning.
 Number distance_to_sun_point(Number h, Number mu, bool hits_ground, Number bottom, Number thickness) {
-  if (hits_ground) return distance_to_inner_sphere(bottom, h, mu, Number(0.0));
+  if (hits_ground) {
+    Number haze = height_of_night_haze(bottom, thickness);
+    return h > haze ? distance_to_inner_sphere(bottom, h, mu, haze) : Number(0.0);
+  }
   Number descent = -(bottom + h) * mu;
   Number width = 0.01 * bottom;
   Number root = sqrt(descent * descent + width * width);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "model/photometry/srgb_transfer.h"
 #include "render/plot/header.h"
@@ -58,23 +59,39 @@ int byte_of(double linear) {
   return static_cast<int>(std::lround(255 * srgb_encoded(std::clamp(linear, 0.0, 1.0))));
 }
 
-// Rows `x y r g b` of the pixels inside the disc; the sun's side is to the right.
+// Rows `x y r g b`; the sun's side is to the right. What is beyond the horizon has the horizon's
+// colour, so that the rim cuts through pixels.
 void write_pixels(Script& script, const std::string& name, const FisheyeSky& sky, double exposure) {
   script.line("${} << EOD", name);
   for (int j = 0; j < kPixels; ++j) {
     for (int i = 0; i < kPixels; ++i) {
       const double x = 2 * (i + 0.5) / kPixels - 1, y = 2 * (j + 0.5) / kPixels - 1;
-      const double radius = std::hypot(x, y);
-      int rgb[3] = {255, 255, 255};
-      if (radius <= 1) {
-        const Rgb linear = at_direction(sky, 0.5 * kPi * radius, std::atan2(y, x));
-        for (std::size_t c = 0; c < 3; ++c)
-          rgb[c] = byte_of(-std::expm1(-exposure * std::max(linear[c], 0.0)));
-      }
+      const Rgb linear = at_direction(sky, 0.5 * kPi * std::hypot(x, y), std::atan2(y, x));
+      int rgb[3];
+      for (std::size_t c = 0; c < 3; ++c)
+        rgb[c] = byte_of(-std::expm1(-exposure * std::max(linear[c], 0.0)));
       script.line("{} {} {} {} {}", i, j, rgb[0], rgb[1], rgb[2]);
     }
   }
   script.line("EOD");
+}
+
+// Rows `x y` of the rim, the horizon, and of the outline of what is beyond it: around the picture,
+// then back around the rim.
+void write_rim(Script& script) {
+  constexpr int kCorners = 180;
+  constexpr double kMiddle = 0.5 * (kPixels - 1), kRadius = 0.5 * kPixels;
+  std::vector<std::string> rim;
+  for (int i = kCorners; i >= 0; --i) {
+    const double turn = 2 * kPi * i / kCorners;
+    rim.push_back(fmt::format("{:.3f} {:.3f}", kMiddle + kRadius * std::cos(turn),
+                              kMiddle + kRadius * std::sin(turn)));
+  }
+  script.line("$rim << EOD\n{}\nEOD", fmt::join(rim, "\n"));
+  script.line("$beyond << EOD");
+  for (const auto& [x, y] : {std::pair{1, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 0}})
+    script.line("{} {}", kMiddle + x * kPixels, kMiddle + y * kPixels);
+  script.line("{}\nEOD", fmt::join(rim, "\n"));
 }
 
 std::vector<std::size_t> chosen_suns(const FisheyeFigure& figure, const Sheet& sheet) {
@@ -132,6 +149,7 @@ Figure fisheye_figure(const FisheyeFigure& figure, const Sheet& sheet) {
   const auto bottom_of = [&](std::size_t row) {
     return footer + (tile + above) * (rows - 1 - static_cast<double>(row));
   };
+  write_rim(script);
   script.line("set multiplot");
   for (std::size_t r = 0; r < figure.rows.size(); ++r) {
     for (std::size_t s = 0; s < suns.size(); ++s) {
@@ -141,8 +159,12 @@ Figure fisheye_figure(const FisheyeFigure& figure, const Sheet& sheet) {
       write_pixels(script, name, *sky, exposure);
       script.begin_axes(
           {left + tile * static_cast<double>(s) + 4, bottom_of(r) + 4, tile - 8, tile - 8});
-      script.line("unset border; set xrange [-0.5:{0}.5]; set yrange [-0.5:{0}.5]", kPixels - 1);
-      script.line("plot ${} using 1:2:3:4:5 with rgbimage notitle", name);
+      script.line("unset border; set xrange [-1:{0}]; set yrange [-1:{0}]", kPixels);
+      script.line(
+          "plot ${} using 1:2:3:4:5 with rgbimage notitle, $beyond using 1:2 with filledcurves "
+          "closed fillcolor rgb 'white' fillstyle solid 1 noborder notitle, $rim using 1:2 with "
+          "lines linecolor rgb '#999999' linewidth 0.5 notitle",
+          name);
     }
   }
   script.begin_axes({0, 0, script.width(), script.height()});

@@ -16,6 +16,7 @@
 #include "model/atmosphere/preset.h"
 #include "model/atmosphere/shells.h"
 #include "model/registry.h"
+#include "model/shared/shared.h"
 #include "model/tables/height_axis.h"
 #include "model/tables/table_lookup.h"
 #include "tests/model/truth.h"
@@ -76,12 +77,13 @@ TEST(TableModel, FollowsTheReferenceFromEveryHeight) {
   }
 }
 
-// Of a ray that misses the ground.
 NodeValues looked_up(const AtmosphereTables& tables, const SkyPoint& p) {
   const double mu = std::cos(p.view_zenith), mu_s = std::cos(p.sun_zenith);
   const double nu =
       mu * mu_s + std::sin(p.view_zenith) * std::sin(p.sun_zenith) * std::cos(p.relative_azimuth);
-  return lookup_radiance(tables, p.altitude_m, mu, mu_s, nu, false);
+  const bool hits_ground =
+      Shared<double>{}.ray_hits_ground(p.altitude_m, mu, tables.atmosphere.bottom_radius_m);
+  return lookup_radiance(tables, p.altitude_m, mu, mu_s, nu, hits_ground);
 }
 
 void expect_near_reference(const AtmosphereTables& tables, std::span<const SkyPoint> points,
@@ -117,6 +119,24 @@ TEST(TableModel, FollowsTheReferenceAboutTheSunInDust) {
     }
   }
   expect_near_reference(tables, points, 0.04);  // 24 azimuths; by 16 moments it was 0.3
+}
+
+// Titan's haze is lit before a ground that is up to 15 degrees in the night.
+TEST(TableModel, FollowsTheReferenceBeforeTheNightOfTitan) {
+  Atmosphere<double> a = parse_preset(refs::shipped_preset_json("titan"), "titan").atmosphere;
+  a.ground_albedo = 0;  // light that comes straight from the ground is not in the tables
+  TableSizes sizes;
+  sizes.scattering_r = 12;
+  sizes.scattering_sky = sizes.outside_sky = sizes.outside_mu_s = sizes.outside_azimuth = 2;
+  sizes.scattering_azimuth = 8;
+  const AtmosphereTables tables =
+      compute_tables(a, color_rule(refs::standard_spectral_data()), sizes, 2, {});
+  std::vector<SkyPoint> points;
+  for (const double sun : {80.0, 94.0, 99.0}) {
+    for (const double view : {150.0, 165.0, 180.0})
+      points.push_back({499e3, sun * kDegree, view * kDegree, 180 * kDegree});
+  }
+  expect_near_reference(tables, points, 0.12);  // with the sun at the ground it was 0.95
 }
 
 // Where a cloud begins and ends the heights of docs/theory (9.1) alone are off by 0.99.
