@@ -67,6 +67,11 @@ std::string counted(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+// Hours that local_time is ahead of UTC, by its own text or beside it.
+double clock_offset_h(const ImportOptions& facts) {
+  return stated_utc_offset_h(*facts.local_time).value_or(facts.utc_offset_h.value_or(0));
+}
+
 }  // namespace
 
 std::optional<Instant> stated_time(const ImportOptions& facts, std::string_view place) {
@@ -80,7 +85,7 @@ std::optional<Instant> stated_time(const ImportOptions& facts, std::string_view 
     fail(place, fmt::format("utc_offset_h = {:.9g}: expected {:.9g}, as local_time = {} says",
                             *facts.utc_offset_h, *in_text, *facts.local_time));
   }
-  return instant(*facts.local_time, in_text.value_or(facts.utc_offset_h.value_or(0)));
+  return instant(*facts.local_time, clock_offset_h(facts));
 }
 
 ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azimuth_is_needed) {
@@ -102,9 +107,12 @@ ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azi
     fail_without_sun(facts, place);
   }
   if (!(result.zenith < 90 * kRadiansPerDegree)) {
-    fail(place, fmt::format("sun_zenith_deg = {:.6g}{}: expected a sun above the horizon",
-                            result.zenith / kRadiansPerDegree,
-                            result.time ? " at " + iso_text(*result.time) : ""));
+    fail(place,
+         fmt::format(
+             "sun_zenith_deg = {:.6g}{}: expected a sun above the horizon{}",
+             result.zenith / kRadiansPerDegree, result.time ? " at " + iso_text(*result.time) : "",
+             result.site ? mends_above_horizon(*result.time, *result.site, clock_offset_h(facts))
+                         : ""));
   }
   return result;
 }

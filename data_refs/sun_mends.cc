@@ -91,6 +91,27 @@ std::vector<Mend> mends_of_time_and_place(Instant time, const Site& site, const 
   return Mends(time, site, angle).all();
 }
 
+std::string mends_above_horizon(Instant time, const Site& site, double utc_offset_h) {
+  std::vector<std::string> texts;
+  const auto add = [&](std::string text, Instant then, const Site& there) {
+    const double zenith = solar_position(then, there).zenith;
+    if (zenith < 0.5 * std::numbers::pi)
+      texts.push_back(
+          fmt::format("{} would put it at {:.1f} deg", text, zenith * kDegreesPerRadian));
+  };
+  const double longitude = site.longitude * kDegreesPerRadian;
+  add(fmt::format("longitude_deg = {:.9g}", -longitude), time,
+      Site{site.latitude, -site.longitude, site.elevation_m});
+  // Clocks are ahead of the sun's mean time by up to two hours.
+  constexpr double kMost = 2;
+  const double of_longitude = std::round(std::remainder(longitude, 360) / 15),
+               off = utc_offset_h - of_longitude;
+  if (std::abs(off) > kMost)
+    add(fmt::format("utc_offset_h = {:.9g}", of_longitude),
+        time + std::chrono::seconds(std::lround(3600 * off)), site);
+  return texts.empty() ? "" : "; " + fmt::format("{}", fmt::join(texts, ", "));
+}
+
 std::string mended_by(std::vector<Mend> mends, double apart, double alike) {
   constexpr double kGood = 0.4;
   constexpr std::size_t kMost = 3;

@@ -63,6 +63,8 @@ void validate(const SizeDistribution<double>& particles, const std::string& path
          path + ".refractive_index.real", particles.index_real, kRealIndex);
   expect(particles.index_imaginary >= 0 && particles.index_imaginary <= kMostIndex,
          path + ".refractive_index.imaginary", particles.index_imaginary, kImaginaryIndex);
+  expect(!is_as_air(particles.index_real, particles.index_imaginary),
+         path + ".refractive_index.real", particles.index_real, kNotAsAir);
 }
 
 void validate(const PhaseFunction<double>& phase, const std::string& path) {

@@ -112,8 +112,19 @@ Profile Profile::with_tables(std::vector<LinearProfile> tables,
 }
 
 namespace {
+
 constexpr double kOutside = 0.005;  // share of the column
+
+bool same_table(const TabulatedProfile& a, const TabulatedProfile& b) {
+  return a == b || (a && b && a->table() == b->table());
+}
+
 }  // namespace
+
+bool operator==(const Profile& a, const Profile& b) {
+  return a.scale_height_ == b.scale_height_ && a.base_ == b.base_ && a.top_ == b.top_ &&
+         same_table(a.table_, b.table_) && std::ranges::equal(a.by_shape_, b.by_shape_, same_table);
+}
 
 double Profile::bulk_thickness() const {
   return table_->height_below(kOutside) - table_->height_below(1 - kOutside);

@@ -59,7 +59,7 @@ class Profile {
   // so that a derivative by these holds the levels fixed, as a small difference does.
   std::vector<double> level_heights(double optical_depth) const;
 
-  friend bool operator==(const Profile&, const Profile&) = default;
+  friend bool operator==(const Profile& a, const Profile& b);  // by the numbers of their tables
 
  private:
   double scale_height_ = 1;

@@ -93,6 +93,7 @@ RefractiveIndex::RefractiveIndex(std::string material, std::vector<double> wavel
     expect(real_[i] >= kLeastReal && real_[i] <= kMostIndex, "real", real_[i], kRealIndex);
     expect(imaginary_[i] >= 0 && imaginary_[i] <= kMostIndex, "imaginary", imaginary_[i],
            kImaginaryIndex);
+    expect(!is_as_air(real_[i], imaginary_[i]), "real", real_[i], kNotAsAir);
     before = wavelength_nm_[i];
   }
 }

@@ -3,6 +3,7 @@
 // with published constants. Linear between the wavelengths, constant beyond the first and the last.
 #pragma once
 
+#include <cmath>
 #include <complex>
 #include <memory>
 #include <span>
@@ -16,6 +17,12 @@ namespace skyfit {
 inline constexpr double kLeastReal = 1, kMostIndex = 20;
 inline constexpr std::string_view kRealIndex = "a real part from 1 to 20",
                                   kImaginaryIndex = "an imaginary part from 0 to 20";
+// Of what is as air: such spheres scatter and absorb nothing, and have no optical depth.
+inline bool is_as_air(double real, double imaginary) {
+  constexpr double kLeastContrast = 1e-3;
+  return std::hypot(real - 1, imaginary) < kLeastContrast;
+}
+inline constexpr std::string_view kNotAsAir = "an index that differs from that of air by 0.001";
 
 class RefractiveIndex {
  public:

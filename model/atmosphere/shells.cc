@@ -16,6 +16,33 @@ double depth_at_550(const Constituent<double>& c, const Profile& profile) {
          column;
 }
 
+// Which profiles are layers, and the optical depths. Constituents with the same profile count
+// together, whether by kSameAs or by the same numbers: a constituent may stand in two halves.
+void set_layers(const Atmosphere<double>& a, Shells& shells) {
+  const std::size_t count = shells.profiles.size();
+  std::vector<double> depth(count), scattering(count);
+  for (std::size_t i = 0; i < a.constituents.size(); ++i) {
+    if (shells.profile_of[i] == Shells::kNone) continue;
+    const auto own = static_cast<std::size_t>(shells.profile_of[i]);
+    const double of_constituent = depth_at_550(a.constituents[i], shells.profiles[own]);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (shells.profiles[k] != shells.profiles[own]) continue;
+      depth[k] += of_constituent;
+      if (scatters(a.constituents[i])) scattering[k] += of_constituent;
+    }
+  }
+  // Thick and in a small part of the atmosphere: a cloud, which the levels of clear air miss.
+  constexpr double kThick = 0.5, kNarrow = 0.055;
+  for (std::size_t k = 0; k < count; ++k) {
+    Profile& profile = shells.profiles[k];
+    if (!profile.is_exponential() && !profile.is_layer() && scattering[k] > kThick &&
+        profile.bulk_thickness() < kNarrow * shells.top)
+      profile.take_as_layer();
+    shells.layer_depth.push_back(profile.is_layer() ? depth[k] : 0);
+    shells.bulk_depth.push_back(profile.is_layer() ? 0 : scattering[k]);
+  }
+}
+
 }  // namespace
 
 PathColumns Shells::columns_to_top(double height, double mu) const {
@@ -32,6 +59,7 @@ Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Paramet
                 {},
                 {},
                 {},
+                {},
                 {}};
   const auto matters = [&](const Constituent<double>& c) {
     if (keep != Keep::kWhatMatters) return keep == Keep::kAll || scatters(c);
@@ -45,7 +73,6 @@ Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Paramet
     shells.profile_of[i] = static_cast<int>(shells.profiles.size());
     shells.profiles.emplace_back(own_profile(a, a.constituents[i]));
     shells.breaks.push_back(a.constituents[i].profile.type == ProfileType::kLayer);
-    shells.layer_depth.push_back(0);
   };
   // Smooth absorbers need none: the columns along a ray are exact.
   const auto note_breaks = [&](std::size_t i) {
@@ -66,19 +93,7 @@ Shells shells_of(const Atmosphere<double>& a, Keep keep, std::span<const Paramet
     shells.profile_of[i] = shells.profile_of[other];
     note_breaks(i);
   }
-  // Thick and in a small part of the atmosphere: a cloud, which the levels of clear air miss.
-  constexpr double kThick = 0.5, kNarrow = 0.055;
-  for (std::size_t i = 0; i < a.constituents.size(); ++i) {
-    if (shells.profile_of[i] == Shells::kNone) continue;
-    const auto at = static_cast<std::size_t>(shells.profile_of[i]);
-    Profile& profile = shells.profiles[at];
-    const VerticalProfile<double>& shape = own_profile(a, a.constituents[i]);
-    if (shape.type == ProfileType::kTabulated && scatters(a.constituents[i]) &&
-        depth_at_550(a.constituents[i], profile) > kThick &&
-        profile.bulk_thickness() < kNarrow * shells.top)
-      profile.take_as_layer();
-    if (profile.is_layer()) shells.layer_depth[at] += depth_at_550(a.constituents[i], profile);
-  }
+  set_layers(a, shells);
   return shells;
 }
 

@@ -8,13 +8,34 @@
 #include "model/solver/sun_grid.h"
 
 namespace skyfit {
+namespace {
+
+double bulk_depth_between(const Shells& shells, double low, double high) {
+  double depth = 0;
+  for (std::size_t i = 0; i < shells.profiles.size(); ++i) {
+    if (shells.bulk_depth[i] == 0) continue;
+    const Profile& profile = shells.profiles[i];
+    const auto above = [&](double h) {
+      return profile.column_to_top(shells.bottom_radius, h, 1, shells.top).value;
+    };
+    depth += shells.bulk_depth[i] * (above(low) - above(high)) / profile.vertical_column().value;
+  }
+  return depth;
+}
+
+}  // namespace
 
 // docs/theory (3.1).
 LevelGrid::LevelGrid(const Shells& shells, int count) : asked_(count) {
-  for (int i = 0; i < count; ++i) {
-    const double x = static_cast<double>(i) / (count - 1);
-    heights_.push_back(shells.top * x * x * x);
+  const auto height = [&](double i) { return shells.top * std::pow(i / (count - 1), 3); };
+  for (int i = 0; i + 1 < count; ++i) {
+    // The source is linear in optical depth between two levels.
+    constexpr double kMostDepth = 0.15;
+    const double depth = bulk_depth_between(shells, height(i), height(i + 1));
+    const double parts = std::exp2(std::ceil(std::log2(std::max(depth / kMostDepth, 1.0))));
+    for (double k = 0; k < parts; ++k) heights_.push_back(height(i + k / parts));
   }
+  heights_.push_back(shells.top);
   for (std::size_t i = 0; i < shells.profiles.size(); ++i) {
     const std::vector<double> wanted = shells.profiles[i].level_heights(shells.layer_depth[i]);
     if (wanted.size() < 2) continue;

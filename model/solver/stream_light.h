@@ -68,7 +68,7 @@ struct HorizontalCoupling {
 
 // Modes that a shift couples: light toward the sun is so much brighter that it takes more of them
 // than phase functions have.
-inline constexpr int kShiftedModes = 6;
+inline constexpr int kShiftedModes = 12;
 
 class StreamLight {
  public:

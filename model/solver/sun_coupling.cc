@@ -35,7 +35,7 @@ struct Shift {
 };
 Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t suns,
                double sun_zenith, double psi, double highest_mu) {
-  constexpr int kAzimuths = 16;
+  constexpr int kAzimuths = 32;
   Shift shift{std::vector<std::array<OfModes, kModes>>(suns),
               std::vector<std::array<OfModes, kModes>>(suns)};
   const double mu = std::cos(sun_zenith), s = std::sin(sun_zenith);

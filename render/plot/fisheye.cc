@@ -17,7 +17,7 @@ namespace skyfit::plot {
 namespace {
 
 constexpr int kPixels = 96;  // of a sky's side
-constexpr double kTile = 128, kLabel = 170, kFooter = 34;
+constexpr double kTile = 128, kPageTile = 200, kLabel = 170, kFooter = 34;
 constexpr double kPi = std::numbers::pi;
 using Rgb = std::array<double, 3>;
 
@@ -140,7 +140,7 @@ Figure fisheye_figure(const FisheyeFigure& figure, const Sheet& sheet) {
   const double width = sheet.width_px(std::max(kLabel + kTile * columns + 20, 620.0));
   // On a page the names of the models stand above their rows.
   const double left = sheet.on_page() ? 4 : kLabel, above = sheet.on_page() ? sheet.line_px() : 0;
-  const double tile = sheet.on_page() ? std::min((width - 2 * left) / columns, kTile) : kTile;
+  const double tile = sheet.on_page() ? std::min((width - 2 * left) / columns, kPageTile) : kTile;
   const Header header(sheet, width, figure.title,
                       "centre zenith, rim horizon, sun's side right; one exposure for all");
   const double angles = sheet.line_px();  // the row of the suns

@@ -126,6 +126,9 @@ TEST(SizeDistribution, ComplaintsNameTheField) {
   EXPECT_NE(message_of(kVolume, R"("refractive_index": {"real": 0.5, "imaginary": 0})")
                 .find("fine.phase.refractive_index.real = 0.5: expected"),
             std::string::npos);
+  EXPECT_NE(message_of(kVolume, R"("refractive_index": {"real": 1, "imaginary": 0})")
+                .find("fine.phase.refractive_index.real = 1: expected an index that differs"),
+            std::string::npos);
   Atmosphere<double> large = atmosphere(kVolume, kIndex);
   large.at("fine").phase.particles.radius_um = 100;
   EXPECT_THROW(validate(large), std::invalid_argument);
