@@ -89,10 +89,9 @@ PhotometerLine read_line(const AeronetTable& table, const AeronetLine& line,
                          const std::vector<Direction>& directions, std::string_view source) {
   table.expect_fields(line, std::ranges::max(directions, {}, &Direction::last).last() + 1);
   const std::string place = fmt::format("{}:{}", source, line.number);
-  const std::string type = table.scan_type(line);
-  if (type.find("almucantar") == type.npos) {
-    throw std::invalid_argument(
-        fmt::format("{}: Sky_Scan_Type = \"{}\": expected an almucantar", place, type));
+  if (table.path(line) != ScanPath::kAlmucantar) {
+    throw std::invalid_argument(fmt::format("{}: Sky_Scan_Type = {}: expected an almucantar", place,
+                                            in_quotes(table.scan_type(line))));
   }
   PhotometerLine read{
       place, ScanPath::kAlmucantar, table.site(line), table.wavelength_nm(line), table.facts(line),
@@ -116,17 +115,22 @@ bool is_aeronet_polarised(std::string_view text) {
 
 Reference parse_aeronet_polarised(std::string_view text, std::string_view source,
                                   const ImportOptions& options) {
-  const AeronetTable table(text, source);
-  const std::vector<Direction> directions = directions_of(table, source);
-  MeasuredSky sky = photometer_sky(source, options, table.unit().value_or(kAeronetUnit));
+  const std::vector<AeronetTable> tables = aeronet_tables(text, source);
+  MeasuredSky sky = photometer_sky(source, options, tables.front().unit());
   sky.note(
       "radiances are the means of P1, P2 and P3, which were calibrated with unpolarised light as "
       "far as is known; --scale profiled leaves their factor open");
   PhotometerScans scans(options, sky);
-  LeftOut left_out("line");
-  for (const AeronetLine& line : table.lines())
-    left_out.attempt([&] { scans.add(read_line(table, line, directions, source)); });
-  for (const std::string& note : left_out.notes()) sky.note(note);
+  LeftOut tables_left_out("table"), lines_left_out("line");
+  for (const AeronetTable& table : tables) {
+    std::vector<Direction> directions;
+    if (!tables_left_out.attempt([&] { directions = directions_of(table, source); })) continue;
+    for (const AeronetLine& line : table.lines())
+      lines_left_out.attempt([&] { scans.add(read_line(table, line, directions, source)); });
+  }
+  for (const LeftOut& left_out : {tables_left_out, lines_left_out}) {
+    for (const std::string& note : left_out.notes()) sky.note(note);
+  }
   return sky.finish();
 }
 

@@ -2,13 +2,17 @@
 #include "data_refs/aeronet_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <regex>
 #include <sstream>
+#include <utility>
 
+#include "data_refs/aeronet_columns.h"
 #include "data_refs/csv.h"
 #include "data_refs/units.h"
 #include "model/base/pattern.h"
@@ -22,71 +26,7 @@ constexpr std::string_view kDate = "date", kTime = "time", kNominal = "nominalwa
                            kExact = "exactwavelength", kWavelength = "wavelength",
                            kSunZenith = "solarzenithangle", kType = "skyscantype",
                            kSite = "aeronetsite", kLatitude = "latitude", kLongitude = "longitude",
-                           kElevation = "elevation", kRadiance = "radiance_for";
-
-// "solarzenithangle" of "Solar_Zenith_Angle(Degrees)".
-std::string plain_name(std::string_view column) {
-  std::string name = lower_case(column.substr(0, column.find('(')));
-  std::erase_if(name, [](char c) { return c == '_' || c == ' '; });
-  return name;
-}
-
-bool holds_columns(std::string_view line) {
-  const std::string text = lower_case(line);
-  return text.find("date(") != text.npos && text.find("time(") != text.npos &&
-         text.find("wavelength") != text.npos && text.find("wavelengths_of_aod") == text.npos &&
-         (text.find("solar_zenith_angle") != text.npos || text.find(kSunZenith) != text.npos);
-}
-
-std::string_view after_last(std::string_view text, char separator) {
-  return text.substr(text.rfind(separator) + 1);
-}
-
-std::optional<double> finite_number(std::string_view text) {
-  const std::optional<double> number = csv_number(text);
-  return number && std::isfinite(*number) ? number : std::nullopt;
-}
-
-// Without what stands in parentheses, such as a unit.
-std::string_view without_unit(std::string_view name) { return name.substr(0, name.find('(')); }
-
-bool is_of_scattering(const std::string& column, const std::string& title) {
-  return lower_case(title + column).find("scatter") != std::string::npos;
-}
-
-bool is_of_radiance(std::string_view title) {
-  static const std::regex pattern(R"(\s*(sky[ _]?)?radiance.*)");
-  return whole_match(lower_case(title), pattern).has_value();
-}
-
-// The angle that a column's name holds, if it is one of radiances. `titled`: titles speak of
-// radiances; those of other blocks, as of the parts P1, P2 and P3 of polarised light, are none.
-std::optional<double> angle_of(const std::string& column, const std::string& title, bool titled) {
-  if (is_of_scattering(column, title)) return {};
-  if (titled && !is_of_radiance(title)) return {};
-  if (!lower_case(column).starts_with(kRadiance)) return finite_number(without_unit(column));
-  return finite_number(without_unit(after_last(column, '_')));
-}
-
-// "uW/cm^2/sr/nm" of "Radiance_for_Azimuth_Angle_in_Degrees(uW/cm^2/sr/nm)"; empty where there is
-// none.
-std::string unit_in(std::string_view name) {
-  const std::size_t open = name.find_first_of("([");
-  if (open == name.npos || lower_case(name.substr(0, open)).find("radiance") == name.npos)
-    return {};
-  const std::size_t close = name.find_first_of(")]", open);
-  return std::string(trim(name.substr(open + 1, close - open - 1)));
-}
-
-// The titles of groups of columns, each spread over its group; empty when it is no such line.
-std::vector<std::string> group_titles(const std::vector<std::string>& fields) {
-  constexpr std::size_t kFewestColumns = 6;
-  if (fields.size() < kFewestColumns || !fields.front().empty()) return {};
-  std::vector<std::string> titles;
-  for (const std::string& field : fields)
-    titles.push_back(field.empty() && !titles.empty() ? titles.back() : field);
-  return titles;
-}
+                           kElevation = "elevation";
 
 // Scattering angles without a title repeat the names of the radiances.
 void drop_second_block(std::vector<AeronetAngle>& angles) {
@@ -153,73 +93,111 @@ std::optional<Instant> aeronet_instant(const std::string& date, const std::strin
 bool AeronetTable::is_in(std::string_view text) {
   for (int line = 0; line < 30 && !text.empty(); ++line) {  // of a head without end
     const std::string_view content = text.substr(0, text.find('\n'));
-    if (holds_columns(content)) return true;
+    if (names_columns(without_tags(std::string(content)))) return true;
     text.remove_prefix(std::min(text.size(), content.size() + 1));
   }
   return false;
 }
 
-AeronetTable::AeronetTable(std::string_view text, std::string_view source) : source_(source) {
-  std::istringstream lines{std::string(text)};
-  std::vector<std::string> titles;
+std::vector<AeronetTable> aeronet_tables(std::string_view text, std::string_view source) {
+  std::istringstream input{std::string(text)};
+  std::vector<AeronetTable> tables;
+  std::vector<AeronetLine> lines;  // since the last columns
   std::string raw;
-  for (int number = 1; std::getline(lines, raw); ++number) {
+  for (int number = 1; std::getline(input, raw); ++number) {
     const std::string content = without_tags(raw);
     if (content.find_first_not_of(" \t\r") == content.npos) continue;
-    std::vector<std::string> fields = csv_fields(content, source_, number);
-    while (!fields.empty() && fields.back().empty()) fields.pop_back();
-    if (fields.empty()) continue;
-    if (holds_columns(content)) {
-      if (const std::string_view other = other_delimiter(content); !other.empty())
-        fail_at(source_, number, fmt::format("columns between {}: expected commas", other));
-      if (!columns_.empty() && fields != columns_)
-        fail_at(source_, number, "expected the columns once, or again the same");
-      if (columns_.empty()) read_columns(std::move(fields), titles, number);
-    } else if (columns_.empty()) {
-      head_ += lower_case(content) + "\n";
-      titles = group_titles(csv_fields(content, source_, number));
-    } else {
-      lines_.push_back({number, std::move(fields)});
+    AeronetLine line{number, csv_fields(content, source, number)};
+    while (!line.fields.empty() && line.fields.back().empty()) line.fields.pop_back();
+    if (line.fields.empty()) continue;
+    if (!names_columns(content)) {
+      lines.push_back(std::move(line));
+      continue;
     }
+    if (const std::string_view other = other_delimiter(content); !other.empty())
+      fail_at(source, number, fmt::format("columns between {}: expected commas", other));
+    if (!tables.empty()) lines = tables.back().take(std::move(lines));
+    const AeronetTable* const above = tables.empty() ? nullptr : &tables.back();
+    tables.push_back(AeronetTable(source, lines, std::move(line), above));
+    lines.clear();
   }
+  if (!tables.empty()) tables.back().lines_ = std::move(lines);
+  return tables;
 }
 
-void AeronetTable::read_columns(std::vector<std::string> columns,
-                                const std::vector<std::string>& titles, int number) {
-  columns_ = std::move(columns);
-  header_line_ = number;
+AeronetTable::AeronetTable(std::string_view source, const std::vector<AeronetLine>& head,
+                           AeronetLine columns, const AeronetTable* above)
+    : source_(source), header_line_(columns.number), columns_(std::move(columns.fields)) {
+  if (above != nullptr) {
+    place_ = above->place_;
+    unit_above_ = above->unit();
+    path_of_head_ = above->path_of_head_;
+  }
+  std::string text;
+  for (const AeronetLine& line : head)
+    text += lower_case(fmt::format("{}\n", fmt::join(line.fields, ",")));
+  read_columns(group_titles(head.empty() ? std::vector<std::string>{} : head.back().fields,
+                            columns_.size()));
+  read_head(text);
+}
+
+// Keeps the lines up to the last that holds a measurement; the rest is the head of what follows.
+std::vector<AeronetLine> AeronetTable::take(std::vector<AeronetLine> lines) {
+  const std::size_t date = *column(kDate);
+  const auto is_measurement = [&](const AeronetLine& line) {
+    const std::size_t fields = line.fields.size();
+    return (fields > date && aeronet_instant(line.fields[date], "00:00:00", date_)) ||
+           (!line.fields.front().empty() && !angles_.empty() && fields > angles_.back().column);
+  };
+  auto end = lines.end();
+  while (end != lines.begin() && !is_measurement(*std::prev(end))) --end;
+  std::vector<AeronetLine> rest(std::make_move_iterator(end), std::make_move_iterator(lines.end()));
+  lines.erase(end, lines.end());
+  lines_ = std::move(lines);
+  return rest;
+}
+
+void AeronetTable::read_columns(const std::vector<std::string>& titles) {
   const bool titled = std::ranges::any_of(titles, [](const std::string& title) {
     return lower_case(title).find("radiance") != title.npos;
   });
   for (const std::string& name : columns_) names_.push_back(plain_name(name));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const std::string title = i < titles.size() ? titles[i] : "";
+    const std::string& title = titles[i];
     titled_.push_back(lower_case(title.empty() ? columns_[i] : title + "_" + columns_[i]));
     if (const auto angle = angle_of(columns_[i], title, titled)) {
       expect_no_gap(i, titles);
       angles_.push_back({i, *angle});
+      are_scattering_angles_ |= names_scattering(titled_.back());
     }
-    read_unit(title, number - 1);
-    read_unit(columns_[i], number);
+    read_unit(title, header_line_ - 1);
+    read_unit(columns_[i], header_line_);
   }
   drop_second_block(angles_);
   for (const std::string_view name : {kDate, kTime, kSunZenith}) {
-    if (!column(name)) fail_at(source_, number, fmt::format("expected a column {}", name));
+    if (!column(name)) fail_at(source_, header_line_, fmt::format("expected a column {}", name));
   }
   if (!column(kNominal) && !column(kExact) && !column(kWavelength))
-    fail_at(source_, number, "expected a column Nominal_Wavelength or Wavelength");
-  read_unit_of_head();
+    fail_at(source_, header_line_, "expected a column Nominal_Wavelength or Wavelength");
   date_ = aeronet_date(columns_[*column(kDate)]);
-  place_.longitude_deg = head_number(head_, "long");
-  place_.latitude_deg = head_number(head_, "lat");
-  place_.elevation_m = head_number(head_, "elev");
+}
+
+// What it does not say is as in the head above.
+void AeronetTable::read_head(const std::string& head) {
+  read_unit_of_head(head);
+  ImportOptions place;
+  place.longitude_deg = head_number(head, "long");
+  place.latitude_deg = head_number(head, "lat");
+  place.elevation_m = head_number(head, "elev");
+  place_ = overlaid(place, place_);
+  if (const auto path = path_in_head(head)) path_of_head_ = *path;
 }
 
 // Whether the columns since the last angle are of another block.
 void AeronetTable::expect_no_gap(std::size_t column, const std::vector<std::string>& titles) const {
   if (angles_.empty()) return;
   for (std::size_t i = angles_.back().column + 1; i < column; ++i) {
-    if (is_of_scattering(columns_[i], i < titles.size() ? titles[i] : "")) continue;
+    if (is_of_scattering(columns_[i], titles[i])) continue;
     fail_at(source_, header_line_,
             fmt::format("column {} = {}: expected the angle of radiances from the sun, in degrees",
                         i + 1, in_quotes(columns_[i])));
@@ -227,9 +205,9 @@ void AeronetTable::expect_no_gap(std::size_t column, const std::vector<std::stri
 }
 
 // A line of version 2, "Level 1.5 sky radiances, units uW/cm^2/sr/nm".
-void AeronetTable::read_unit_of_head() {
+void AeronetTable::read_unit_of_head(const std::string& head) {
   static const std::regex pattern(R"(radiance.*\bunits?\b[ :=(\[]*([^\s,;)\]]*/sr[^\s,;)\]]*))");
-  for (const std::string_view line : split(head_, '\n')) {
+  for (const std::string_view line : split(head, '\n')) {
     const auto match = unit_ ? std::nullopt : first_match(line, pattern);
     if (!match) continue;
     std::string unit = (*match)[1].str();
@@ -249,9 +227,10 @@ void AeronetTable::add_unit(const std::string& text, int number) {
             fmt::format("unit = {}: expected one of {}", in_quotes(text),
                         unit_names({Quantity::kSpectralRadiance})));
   }
-  if (unit_.value_or(unit->name) != unit->name) {
+  const std::string_view before = unit_.value_or(unit_above_.value_or(unit->name));
+  if (before != unit->name) {
     fail_at(source_, number,
-            fmt::format("unit = {}: expected {} as before", in_quotes(text), *unit_));
+            fmt::format("unit = {}: expected {} as before", in_quotes(text), before));
   }
   unit_ = unit->name;
 }
@@ -274,7 +253,7 @@ std::vector<AeronetAngle> AeronetTable::columns_of(const std::string& name) cons
   std::vector<AeronetAngle> found;
   for (std::size_t i = 0; i < titled_.size(); ++i) {
     if (!titled_[i].starts_with(start)) continue;
-    if (const auto angle = finite_number(after_last(titled_[i], '_'))) found.push_back({i, *angle});
+    if (const auto angle = number_at_end(titled_[i])) found.push_back({i, *angle});
   }
   return found;
 }
@@ -310,9 +289,14 @@ double AeronetTable::wavelength_nm(const AeronetLine& line) const {
   fail(line, *last, "a wavelength");
 }
 
+std::optional<ScanPath> AeronetTable::path(const AeronetLine& line) const {
+  const auto type = column(kType);
+  return type ? path_named(line.fields[*type]) : path_of_head_;
+}
+
 std::string AeronetTable::scan_type(const AeronetLine& line) const {
-  if (const auto type = column(kType)) return lower_case(line.fields[*type]);
-  return head_.find("principal") == head_.npos ? "almucantar" : "principal plane";
+  if (const auto type = column(kType)) return line.fields[*type];
+  return std::string(path_name(path_of_head_));
 }
 
 std::string AeronetTable::site(const AeronetLine& line) const {

@@ -9,7 +9,9 @@
 // group titles may stand above; titles, names or a line of the head, `.. radiances, units
 // W/m^2/sr/um`, may state the unit, `Radiance_for_..(W/m^2/sr/um)`;
 // columns of scattering angles, which follow in some files with the same names, are none of
-// radiances.
+// radiances, those under a title `Radiance_for_Scattering_Angle..` are.
+// A file may hold several tables, such as one of almucantars and one of principal planes: each
+// begins with its own columns, above which a head and titles of its own may stand.
 #pragma once
 
 #include <optional>
@@ -19,6 +21,7 @@
 
 #include "data_refs/civil_time.h"
 #include "data_refs/import_options.h"
+#include "data_refs/photometer_scans.h"
 
 namespace skyfit::refs {
 
@@ -49,24 +52,24 @@ struct AeronetAngle {
 
 class AeronetTable {
  public:
-  // Throws std::invalid_argument `source:line: ...` when columns are missing, one between those
-  // of radiances has no angle, or a unit is none of spectral radiance or another one than before.
-  AeronetTable(std::string_view text, std::string_view source);
-
   // Whether a text holds such a table.
   static bool is_in(std::string_view text);
 
   const std::vector<AeronetLine>& lines() const { return lines_; }
   const std::vector<AeronetAngle>& angles() const { return angles_; }  // of radiances
-  int header_line() const { return header_line_; }                     // that names the columns
-  // Of the radiances, where titles or names state it.
-  const std::optional<std::string_view>& unit() const { return unit_; }
+  // Whether they are scattering angles, by which files name the radiances of principal planes.
+  bool are_scattering_angles() const { return are_scattering_angles_; }
+  int header_line() const { return header_line_; }  // that names the columns
+  // Of the radiances, as titles, names or heads state it, else kAeronetUnit.
+  std::string_view unit() const { return unit_.value_or(unit_above_.value_or(kAeronetUnit)); }
   // The columns whose names, or titles and names, are NAME_for_Azimuth_Angle.._-6.000, case aside.
   std::vector<AeronetAngle> columns_of(const std::string& name) const;
 
   // The rest throws std::invalid_argument `source:line: column = value: expected ...`.
   void expect_fields(const AeronetLine& line, std::size_t needed) const;
-  std::string scan_type(const AeronetLine& line) const;  // lower case
+  // As its type says, else the head, else an almucantar; nothing where the type is another one.
+  std::optional<ScanPath> path(const AeronetLine& line) const;
+  std::string scan_type(const AeronetLine& line) const;  // as it is written
   std::string site(const AeronetLine& line) const;       // empty: not known
   double wavelength_nm(const AeronetLine& line) const;   // the exact one where there is one
   // Of a column or value that may be missing.
@@ -75,11 +78,17 @@ class AeronetTable {
   ImportOptions facts(const AeronetLine& line) const;
 
  private:
-  void read_columns(std::vector<std::string> columns, const std::vector<std::string>& titles,
-                    int number);
+  friend std::vector<AeronetTable> aeronet_tables(std::string_view text, std::string_view source);
+
+  // The columns under a head; `above` is the table above it, if there is one.
+  AeronetTable(std::string_view source, const std::vector<AeronetLine>& head, AeronetLine columns,
+               const AeronetTable* above);
+  std::vector<AeronetLine> take(std::vector<AeronetLine> lines);
+  void read_columns(const std::vector<std::string>& titles);
+  void read_head(const std::string& head);
   void expect_no_gap(std::size_t column, const std::vector<std::string>& titles) const;
   void read_unit(std::string_view name, int number);
-  void read_unit_of_head();
+  void read_unit_of_head(const std::string& head);
   void add_unit(const std::string& text, int number);
   std::optional<std::size_t> column(std::string_view name) const;
   double nanometres(const AeronetLine& line, std::optional<std::size_t> column) const;
@@ -88,15 +97,21 @@ class AeronetTable {
                          std::string_view expectation) const;
 
   std::string source_;
-  std::string head_;  // of the lines above the columns, lower case
   ImportOptions place_;
-  std::optional<std::string_view> unit_;  // one of units()
-  int header_line_ = 0;
+  ScanPath path_of_head_ = ScanPath::kAlmucantar;
+  std::optional<std::string_view> unit_, unit_above_;  // of units(); of the table above
+  int header_line_;
+  bool are_scattering_angles_ = false;
   AeronetDate date_ = AeronetDate::kDayFirst;
   std::vector<std::string> columns_, names_;  // as in the file; without unit, case and underscores
   std::vector<std::string> titled_;           // lower case, after the title of their group
   std::vector<AeronetAngle> angles_;
   std::vector<AeronetLine> lines_;
 };
+
+// The tables of a text, at least one where AeronetTable::is_in() holds. Throws
+// std::invalid_argument `source:line: ...` when columns are missing, one between those of radiances
+// has no angle, or a unit is none of spectral radiance or another one than before.
+std::vector<AeronetTable> aeronet_tables(std::string_view text, std::string_view source);
 
 }  // namespace skyfit::refs

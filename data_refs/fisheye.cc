@@ -30,7 +30,7 @@ Fisheye::Fisheye(const ImportOptions& facts, int width, int height, std::string_
   if (!facts.projection) {
     fail(source,
          "projection: not stated, expected equidistant, equisolid, orthographic, stereographic, "
-         "polynomial or equirectangular");
+         "polynomial, equirectangular, angular, cube or octahedral");
   }
   const std::string& name = *facts.projection;
   projection_ = name == "equidistant"     ? Projection::kEquidistant

@@ -23,8 +23,9 @@ class ImageDirections {
   virtual std::optional<PixelView> view(double x_px, double y_px) const = 0;
 };
 
-// A fisheye (fisheye.h) or a panorama (panorama.h), as facts.projection says. Throws
-// std::invalid_argument that begins with `source` when it is not stated or does not fit the image.
+// A fisheye (fisheye.h), a panorama (panorama.h) or a map of the whole sphere (sphere_map.h), as
+// facts.projection says. Throws std::invalid_argument that begins with `source` when it is not
+// stated, does not fit the image, or facts of another kind of images are stated beside it.
 std::unique_ptr<ImageDirections> image_directions(const ImportOptions& facts, int width, int height,
                                                   std::string_view source);
 

@@ -126,8 +126,9 @@ Rows images() {
   return {
       choice("projection", &Options::projection,
              {"equidistant", "equisolid", "orthographic", "stereographic", "polynomial",
-              "equirectangular"},
-             "Projection of a fisheye image or of a panorama (equirectangular)"),
+              "equirectangular", "angular", "cube", "octahedral"},
+             "Projection of a fisheye image, of a panorama (equirectangular) or of a map of all "
+             "directions as sky-map writes it"),
       text(
           "lens_polynomial", &Options::lens_polynomial, "C1,C2,..",
           [](const std::string& value) { return !number_list(value).empty(); },
@@ -142,11 +143,11 @@ Rows images() {
              "Radius of the horizon; by default half the shorter side"),
       number(
           "north_deg", &Options::north_deg, -360, 360,
-          "Direction of north in the image, clockwise from its upper edge, in a panorama right of "
-          "its middle; by default 0"),
+          "Direction of north in the image, clockwise from its upper edge; in a panorama right of "
+          "its middle, in a map right of the map's own north; by default 0"),
       choice("east", &Options::east, {"left", "right"},
              "Side of east where north is up; by default left in a fisheye image, right in a "
-             "panorama"),
+             "panorama or a map"),
       number("lumen_per_watt", &Options::lumen_per_watt, kSmallest, kInfinity,
              "Luminance per radiance (179 or 683) of pixels in W m-2 sr-1; replaces the unit"),
       number("calibration", &Options::calibration, kSmallest, kInfinity,

@@ -103,7 +103,8 @@ constexpr std::array<MeasuredFormat, 10> kFormats = {{
        return load_spectral_scan_folder(file.path(), facts);
      }},
     {kSkyImage, "image",
-     "OpenEXR or Radiance HDR, fisheye or panorama; averaged over bins of 6 deg",
+     "OpenEXR or Radiance HDR, fisheye, panorama or map of all directions; averaged over bins of 6 "
+     "deg",
      "OpenEXR and Radiance, through OpenImageIO; Radiance manual, file formats", "fisheye.exr",
      [](const SkyFile& file) { return is_sky_image(file.path()); },
      [](const SkyFile& file, const ImportOptions& facts) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 #include "model/numerics/angles.h"
 
@@ -31,15 +30,7 @@ Panorama::Panorama(const ImportOptions& facts, int width, int height, std::strin
     : width_(width),
       horizon_(horizon_row(facts, width, height, source)),
       north_(facts.north_deg.value_or(0) * kRadiansPerDegree),
-      east_is_left_(facts.east == "left") {
-  for (const auto& [name, given] : {std::pair{"radius_px", facts.radius_px.has_value()},
-                                    {"centre_x_px", facts.centre_x_px.has_value()},
-                                    {"lens_polynomial", facts.lens_polynomial.has_value()}}) {
-    if (given)
-      throw std::invalid_argument(fmt::format(
-          "{}: {}: expected with a fisheye, got projection = equirectangular", source, name));
-  }
-}
+      east_is_left_(facts.east == "left") {}
 
 std::optional<PixelView> Panorama::view(double x_px, double y_px) const {
   const double step = kTurn / width_;

@@ -13,7 +13,7 @@ namespace skyfit::refs {
 class Panorama final : public ImageDirections {
  public:
   // Throws std::invalid_argument that begins with `source` when the image is neither twice nor four
-  // times as wide as high and the horizon is not stated, or when a fact of lenses is.
+  // times as wide as high and the horizon is not stated.
   Panorama(const ImportOptions& facts, int width, int height, std::string_view source);
 
   std::optional<PixelView> view(double x_px, double y_px) const override;

@@ -12,10 +12,6 @@
 namespace skyfit::refs {
 namespace {
 
-std::string_view name_of(ScanPath path) {
-  return path == ScanPath::kAlmucantar ? "almucantar" : "principal plane";
-}
-
 std::vector<Reading> readings_of(const PhotometerLine& line, const ScanSun& sun) {
   std::vector<Reading> readings;
   std::set<double> values;
@@ -44,6 +40,10 @@ std::vector<Reading> readings_of(const PhotometerLine& line, const ScanSun& sun)
 }
 
 }  // namespace
+
+std::string_view path_name(ScanPath path) {
+  return path == ScanPath::kAlmucantar ? "almucantar" : "principal plane";
+}
 
 PhotometerReading reading_along(ScanPath path, double deg, std::optional<double> radiance) {
   const bool is_plane = path == ScanPath::kPrincipalPlane;
@@ -74,7 +74,7 @@ void PhotometerScans::place_in_scan(const PhotometerLine& line, const ScanSun& s
                        line.path == path_ && line.site == site_ &&
                        !wavelengths_.contains(line.wavelength_nm);
   if (!goes_on) {
-    sky_.begin_scan(fmt::format("{} of {}", name_of(line.path), iso_text(*sun.time)), sun);
+    sky_.begin_scan(fmt::format("{} of {}", path_name(line.path), iso_text(*sun.time)), sun);
     wavelengths_.clear();
   }
   wavelengths_.insert(line.wavelength_nm);

@@ -22,6 +22,8 @@ enum class ScanPath {
   kPrincipalPlane,  // through sun and zenith
 };
 
+std::string_view path_name(ScanPath path);  // "almucantar"
+
 struct PhotometerReading {
   double up_deg, clockwise_deg;    // from the sun
   std::optional<double> radiance;  // in the unit of photometer_sky(); nothing where it is missing

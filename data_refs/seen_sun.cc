@@ -183,6 +183,8 @@ std::optional<SeenSun> seen_sun(std::span<const Sample> scan) {
   seen.misfit = misfit(best);
   seen.stated_misfit = misfit({stated, 0});
   seen.sigma = sigma_at(misfit, best, seen.misfit);
+  const auto brightest = std::ranges::max_element(directions, {}, &Direction::log_value);
+  seen.brightest = angle_between({stated, 0}, brightest->zenith, brightest->azimuth);
   return seen;
 }
 

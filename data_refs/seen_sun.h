@@ -16,6 +16,7 @@ struct SeenSun {
   double sigma = 0;          // one standard deviation of the direction, of the misfit's curvature
   double misfit = 0;         // root mean square of ln of the sky, with the sun that is seen,
   double stated_misfit = 0;  // and with the stated one
+  double brightest = 0;      // angle from the stated sun to the brightest direction
 };
 
 // Of the samples of one scan: ln of the sky as a sum of a function of the view's zenith angle and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fisheye image of the sky (OpenEXR or Radiance HDR) becomes luminances averaged over bins. The
+// An image of the sky (OpenEXR or Radiance HDR) becomes luminances averaged over bins. The
 // facts of import_option_table() state the projection (image_directions.h), the unit or the lumen
 // per watt, and the sun or time and place. Loads OpenImageIO (image/image_module.h).
 //

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <numbers>
 #include <optional>
@@ -33,9 +34,13 @@ struct Disagreement {
   double apart() const { return seen_from_stated(seen, stated_zenith); }
 };
 
+// Clouds of another brightness may move the sun that is seen; the stated one then fits nearly as
+// well, or what is brightest is near it. Skies with their pixels in the wrong places, as of a wrong
+// projection, fit no sun well.
 bool is_certain(const SeenSun& seen, double apart) {
-  constexpr double kSigmas = 4, kClearlyBetter = 1.2;
-  return apart > kSigmas * seen.sigma && seen.stated_misfit > kClearlyBetter * seen.misfit;
+  constexpr double kSigmas = 4, kClearlyBetter = 1.2, kBetter = 1.1, kFar = 45 * kRadiansPerDegree;
+  const double better = seen.brightest > kFar ? kBetter : kClearlyBetter;
+  return apart > kSigmas * seen.sigma && seen.stated_misfit > better * seen.misfit;
 }
 
 std::string degrees(double angle) { return fmt::format("{:.1f} deg", angle * kDegreesPerRadian); }
@@ -96,6 +101,27 @@ std::string text_of(const std::string& sky, const Disagreement& d) {
       d.seen.relative_azimuth > 0 ? "clockwise" : "counter-clockwise", mends_of(d));
 }
 
+std::string refusal_of(const std::string& sky, const Disagreement& d) {
+  return text_of(sky, d) + "; --accept-sun takes the sun as it is stated";
+}
+
+void mask_scan(std::ptrdiff_t scan, Reference& sky) {
+  for (Sample& s : sky.samples) {
+    if (s.scan != scan || !(s.weight > 0)) continue;
+    s.weight = 0;
+    s.zero_weight_reason = "the light puts the sun elsewhere";
+  }
+}
+
+// Of the first ones, and how many `more` there are.
+template <class Text>
+void add_notes(const std::vector<Disagreement>& all, Text text,
+               fmt::format_string<std::size_t> more, Reference& sky) {
+  constexpr std::size_t kMost = 5;
+  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i) sky.notes.push_back(text(all[i]));
+  if (all.size() > kMost) sky.notes.push_back(fmt::format(more, all.size() - kMost));
+}
+
 std::vector<std::vector<Sample>> samples_by_scan(const Reference& sky) {
   std::vector<std::vector<Sample>> samples(sky.scans.size());
   for (const Sample& s : sky.samples) {
@@ -136,28 +162,28 @@ std::string mends_from_either_zero(const Reference& from_north) {
 
 void check_suns(const ImportOptions& facts, Reference& sky) {
   const std::vector<std::vector<Sample>> samples = samples_by_scan(sky);
-  std::vector<Disagreement> noted;
-  int telling = 0, refused = 0;
+  std::vector<Disagreement> noted, refused;
+  std::size_t telling = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto seen = seen_sun(samples[i]);
     if (!seen || seen->sigma > kNoted) continue;
     ++telling;
     const Disagreement d{*seen, samples[i].front().sun_zenith, &sky.scans[i]};
     if (d.apart() < kNoted || !is_certain(*seen, d.apart())) continue;
-    noted.push_back(d);
-    if (d.apart() > kRefused) ++refused;
+    (d.apart() > kRefused && !facts.accept_sun ? refused : noted).push_back(d);
   }
-  if (2 * refused > telling && !facts.accept_sun) {
-    const auto worst = std::ranges::max_element(noted, {}, &Disagreement::apart);
-    throw std::invalid_argument(text_of(sky.name, *worst) +
-                                "; --accept-sun takes the sun as it is stated");
+  if (2 * refused.size() > telling) {
+    const auto worst = std::ranges::max_element(refused, {}, &Disagreement::apart);
+    throw std::invalid_argument(refusal_of(sky.name, *worst));
   }
-  constexpr std::size_t kMostNotes = 5;
-  for (std::size_t i = 0; i < std::min(kMostNotes, noted.size()); ++i)
-    sky.notes.push_back(text_of(sky.name, noted[i]));
-  if (noted.size() > kMostNotes)
-    sky.notes.push_back(fmt::format("the light of {} more scans puts the sun elsewhere",
-                                    noted.size() - kMostNotes));
+  for (const Disagreement& d : refused) mask_scan(d.scan - sky.scans.data(), sky);
+  add_notes(
+      refused,
+      [&](const Disagreement& d) { return "a scan is left out: " + refusal_of(sky.name, d); },
+      "{} more scans are left out", sky);
+  add_notes(
+      noted, [&](const Disagreement& d) { return text_of(sky.name, d); },
+      "the light of {} more scans puts the sun elsewhere", sky);
 }
 
 }  // namespace skyfit::refs

@@ -10,8 +10,9 @@
 
 namespace skyfit::refs {
 
-// Notes each scan whose sun is seen elsewhere. Throws std::invalid_argument in one line when most
-// scans that can tell see it more than 8 deg away, unless facts.accept_sun.
+// Notes each scan whose sun is seen elsewhere. One that sees it more than 8 deg away is left out:
+// its samples have weight 0. Throws std::invalid_argument in one line when these are most of the
+// scans that can tell. With facts.accept_sun scans are noted alone.
 void check_suns(const ImportOptions& facts, Reference& sky);
 
 // Of a sky whose azimuths count from north or from south, nobody knows which: the change of clock

@@ -12,7 +12,7 @@
 #include "model/polarisation.h"
 #include "model/sky_model.h"
 #include "render/color_space.h"
-#include "render/sky_map/projection.h"
+#include "model/geometry/map_projection.h"
 
 namespace skyfit {
 

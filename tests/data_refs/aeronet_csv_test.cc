@@ -97,7 +97,7 @@ TEST(AeronetCsv, WavelengthsTakenTogetherAreAScan) {
 TEST(AeronetCsv, FaultsNameLineAndColumn) {
   const std::string values = "22,-999,20,21,2";
   EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", values, "Hybrid")),
-            "sky.alm:5: Sky_Scan_Type = \"hybrid\": expected Almucantar or Principal Plane, whose "
+            "sky.alm:5: Sky_Scan_Type = \"Hybrid\": expected Almucantar or Principal Plane, whose "
             "directions are known");
   EXPECT_EQ(complaint(kBare + line("11:11:61", "440", "60", values)),
             "sky.alm:5: Time(hh:mm:ss) = \"11:11:61\": expected hh:mm:ss of a day that exists");
@@ -132,6 +132,62 @@ TEST(AeronetCsv, PrincipalPlaneGoesThroughTheZenith) {
   EXPECT_NEAR(std::abs(sky.samples[4].relative_azimuth), 180 * kDegree, kRounding);
 }
 
+TEST(AeronetCsv, TypesOfScansAreKnownInTheirSpellings) {
+  const auto view_zenith_deg = [&](const std::string& type) {
+    const Reference sky = parse(kBare + line("11:11:49", "440", "60", "22,-999,20,21,2", type));
+    return sky.samples[0].view_zenith / kDegree;  // toward -6
+  };
+  for (const std::string type : {"Principal_Plane", "PrincipalPlane", "PPL", "principal plane 1"})
+    EXPECT_NEAR(view_zenith_deg(type), 66, 1e-9) << type;
+  for (const std::string type : {"ALM", "almucantar", "Almucantar_Right"})
+    EXPECT_NEAR(view_zenith_deg(type), 60, 1e-9) << type;
+  for (const std::string type : {"HYB", "Hybrid_1"})
+    EXPECT_THAT(complaint(kBare + line("11:11:49", "440", "60", "22,-999,20,21,2", type)),
+                StartsWith("sky.alm:5: Sky_Scan_Type = \"" + type + "\": expected Almucantar"));
+}
+
+// Each under its own columns, whether a line of titles or a head stands above them.
+TEST(AeronetCsv, TablesOfSeveralTypesMayFollowEachOther) {
+  const std::string columns = kHead.substr(kHead.find("AERONET_Site"));
+  const std::string second =
+      columns + "-6.0,2.0\n" + line("11:30:00", "440", "60", "30,40", "Principal Plane");
+  for (const std::string above : {"", ",,,,,,,,Radiance_for_Azimuth_Angle(uW/cm^2/sr/nm),\n",
+                                  "AERONET Version 3;\nSomewhere\nVersion 3: Raw Plane\n"}) {
+    const Reference sky =
+        parse(kBare + line("11:11:49", "440", "60", "22,-999,20,21,2") + above + second);
+    ASSERT_EQ(sky.samples.size(), 7u) << above;
+    ASSERT_EQ(sky.scans.size(), 2u);
+    EXPECT_NEAR(sky.samples[4].relative_azimuth, 90 * kDegree, kRounding);
+    EXPECT_NEAR(sky.samples[5].view_zenith, 66 * kDegree, kRounding);
+    EXPECT_NEAR(sky.samples[6].view_zenith, 58 * kDegree, kRounding);
+    EXPECT_NEAR(sky.samples[6].value, 0.4, kRounding);
+    EXPECT_TRUE(sky.notes.empty()) << sky.notes.front();
+  }
+  const std::string other = columns + "note\n" + line("11:30:00", "675", "60", "1");
+  EXPECT_THAT(parse(kBare + line("11:11:49", "440", "60", "22,-999,20,21,2") + other).notes,
+              testing::ElementsAre(StartsWith("a table is left out: sky.alm:6: expected columns")));
+  EXPECT_EQ(complaint(kBare + line("11:11:49", "440", "60", "22,-999,20,21,2") + columns +
+                      "Radiance_for_Angle(mW/m^2/sr/nm)_6.0\n"),
+            "sky.alm:6: unit = \"mW/m^2/sr/nm\": expected uW cm-2 sr-1 nm-1 as before");
+}
+
+// As files of version 2 do without types of scans, when one follows the other.
+TEST(AeronetCsv, AHeadBelowSaysAnotherPlaceAndPath) {
+  const std::string columns =
+      "Date(dd:mm:yyyy),Time(hh:mm:ss),Wavelength,SolarZenithAngle,-6.0,6.0\n";
+  const auto part = [&](const std::string& head, const std::string& clock) {
+    return head + columns + "03:01:2019," + clock + ",440,-999,22,20\n";
+  };
+  const Reference sky =
+      parse(part("Level 1.5 Almucantar\nLocation=A,long=11.0,lat=47.0,elev=500\n", "11:00:00") +
+            part("Level 1.5 Principal Plane\nLocation=B,long=-60.0,lat=-3.0\n", "16:00:00"));
+  ASSERT_EQ(sky.scans.size(), 2u);
+  EXPECT_NEAR(sky.scans[0].site->longitude / kDegree, 11, 1e-9);
+  EXPECT_NEAR(sky.scans[1].site->longitude / kDegree, -60, 1e-9);
+  EXPECT_NEAR(sky.samples[1].view_zenith, sky.samples[1].sun_zenith, kRounding);
+  EXPECT_NEAR(sky.samples[3].view_zenith, sky.samples[3].sun_zenith - 6 * kDegree, 1e-9);
+}
+
 TEST(AeronetCsv, ALineThatCannotBeUsedIsLeftOutAndSaid) {
   const std::string values = "22,-999,20,21,2";
   const Reference sky =
@@ -164,6 +220,21 @@ TEST(AeronetCsv, ScatteringAnglesAreNoRadiances) {
                              "-6.0,6.0,90.0,5.2,5.3,75.5\n" +
                              line("11:11:49", "440", "60", "22,20,2,5.2,5.2,75.5");
   EXPECT_EQ(parse(titled).samples.size(), 3u);
+}
+
+// Along the principal plane both angles are the same; along the almucantar they are not.
+TEST(AeronetCsv, RadiancesMayBeNamedByScatteringAngles) {
+  const auto named = [&](const std::string& type) {
+    const std::size_t columns = kHead.find("AERONET_Site");
+    return kHead.substr(0, columns) + ",,,,,,,,Radiance_for_Scattering_Angle(uW/cm^2/sr/nm),\n" +
+           kHead.substr(columns) + "-6.0,6.0\n" + line("11:11:49", "440", "60", "22,20", type);
+  };
+  const Reference sky = parse(named("Principal Plane"));
+  ASSERT_EQ(sky.samples.size(), 2u);
+  EXPECT_NEAR(sky.samples[0].view_zenith, 66 * kDegree, kRounding);
+  EXPECT_EQ(complaint(named("Almucantar")),
+            "sky.alm:6: Sky_Scan_Type = \"Almucantar\": expected Principal Plane under radiances "
+            "that are named by scattering angles");
 }
 
 // A block under another title, before or behind, is none of radiances.

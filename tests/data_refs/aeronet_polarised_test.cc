@@ -95,7 +95,7 @@ TEST(AeronetPolarised, FaultsNameLineAndColumn) {
   EXPECT_THAT(complaint(kHead + columns("P1 P2 P3") + line("0.5,0.5")),
               StartsWith("sky.alp:2: expected columns Degree_of_Polarization_for_Azimuth_Angle"));
   EXPECT_EQ(complaint(kAll + line("0.5,0.5", "Principal Plane")),
-            "sky.alp:3: Sky_Scan_Type = \"principal plane\": expected an almucantar");
+            "sky.alp:3: Sky_Scan_Type = \"Principal Plane\": expected an almucantar");
   EXPECT_THAT(complaint(kAll + line("0.5,high")), HasSubstr("\"high\": expected a number"));
   EXPECT_EQ(complaint(kAll + "Site,03:01:2019,11:11:49,440,60,Almucantar,0.5\n"),
             "sky.alp:3: expected 14 fields, got 7");

@@ -97,7 +97,7 @@ TEST(Fisheye, FaultsAreNamed) {
   };
   EXPECT_EQ(complaint({}),
             "sky.exr: projection: not stated, expected equidistant, equisolid, orthographic, "
-            "stereographic, polynomial or equirectangular");
+            "stereographic, polynomial, equirectangular, angular, cube or octahedral");
   EXPECT_EQ(complaint(lens("polynomial")),
             "sky.exr: lens_polynomial: not stated, expected C1,C2,..");
   EXPECT_EQ(complaint(lens("equisolid", "1")),

@@ -5,19 +5,23 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "data_refs/measured_formats.h"
 #include "data_refs/measured_sky.h"
 #include "data_refs/references.h"
+#include "data_refs/sky_image.h"
 #include "data_refs/solar_position.h"
 #include "data_refs/sun_check.h"
 #include "model/base/input_file.h"
 #include "model/base/temporary_directory.h"
 #include "model/base/whole_file.h"
+#include "model/geometry/map_projection.h"
 #include "model/numerics/angles.h"
 #include "tests/data_refs/complaint.h"
 
@@ -25,8 +29,10 @@ namespace skyfit::refs {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 constexpr double kDegree = kRadiansPerDegree;
 
@@ -57,6 +63,72 @@ TEST(SeenSun, IsNotSeenUnderCloudsNorInAFewDirections) {
   }
   EXPECT_FALSE(
       seen_sun(load_reference("cie:12", {50 * kDegree}, Sampling::kPrincipalPlane, {}).samples));
+}
+
+// Three scans under different suns, the azimuths of the first `wrong` of them turned by 40 deg.
+Reference three_scans(int wrong) {
+  const std::vector<double> suns = {30 * kDegree, 50 * kDegree, 70 * kDegree};
+  Reference sky = load_reference("cie:12", suns, Sampling::kTregenza, {});
+  sky.scans.resize(suns.size());
+  for (Sample& s : sky.samples) {
+    s.scan = static_cast<int>(std::ranges::find(suns, s.sun_zenith) - suns.begin());
+    if (s.scan < wrong) s.relative_azimuth += 40 * kDegree;
+  }
+  return sky;
+}
+
+TEST(SunCheck, AScanWithAnotherSunIsLeftOutAndSaid) {
+  Reference sky = three_scans(1);
+  check_suns({}, sky);
+  for (const Sample& s : sky.samples) {
+    EXPECT_EQ(s.weight > 0, s.scan != 0);
+    EXPECT_EQ(s.zero_weight_reason, s.scan != 0 ? "" : "the light puts the sun elsewhere");
+  }
+  EXPECT_THAT(sky.notes,
+              ElementsAre(AllOf(StartsWith("a scan is left out: "), HasSubstr("turned 40.0 deg"),
+                                HasSubstr("--accept-sun"))));
+  Reference most = three_scans(2);
+  EXPECT_THAT(complaint_of([&] { check_suns({}, most); }), HasSubstr("the light of the sky puts"));
+  ImportOptions options;
+  options.accept_sun = true;
+  Reference accepted = three_scans(2);
+  check_suns(options, accepted);
+  EXPECT_EQ(accepted.notes.size(), 2u);
+  EXPECT_TRUE(std::ranges::all_of(accepted.samples, [](const Sample& s) { return s.weight > 0; }));
+}
+
+// A light probe over a bright ground, read as if it were a fisheye image: no sun fits its light
+// well, yet the stated one, far from what is brightest, is not there.
+TEST(SunCheck, AnotherProjectionIsRefused) {
+  constexpr int kSide = 200;
+  const auto probe = make_map_projection("angular", kSide);
+  const double sun_zenith = 40 * kDegree, sun_azimuth = 140 * kDegree;
+  const Axis sun = {std::sin(sun_zenith) * std::sin(sun_azimuth),
+                    std::sin(sun_zenith) * std::cos(sun_azimuth), std::cos(sun_zenith)};
+  Image image{kSide, kSide, {"Y"}, {}};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const Axis d = probe->direction(x + 0.5, y + 0.5).value_or(Axis{0, 0, -1});
+      const double cosine = d[0] * sun[0] + d[1] * sun[1] + d[2] * sun[2];
+      // CIE S 011, type 12
+      const double sky = (1 - std::exp(-0.32 / std::max(d[2], 0.01))) *
+                         (1 + 10 * std::exp(-3 * std::acos(std::clamp(cosine, -1.0, 1.0))) +
+                          0.45 * cosine * cosine);
+      image.pixels.push_back(static_cast<float>(d[2] > 0 ? sky : 1));
+    }
+  }
+  ImportOptions facts;
+  facts.unit = "relative";
+  facts.sun_zenith_deg = 40;
+  facts.sun_azimuth_deg = 140;
+  const auto complaint = [&](const std::string& projection) {
+    facts.projection = projection;
+    Reference sky = sky_image_reference(image, nullptr, false, "sky.exr", facts);
+    return complaint_of([&] { check_suns(facts, sky); });
+  };
+  EXPECT_EQ(complaint("angular"), "accepted");
+  for (const char* lens : {"equidistant", "equisolid", "orthographic"})
+    EXPECT_THAT(complaint(lens), HasSubstr("the light of the sky puts the sun")) << lens;
 }
 
 // The example of 145 patches with something changed in its head.

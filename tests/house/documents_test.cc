@@ -18,7 +18,7 @@
 #include "render/features/render_features.h"
 #include "render/panels.h"
 #include "render/plot/measured_figures.h"
-#include "render/sky_map/projection.h"
+#include "model/geometry/map_projection.h"
 
 namespace skyfit {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/sky_map/projection.h"
+#include "model/geometry/map_projection.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,28 +43,27 @@ class Equirectangular final : public MapProjection {
   int rows_;
 };
 
-// A square picture whose solid angles have no simple form: by the area that four corners span.
+// A square picture whose pixels have solid angles without a simple form.
 class Square : public MapProjection {
  public:
   explicit Square(int side) : side_(side) {}
   int width() const override { return side_; }
   int height() const override { return side_; }
-  // Of a pixel as 4 x 4 parts, each a parallelogram.
+  // Of a pixel as 4 x 4 parts.
   double solid_angle_sr(int x, int y) const override {
     constexpr int kParts = 4;
     double sum = 0;
     for (int j = 0; j < kParts; ++j) {
       for (int i = 0; i < kParts; ++i)
-        sum += part(x + (i + 0.5) / kParts, y + (j + 0.5) / kParts, 1.0 / kParts);
+        sum += sr_per_pixel(x + (i + 0.5) / kParts, y + (j + 0.5) / kParts);
     }
-    return sum;
+    return sum / (kParts * kParts);
   }
 
  protected:
   double side() const { return side_; }
-
- private:
-  double part(double x, double y, double size) const {
+  // At a point, by the parallelogram that two steps from it span; 0 where no direction is shown.
+  virtual double sr_per_pixel(double x, double y) const {
     constexpr double kStep = 1e-4;  // of a pixel
     const auto middle = direction(x, y), right = direction(x + kStep, y),
                down = direction(x, y + kStep);
@@ -74,11 +73,12 @@ class Square : public MapProjection {
       a[k] = (*right)[k] - (*middle)[k];
       b[k] = (*down)[k] - (*middle)[k];
     }
-    return size * size / (kStep * kStep) *
-           std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                      a[0] * b[1] - a[1] * b[0]);
+    return std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                      a[0] * b[1] - a[1] * b[0]) /
+           (kStep * kStep);
   }
 
+ private:
   int side_;
 };
 
@@ -100,6 +100,15 @@ class Disc : public Square {
     const double radius = angle / largest_;
     return Point{0.5 * side() * (1 + radius * std::sin(turn)),
                  0.5 * side() * (1 - radius * std::cos(turn))};
+  }
+  // Rings of the angle t: sin t dt dphi on the sphere, r dr dphi in the picture.
+  double sr_per_pixel(double x, double y) const override {
+    const auto p = polar(x, y);
+    if (!p) return 0;
+    const double angle = (*p)[0], radians_per_pixel = 2 * largest_ / side();
+    constexpr double kInTheMiddle = 1e-6;
+    return radians_per_pixel * radians_per_pixel *
+           (angle < kInTheMiddle ? 1 : std::sin(angle) / angle);
   }
 
  private:
