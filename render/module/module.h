@@ -27,7 +27,7 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 14;
+  static constexpr int kRevision = 15;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);
