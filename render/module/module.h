@@ -16,6 +16,7 @@ namespace skyfit {
 class FrameDrawer {
  public:
   virtual ~FrameDrawer() = default;
+  virtual std::string device() const = 0;
   virtual void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) = 0;
   virtual void prepare(const FrameOptions& options) = 0;
   virtual void set_atmosphere(const AtmosphereTables& tables, TablePrecision precision) = 0;
