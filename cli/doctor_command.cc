@@ -39,8 +39,7 @@ bool examine(std::string_view what, const std::function<std::string()>& look) {
 }
 
 std::string renderer_of(GraphicsDevice device) {
-  const Renderer renderer({}, device);
-  return "draws";
+  return fmt::format("draws with {}", printable(Renderer({}, device).device()));
 }
 
 // Where the cache is and how large; that there is none is no fault.

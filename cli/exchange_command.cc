@@ -36,9 +36,12 @@ void run_export(const ExportArguments& arguments) {
   }
   if (arguments.textures && !program->has_textures)
     throw UsageError("--textures", "true", "expected --to bruneton");
-  if (is_stdout(arguments.out) && (program->writes_beside || arguments.textures))
+  // What a program reads has one extension, so that "-" alone says what goes to stdout.
+  const std::string out =
+      arguments.out == "-" ? fmt::format("-{}", program->extension) : arguments.out;
+  if (is_stdout(out) && (program->writes_beside || arguments.textures))
     throw UsageError("--out", arguments.out, "expected a file: others are written beside it");
-  require_output_files({arguments.out}, {std::string(program->extension)});
+  require_output_files({out}, {std::string(program->extension)});
   const double sun_zenith = parse_angle("--sun-zenith-deg", arguments.sun_zenith, 0, 90),
                sun_azimuth = parse_angle("--sun-azimuth-deg", arguments.sun_azimuth, -360, 360);
   const Preset preset = preset_named(arguments.preset);
@@ -70,7 +73,7 @@ void run_export(const ExportArguments& arguments) {
       .models = {*truth, *scalar},
       .sun_zenith = sun_zenith,
       .sun_azimuth = sun_azimuth,
-      .file = arguments.out,
+      .file = out,
       .textures = arguments.textures,
       .threads = arguments.threads,
       .write_sky_map = write_map,
@@ -81,7 +84,7 @@ void run_export(const ExportArguments& arguments) {
     print(fmt::format("{}\n", exported.files[i].path.string()));
   for (const std::filesystem::path& picture : exported.pictures)
     print(fmt::format("{}\n", picture.string()));
-  print(fmt::format("{}: {} of the preset {}\nloss by what it cannot hold: {}\n", arguments.out,
+  print(fmt::format("{}: {} of the preset {}\nloss by what it cannot hold: {}\n", out,
                     program->meaning, preset.name, exported.loss));
 }
 
@@ -131,7 +134,9 @@ void add_export_command(CLI::App& app) {
   command.add_option("--to", arguments->to, "The program, see below")
       ->required()
       ->type_name("NAME");
-  command.add_option("--out", arguments->out, "The file; what belongs to it is written beside it")
+  command
+      .add_option("--out", arguments->out,
+                  "The file, or - for stdout; what belongs to it is written beside it")
       ->required()
       ->type_name("FILE");
   command.add_option("--sun-zenith-deg", arguments->sun_zenith, "Zenith angle of its sun, 0 to 90")

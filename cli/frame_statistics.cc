@@ -66,9 +66,16 @@ std::string StatisticsTable::medians() const {
   return line("median", values);
 }
 
-void print_statistics(const std::string& lines, const TimeAccount& time,
-                      const RenderRequest& request) {
-  print(lines + time.table());
+void report_frames(const std::string& lines, const std::string& device, const TimeAccount& time,
+                   const RenderRequest& request) {
+  const std::string drawn = device.empty() ? "" : fmt::format("drawn with {}\n", printable(device));
+  if (!request.stats) {
+    const Verbosity least =
+        request.device == GraphicsDevice::kGpu ? Verbosity::kNormal : Verbosity::kVerbose;
+    if (!drawn.empty() && verbosity() >= least) fmt::print(stderr, "skyfit: {}", drawn);
+    return;
+  }
+  print(lines + drawn + time.table());
   if (!request.cache_trouble.empty() || (request.cache && request.cache->trouble()))
     fmt::print(stderr, "skyfit: no cache: {}\n",
                request.cache ? printable(*request.cache->trouble()) : request.cache_trouble);

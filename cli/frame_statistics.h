@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `skyfit render --stats` prints.
+// What `skyfit render` says of what it drew: with --stats all of it, else the device where --gpu or
+// --verbose asks.
 #pragma once
 
 #include <string>
@@ -26,8 +27,10 @@ class StatisticsTable {
   std::vector<std::vector<double>> columns_;  // since the last head
 };
 
-// Prints the table's lines and the wall time, and on stderr what kept the run from its cache.
-void print_statistics(const std::string& lines, const TimeAccount& time,
-                      const RenderRequest& request);
+// With --stats prints the table's lines, the device and the wall time, and on stderr what kept the
+// run from its cache; else the device on stderr, where it is asked for. No device: nothing was
+// drawn.
+void report_frames(const std::string& lines, const std::string& device, const TimeAccount& time,
+                   const RenderRequest& request);
 
 }  // namespace skyfit::cli

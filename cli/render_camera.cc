@@ -44,9 +44,9 @@ void require_place(const CameraPose& pose, const CLI::App& command, const std::s
 }
 
 CameraPose parse_camera(const RenderOptions& options, const CLI::App& command,
-                        const NamedView& view) {
+                        const NamedView& view, double bottom_radius_m) {
   const auto given = [&](const char* option) { return command.count(option) > 0; };
-  CameraPose pose = pose_of(view);
+  CameraPose pose = pose_of(view, bottom_radius_m);
   parse_camera_place(options, command, pose);
   for (const char* option : {"--heading-deg", "--look-at", "--sun-azimuth-deg", "--date"})
     require_place(pose, command, option);
@@ -135,7 +135,6 @@ SunDirection sun_over(Instant time, const Place& place) {
 Keyframe parse_start(const RenderOptions& options, const CLI::App& command) {
   const NamedView& view = entry_named("--view", options.view, named_views());
   Keyframe start;
-  start.camera = parse_camera(options, command, view);
   start.sun.direction = sun_of(view);
   if (command.count("--sun-zenith-deg") > 0)
     start.sun.direction.zenith = parse_angle("--sun-zenith-deg", options.sun_zenith, 0, 180);
@@ -147,6 +146,7 @@ Keyframe parse_start(const RenderOptions& options, const CLI::App& command) {
   } else if (command.count("--preset") > 0) {
     start.preset = preset_named(options.preset);
   }
+  start.camera = parse_camera(options, command, view, start.preset.atmosphere.bottom_radius_m);
   return start;
 }
 

@@ -9,17 +9,23 @@
 #include "cli/render_modes.h"
 #include "cli/render_options.h"
 #include "cli/render_request.h"
+#include "render/scene/placement.h"
 
 namespace skyfit::cli {
 namespace {
 
 std::string view_list() {
+  constexpr double kMetresPerKm = 1000;
   std::string text = "Views:\n";
   for (const NamedView& view : named_views()) {
     text += fmt::format("  {:<10}{} (sun zenith {:.4g} deg)\n", view.name, view.meaning,
                         degrees(view.sun_zenith));
   }
-  return text;
+  return text +
+         fmt::format(
+             "Heights of orbit, limb and space are those of planets with a radius of {:.9g} to "
+             "{:.9g} km;\non a smaller or larger planet they are in proportion to its radius.\n",
+             kSmallestLikeEarth_m / kMetresPerKm, kLargestLikeEarth_m / kMetresPerKm);
 }
 
 void run_render(const RenderOptions& options, const CLI::App& command) {

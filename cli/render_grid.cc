@@ -156,12 +156,13 @@ void print_axis(std::string_view direction, const GridAxis& axis) {
 void render_grid(const GridRequest& request) {
   TimeAccount time;
   DrawnGrid grid = drawn(request, time);
+  const std::string device = grid.frames.front().statistics.device;
   time.done("closing the renderer");
   write_files(picture_of(request, std::move(grid.frames)), request.cells.front().out);
   time.done("files");
   print_axis("from left to right", request.columns);
   print_axis("from top to bottom", request.rows);
-  if (request.cells.front().stats) print_statistics(grid.statistics, time, request.cells.front());
+  report_frames(grid.statistics, device, time, request.cells.front());
 }
 
 }  // namespace skyfit::cli

@@ -122,7 +122,8 @@ void add_picture_options(CLI::App& command, RenderOptions& options) {
       .option("--samples-per-side", options.samples_per_side, "INT",
               "Samples of a pixel along each side, 1 to 4")
       ->capture_default_str();
-  group.flag("--gpu", options.gpu, "Draw through EGL, on a GPU where there is one");
+  group.flag("--gpu", options.gpu,
+             "Draw through EGL, on a GPU where there is one; stderr names the device");
   group.option("--exposure", options.exposure, "K",
                "K times the luminance goes through the tone curve, m^2/cd; by default automatic");
   group
@@ -298,7 +299,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_flag("--panels", options.panels,
                    "Beside each PNG the parts of the picture as PNGs, as frame.depth.png; an EXR "
                    "then holds them, too");
-  command.add_flag("--stats", options.stats, "Print triangles, blocks and the time of every pass");
+  command.add_flag("--stats", options.stats,
+                   "Print triangles, blocks, the device and the time of every pass");
   add_threads_option(command, options.threads);
   command.add_flag("--no-cache", options.no_cache,
                    "Compute tables, ground and textures anew instead of reading or keeping them in "

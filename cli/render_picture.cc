@@ -31,7 +31,7 @@ void render_picture(const RenderRequest& request) {
   time.done("closing the renderer");
   write_frame_files(frame, paths(request.out), request.tone, request.panels);
   time.done("files");
-  if (request.stats) print_statistics(StatisticsTable().row(0, frame.statistics), time, request);
+  report_frames(StatisticsTable().row(0, frame.statistics), frame.statistics.device, time, request);
 }
 
 }  // namespace skyfit::cli

@@ -35,6 +35,7 @@ class Shooting {
         adaptation_(request.adaptation_s) {}
 
   int drawn() const { return drawn_; }
+  const std::string& device() const { return device_; }
   const StatisticsTable& statistics() const { return statistics_; }
   const TimeAccount& time() const { return time_; }
   FrameStore& store() { return store_; }
@@ -77,6 +78,7 @@ class Shooting {
     store_.write(number, {fingerprint, metered, *exposure}, picture, request_.tone);
     time_.done("files");
     ++drawn_;
+    device_ = picture.statistics.device;
     if (request_.stats) print(statistics_.row(number, picture.statistics));
   }
 
@@ -88,6 +90,7 @@ class Shooting {
   Adaptation adaptation_;
   StatisticsTable statistics_;
   std::optional<RenderSession> session_;  // opened by the first frame that is drawn
+  std::string device_;
   int drawn_ = 0;
 };
 
@@ -120,7 +123,7 @@ void render_sequence(const RenderRequest& request) {
     Progress progress("rendering");
     for (int i = 0; i < frames; ++i) shooting.frame(i, progress);
   }
-  if (request.stats) print_statistics(shooting.statistics().medians(), shooting.time(), request);
+  report_frames(shooting.statistics().medians(), shooting.device(), shooting.time(), request);
   print(fmt::format("{}: {} frames at {:.9g} per second, {} drawn, {} kept{}\n", request.out_dir,
                     frames, request.sequence.frames_per_second, shooting.drawn(),
                     frames - shooting.drawn(), film(request, shooting.store())));

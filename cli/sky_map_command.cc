@@ -95,20 +95,24 @@ void print_summary(const SkyMap& map, const std::string& file) {
   print(fmt::format("{}, direct normal: {:.6g} {}\n", what, map.direct_normal[shown], unit));
 }
 
+void require_formats(const SkyMapArguments& arguments) {
+  require_output_files({arguments.out}, {".exr", ".hdr", ".ktx2", ".npy"});
+  if (arguments.out.ends_with(".exr") || arguments.out.ends_with(".npy")) return;
+  constexpr const char* kNeeded = "expected with an .exr or .npy file, which may have any channels";
+  if (arguments.stokes) throw UsageError("--stokes", "", kNeeded);
+  if (!arguments.wavelengths.empty())
+    throw UsageError("--wavelength-nm", arguments.wavelengths, kNeeded);
+}
+
 void run_sky_map(const SkyMapArguments& arguments) {
-  const bool spectral = !arguments.wavelengths.empty();
-  require_output_files({arguments.out}, spectral
-                                            ? std::vector<std::string>{".exr", ".npy"}
-                                            : std::vector<std::string>{".exr", ".hdr", ".npy"});
-  if (arguments.stokes && arguments.out.ends_with(".hdr"))
-    throw UsageError("--stokes", "", "expected with an .exr or .npy file, which has layers");
+  require_formats(arguments);
   if (arguments.stokes && arguments.scalar) throw UsageError("--scalar", "", kScalarStokes);
   if (!arguments.sun_file.empty())
     require_output_files({arguments.sun_file}, {".json"}, "--sun-file");
   const Primaries primaries = parse_primaries(arguments.primaries);
   if (arguments.out.ends_with(".hdr") && primaries != Primaries::kRec709)
     throw UsageError("--primaries", arguments.primaries, "expected rec709 for a .hdr file");
-  if (spectral && primaries != Primaries::kRec709)
+  if (!arguments.wavelengths.empty() && primaries != Primaries::kRec709)
     throw UsageError("--primaries", arguments.primaries, "expected without --wavelength-nm");
   constexpr double kLeast = 8, kMost = 8192;
   const double size =
@@ -156,7 +160,7 @@ void add_sky_map_command(CLI::App& app) {
     return command.add_option(name, value, meaning)->type_name(type)->capture_default_str();
   };
   option("preset", arguments->preset, "Shipped preset or preset file", "PRESET")->required();
-  option("--out", arguments->out, "The picture", "FILE.{exr,hdr,npy}")->required();
+  option("--out", arguments->out, "The picture", "FILE.{exr,hdr,ktx2,npy}")->required();
   option("--sun-zenith-deg", arguments->sun_zenith, "Zenith angle of the sun, 0 to 180", "ANGLE")
       ->required();
   option("--sun-azimuth-deg", arguments->sun_azimuth, "Azimuth of the sun, clockwise from north",
@@ -187,6 +191,10 @@ void add_sky_map_command(CLI::App& app) {
       "irradiance\n"
       "that the map gives is printed beside the model's.\n"
       "\n"
+      ".ktx2 is a texture of Khronos for engines, of floats with alpha 1; of the projection cube a "
+      "cube\n"
+      "map in that format's left-handed axes: +X is east, +Y up, +Z north.\n"
+      "\n"
       "--stokes writes stokes.Q and stokes.U (cd/m^2 of luminance, or W m^-2 sr^-1 nm^-1), dolp, "
       "the "
       "degree\n"
@@ -203,6 +211,8 @@ void add_sky_map_command(CLI::App& app) {
       "  skyfit sky-map earth-clear --sun-zenith-deg 40 --size 1024 --out sky.exr\n"
       "  skyfit sky-map fitted/preset.json --sun-zenith-deg 60 --sun out --sun-file sun.json "
       "--out sky.hdr\n"
+      "  skyfit sky-map earth-clear --sun-zenith-deg 40 --projection cube --size 256 --out "
+      "sky.ktx2\n"
       "  skyfit sky-map earth-clear --sun-zenith-deg 30 --projection octahedral "
       "--wavelength-nm 450,550,650 --out sky.exr\n"
       "  skyfit sky-map earth-clear --sun-zenith-deg 70 --projection fisheye --stokes --out "

@@ -60,6 +60,7 @@ struct PassTime {
 };
 
 struct FrameStatistics {
+  std::string device = {};     // what drew: OpenGL's renderer and version, and the way to it
   std::int64_t triangles = 0;  // drawn into the G-buffer
   int blocks_drawn = 0;
   // Culled nodes of the tree: outside the frustum, behind the planet's horizon.

@@ -75,6 +75,8 @@ Renderer::Renderer(const Scene& scene, GraphicsDevice device, std::shared_ptr<Co
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 
+std::string Renderer::device() const { return drawer_->device(); }
+
 void Renderer::set_atmosphere(const Preset& preset, const AtmosphereTables& tables,
                               TablePrecision precision) {
   drawer_->set_atmosphere(tables, precision);

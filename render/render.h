@@ -250,6 +250,9 @@ class Renderer {
   ~Renderer();
   Renderer(Renderer&&) noexcept;
 
+  // What draws: OpenGL's renderer and version, and the way to it.
+  std::string device() const;
+
   // The atmosphere of the frames that follow; `tables` must come from the preset's atmosphere,
   // lowered_by() the scene's basin_depth_m().
   // Throws std::invalid_argument when the planet has another radius than before.

@@ -185,8 +185,9 @@ constexpr std::array<CubeFace, 6> kFaces = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
 class Cube final : public MapProjection {
  public:
   explicit Cube(int side) : side_(side) {}
-  int width() const override { return 6 * side_; }
+  int width() const override { return faces() * side_; }
   int height() const override { return side_; }
+  int faces() const override { return static_cast<int>(kFaces.size()); }
   std::optional<Axis> direction(double x, double y) const override {
     const auto face = static_cast<std::size_t>(std::clamp(x / side_, 0.0, 5.0));
     const CubeFace& f = kFaces[face];

@@ -18,6 +18,8 @@ class MapProjection {
   virtual ~MapProjection() = default;
   virtual int width() const = 0;
   virtual int height() const = 0;
+  // Squares of a cube side by side, else 1.
+  virtual int faces() const { return 1; }
   // Unit vector; nothing where the picture shows no direction.
   virtual std::optional<Axis> direction(double x, double y) const = 0;
   // The point that shows a direction; nothing outside the picture. Inverse of direction().

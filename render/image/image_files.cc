@@ -15,6 +15,7 @@
 #include "model/base/whole_file.h"
 #include "render/image/caption.h"
 #include "render/image/gamut.h"
+#include "render/image/map_texture.h"
 #include "render/image/tone.h"
 
 namespace skyfit {
@@ -180,6 +181,7 @@ void write_map_file(const SkyMap& map, Primaries primaries, const fs::path& file
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
                    space.chromaticities.data());
     pixels = in_primaries(map.pixels, space);
+    if (file.extension() == ".ktx2") return write_map_texture(map, pixels, primaries, file);
   }
   spec.channelnames.insert(spec.channelnames.end(), map.layers.begin(), map.layers.end());
   if (layers > 0) pixels = interleaved(pixels, colors, map.layer_values, layers);

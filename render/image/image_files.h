@@ -13,7 +13,7 @@
 namespace skyfit {
 
 void write_exr_file(const Frame& frame, const std::filesystem::path& file);
-// .npy of (height x width x channels), else a picture.
+// .npy of (height x width x channels), .ktx2 of XYZ without layers, else a picture.
 void write_map_file(const SkyMap& map, Primaries primaries, const std::filesystem::path& file);
 // R, G, B and A of a table of float or half, see render/engine/table_files.h.
 void write_table_file(const EncodedTable& table, const std::filesystem::path& file);

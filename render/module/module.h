@@ -16,6 +16,7 @@ namespace skyfit {
 class FrameDrawer {
  public:
   virtual ~FrameDrawer() = default;
+  virtual std::string device() const = 0;
   virtual void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) = 0;
   virtual void prepare(const FrameOptions& options) = 0;
   virtual void set_atmosphere(const AtmosphereTables& tables, TablePrecision precision) = 0;
@@ -27,7 +28,7 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 14;
+  static constexpr int kRevision = 15;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);

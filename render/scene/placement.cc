@@ -66,10 +66,14 @@ Sight sight_of(const Target& target, const Target& from, double bottom_radius_m)
   return {std::atan2(std::hypot(x, y), rise), std::atan2(x, y), std::hypot(x, y, rise)};
 }
 
-CameraPose pose_of(const NamedView& view) {
+CameraPose pose_of(const NamedView& view, double bottom_radius_m) {
+  constexpr double kOutside_m = 1e5;  // of the air, on the Earth
   CameraPose pose;
   if (view.site) pose.place = Place{view.site->latitude, view.site->longitude};
   pose.altitude_m = view.camera.altitude_m;
+  if (pose.altitude_m > kOutside_m)
+    pose.altitude_m *=
+        bottom_radius_m / std::clamp(bottom_radius_m, kSmallestLikeEarth_m, kLargestLikeEarth_m);
   pose.above_ground = view.site.has_value();
   pose.view_zenith = view.camera.view_zenith;
   pose.azimuth = view.camera.azimuth;

@@ -50,7 +50,11 @@ struct CameraPose {
   bool operator==(const CameraPose&) const = default;
 };
 
-CameraPose pose_of(const NamedView& view);
+// Of a planet whose bottom radius is so long. Views from outside the air keep their heights for
+// radii from kSmallestLikeEarth_m to kLargestLikeEarth_m; smaller and larger planets look as those
+// two do: their heights are in proportion to the radius.
+inline constexpr double kSmallestLikeEarth_m = 2.5e6, kLargestLikeEarth_m = 6.4e6;
+CameraPose pose_of(const NamedView& view, double bottom_radius_m);
 SunDirection sun_of(const NamedView& view);
 
 // Throws std::invalid_argument `camera.field = value: must be ...` for what no ground could make

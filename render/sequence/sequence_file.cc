@@ -73,14 +73,14 @@ void read_direction(const PresetReader& object, CameraPose& pose) {
   }
 }
 
-CameraPose read_camera(const PresetReader& object, CameraPose pose) {
+CameraPose read_camera(const PresetReader& object, CameraPose pose, double bottom_radius_m) {
   object.expect_only({"view", "latitude_deg", "longitude_deg", "altitude_m", "above_ground_m",
                       "azimuth_deg", "heading_deg", "view_zenith_deg", "pitch_deg", "look_at",
                       "field_of_view_deg"});
   if (object.has("view")) {
     const std::string name = object.text("view");
     try {
-      pose = pose_of(find_view(name));
+      pose = pose_of(find_view(name), bottom_radius_m);
     } catch (const std::invalid_argument& error) {
       object.fail_value("view", error.what());
     }
@@ -152,7 +152,9 @@ Keyframe read_keyframe(const PresetReader& object, const Keyframe& before,
   Keyframe keyframe = before;
   keyframe.time_s = object.number("time_s");
   keyframe.preset = read_preset(object, sources, before.preset);
-  if (object.has("camera")) keyframe.camera = read_camera(object.object("camera"), before.camera);
+  if (object.has("camera"))
+    keyframe.camera = read_camera(object.object("camera"), before.camera,
+                                  keyframe.preset.atmosphere.bottom_radius_m);
   if (object.has("sun"))
     keyframe.sun = read_sun(object.object("sun"), sources, before.sun, calendar);
   object.complaining([&] {

@@ -202,6 +202,7 @@ SkyMap sky_map(const SkyModel& model, const Atmosphere<double>& atmosphere,
   SkyMap map;
   map.width = projection.width();
   map.height = projection.height();
+  map.faces = projection.faces();
   map.channels = channels.names;
   map.is_xyz = channels.names == std::vector<std::string>{"X", "Y", "Z"};
   const std::size_t row = channels.names.size() * static_cast<std::size_t>(map.width);

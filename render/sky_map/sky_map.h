@@ -42,6 +42,7 @@ struct SkyMapOptions {
 
 struct SkyMap {
   int width = 0, height = 0;
+  int faces = 1;  // 6: those of the projection cube, side by side
   std::vector<std::string> channels;
   std::vector<float> pixels;  // [pixel][channel], rows from above
   bool is_xyz = false;
@@ -67,8 +68,9 @@ SkyMap sky_map(const SkyModel& model, const Atmosphere<double>& atmosphere,
                const MapChannels& channels, const MapProjection& projection,
                const SkyMapOptions& options);
 
-// .exr, .npy, or .hdr of XYZ, whole or not at all; XYZ becomes the primaries. Throws
-// std::runtime_error that names the file.
+// .exr, .npy, or .hdr and .ktx2 of XYZ without layers, whole or not at all; XYZ becomes the
+// primaries. .ktx2 is a texture of floats with alpha 1, of six faces a cube map whose +X is east,
+// +Y up and +Z north. Throws std::runtime_error that names the file.
 void write_sky_map(const SkyMap& map, Primaries primaries, const std::filesystem::path& file);
 
 }  // namespace skyfit

@@ -12,6 +12,7 @@ namespace skyfit::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -129,6 +130,13 @@ TEST_F(CacheTest, TheDoctorSaysWhereItIs) {
   EXPECT_THAT(outcome.out, HasSubstr("ok      cache of frames and particles: " +
                                      (caches_.path() / "skyfit").string() +
                                      ", 0 entries, 0.0 MB of at most 2000 MB\n"));
+}
+
+TEST_F(CacheTest, TheDoctorNamesWhatDraws) {
+  const std::string out = run({"doctor"}, here_).out;
+  EXPECT_THAT(out,
+              ContainsRegex("ok      frames, software: draws with .+, OpenGL 4\\..+, by OSMesa\n"));
+  EXPECT_THAT(out, ContainsRegex("\\(--gpu\\): draws with .+, OpenGL 4\\..+, by EGL "));
 }
 
 }  // namespace

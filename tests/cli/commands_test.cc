@@ -89,6 +89,9 @@ TEST_F(CommandsTest, SkyMapIsWrittenWithItsSun) {
       run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--stokes", "--out", "sky.hdr"});
   EXPECT_EQ(no_layers.status, 2);
   EXPECT_THAT(no_layers.err, HasSubstr("expected with an .exr or .npy file"));
+  expect_refusal({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--wavelength-nm", "450",
+                  "--out", "sky.ktx2"},
+                 {"--wavelength-nm \"450\": expected with an .exr or .npy file"});
   const Outcome wrong = run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--projection",
                              "mercator", "--out", "sky.exr"});
   EXPECT_EQ(wrong.status, 2);

@@ -67,10 +67,12 @@ TEST_F(PipesTest, AnEmptyStandardInputIsNoPreset) {
 }
 
 TEST_F(PipesTest, AFileGoesToTheStandardOutputAndTheRestToStderr) {
-  const Outcome exported = run({"export", "earth-clear", "--to", "calcmysky", "--out", "-.atmo"});
+  const Outcome exported = run({"export", "earth-clear", "--to", "calcmysky", "--out", "-.atmo"}),
+                shorter = run({"export", "earth-clear", "--to", "calcmysky", "--out", "-"});
   ASSERT_EQ(exported.status, 0) << exported.err;
   EXPECT_THAT(exported.out, StartsWith("# Atmosphere of the preset earth-clear"));
   EXPECT_THAT(exported.err, HasSubstr("loss by what it cannot hold"));
+  EXPECT_EQ(shorter.out, exported.out);
   EXPECT_TRUE(files().empty());
   write("b.atmo", exported.out);
   const Outcome back = run({"import", "-"}, {}, {}, (folder_ / "b.atmo").string()),
@@ -82,6 +84,8 @@ TEST_F(PipesTest, AFileGoesToTheStandardOutputAndTheRestToStderr) {
 TEST_F(PipesTest, OnlyOneFileFitsOnTheStandardOutput) {
   expect_refusal({"export", "earth-clear", "--to", "mitsuba", "--out", "-.xml"},
                  {"--out", "\"-.xml\"", "expected a file"});
+  expect_refusal({"export", "earth-clear", "--to", "mitsuba", "--out", "-"},
+                 {"--out", "\"-\"", "expected a file"});
   expect_refusal({"render", "--preset", "earth-clear", "--panels", "--out", "-.png"},
                  {"--panels", "expected files"});
 }

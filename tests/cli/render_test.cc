@@ -9,7 +9,9 @@ namespace skyfit::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -43,6 +45,26 @@ TEST_F(RenderTest, AStripStandsSideBySide) {
   EXPECT_THAT(outcome.out, HasSubstr("median"));
   // IHDR: 3 x 32 and two gaps of 4 wide
   EXPECT_EQ(read("strip.png").substr(16, 8), std::string("\0\0\0\x68\0\0\0\x12", 8));
+}
+
+// What draws is named once: with the statistics, else on stderr where one did not ask for quiet.
+TEST_F(RenderTest, TheDeviceIsNamedWhereItIsAskedFor) {
+  const auto drawn = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {
+        "render", "--preset", "earth-clear", "--model", "hillaire", "--table-size",
+        "tiny",   "--view",   "space",       "--size",  "32x18",    "--samples-per-side",
+        "1",      "--out",    "space.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const std::string by_egl = "drawn with .+, OpenGL 4\\..+, by EGL .+\n";
+  EXPECT_THAT(drawn({"--gpu"}).err, MatchesRegex("skyfit: " + by_egl));
+  EXPECT_EQ(drawn({"--gpu", "--quiet"}).err, "");
+  const Outcome counted = drawn({"--gpu", "--stats"});
+  EXPECT_EQ(counted.err, "");
+  EXPECT_THAT(counted.out, ContainsRegex(by_egl));
+  EXPECT_EQ(drawn({}).err, "");
+  EXPECT_THAT(drawn({"--verbose"}).err, HasSubstr(", by OSMesa\n"));
 }
 
 // Rows one below the other, from one set of tables; the numbers are in the EXR, too.

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of `skyfit tables`, and what its DDS files hold.
+// A folder of `skyfit tables`, and what files of DDS and Khronos Texture 2.0 hold.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "model/base/input_file.h"
 #include "model/base/temporary_directory.h"
@@ -49,6 +52,9 @@ struct FileTexels {
   std::uint32_t width, height, depth;
   bool half;
   std::string texels;
+  std::uint32_t faces = 1;
+  std::uint8_t primaries = 0;                                  // as Khronos numbers them
+  std::vector<std::pair<std::string, std::string>> keys = {};  // with their values
 };
 
 inline FileTexels read_dds(const std::string& bytes) {
@@ -59,6 +65,38 @@ inline FileTexels read_dds(const std::string& bytes) {
   return {at<std::uint32_t>(bytes, 16), at<std::uint32_t>(bytes, 12),
           volume ? at<std::uint32_t>(bytes, 24) : 1, at<std::uint32_t>(bytes, 128) == 10,
           bytes.substr(148)};
+}
+
+inline FileTexels read_ktx2(const std::string& bytes) {
+  EXPECT_EQ(bytes.substr(1, 6), "KTX 20");
+  const auto depth = at<std::uint32_t>(bytes, 28);
+  const auto offset = at<std::uint64_t>(bytes, 80), length = at<std::uint64_t>(bytes, 88);
+  EXPECT_EQ(offset + length, bytes.size());
+  // The parts of the header follow each other, and the texels are aligned to one.
+  const auto format = at<std::uint32_t>(bytes, 48), keys = at<std::uint32_t>(bytes, 56),
+             keys_end = keys + at<std::uint32_t>(bytes, 60);
+  EXPECT_EQ(format, 104u);
+  EXPECT_EQ(at<std::uint32_t>(bytes, format), at<std::uint32_t>(bytes, 52));
+  EXPECT_EQ(keys, format + at<std::uint32_t>(bytes, 52));
+  const std::uint32_t texel = 4 * at<std::uint32_t>(bytes, 16);
+  EXPECT_EQ(offset % texel, 0u);
+  EXPECT_LE(keys_end, offset);
+  FileTexels file{at<std::uint32_t>(bytes, 20),
+                  at<std::uint32_t>(bytes, 24),
+                  std::max(depth, 1u),
+                  at<std::uint32_t>(bytes, 12) == 97,
+                  bytes.substr(offset),
+                  at<std::uint32_t>(bytes, 36),
+                  at<std::uint8_t>(bytes, format + 13)};
+  for (std::uint32_t entry = keys; entry < keys_end;) {
+    const auto size = at<std::uint32_t>(bytes, entry);
+    const std::string both = bytes.substr(entry + 4, size);
+    const std::size_t key = both.find('\0');
+    EXPECT_EQ(both.back(), '\0');
+    file.keys.emplace_back(both.substr(0, key), both.substr(key + 1, size - key - 2));
+    entry += 4 + (size + 3) / 4 * 4;
+  }
+  return file;
 }
 
 }  // namespace skyfit

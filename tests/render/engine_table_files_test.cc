@@ -17,23 +17,6 @@
 namespace skyfit {
 namespace {
 
-FileTexels read_ktx2(const std::string& bytes) {
-  EXPECT_EQ(bytes.substr(1, 6), "KTX 20");
-  const auto depth = at<std::uint32_t>(bytes, 28);
-  const auto offset = at<std::uint64_t>(bytes, 80), length = at<std::uint64_t>(bytes, 88);
-  EXPECT_EQ(offset + length, bytes.size());
-  // The parts of the header follow each other, and the texels are aligned to one.
-  const auto format = at<std::uint32_t>(bytes, 48), keys = at<std::uint32_t>(bytes, 56);
-  EXPECT_EQ(format, 104u);
-  EXPECT_EQ(at<std::uint32_t>(bytes, format), at<std::uint32_t>(bytes, 52));
-  EXPECT_EQ(keys, format + at<std::uint32_t>(bytes, 52));
-  const std::uint32_t texel = 4 * at<std::uint32_t>(bytes, 16);
-  EXPECT_EQ(offset % texel, 0u);
-  EXPECT_LE(keys + at<std::uint32_t>(bytes, 60), offset);
-  return {at<std::uint32_t>(bytes, 20), at<std::uint32_t>(bytes, 24), std::max(depth, 1u),
-          at<std::uint32_t>(bytes, 12) == 97, bytes.substr(offset)};
-}
-
 FileTexels read_npy(const std::string& bytes) {
   const std::size_t begin = 10 + at<std::uint16_t>(bytes, 8);
   const std::string header = bytes.substr(10, begin - 10);

@@ -52,6 +52,36 @@ TEST(Sight, OfTheHorizonIsItsDip) {
   EXPECT_NEAR(horizon.distance_m, (kRadius + height) * std::sin(dip), kMetres);
 }
 
+// The horizon, arccos(R / (R + h)) below the horizontal, lies in the picture, a twentieth of its
+// height from the edge; of space that is the full disc, which is a third of the picture's height or
+// more.
+TEST(NamedViews, HaveTheLimbInThePictureOnEveryPlanet) {
+  constexpr double kSmallestDisc = 1.0 / 3;
+  for (const NamedView& view : named_views()) {
+    for (const double radius_km : {200., 400., 1000., 1737., 2499., 2501., 2575., 3389.5, 6052.,
+                                   6378., 6401., 12000., 25000., 70000.}) {
+      const double radius = 1000 * radius_km;
+      const CameraPose pose = pose_of(view, radius);
+      const double horizon = kPi / 2 + std::acos(radius / (radius + pose.altitude_m));
+      EXPECT_LT(std::abs(horizon - pose.view_zenith), 0.45 * pose.vertical_fov)
+          << view.name << " " << radius_km;
+      if (view.name == "space") {
+        EXPECT_GT(2 * (kPi - horizon), kSmallestDisc * pose.vertical_fov) << radius_km;
+      }
+    }
+  }
+}
+
+TEST(NamedViews, HaveTheirOwnHeightsFromTitanToTheEarth) {
+  for (const NamedView& view : named_views()) {
+    for (const double radius : {2575e3, 3389.5e3, 6360e3, 6378.137e3})
+      EXPECT_EQ(pose_of(view, radius).altitude_m, view.camera.altitude_m) << view.name;
+  }
+  EXPECT_DOUBLE_EQ(pose_of(find_view("limb"), 400e3).altitude_m, 64e3);
+  EXPECT_DOUBLE_EQ(pose_of(find_view("space"), 64e6).altitude_m, 110e6);
+  EXPECT_EQ(pose_of(find_view("10km"), 400e3).altitude_m, 10e3);
+}
+
 // The initial course of navigation.
 TEST(Sight, AzimuthIsTheCourseOfTheGreatCircle) {
   const Place from = {47 * kDegree, 8 * kDegree}, to = {40.7 * kDegree, -74 * kDegree};

@@ -62,6 +62,20 @@ TEST(Sequence, KeyframesLeaveOutWhatStays) {
   EXPECT_EQ(c.camera, b.camera);
 }
 
+TEST(Sequence, ANamedViewFollowsTheRadiusOfItsPlanet) {
+  const auto small = [](const std::string&) {
+    Preset preset = shipped("earth-clear");
+    preset.atmosphere.bottom_radius_m = 250e3;
+    return preset;
+  };
+  const Sequence sequence = parse_sequence(
+      R"({"skyfit_sequence": 1, "keyframes": [
+          {"time_s": 0, "preset": "small", "camera": {"view": "limb"}, "sun": {"zenith_deg": 60}}]})",
+      "small.json", {},
+      {small, [](auto& date, auto& clock, double h) { return refs::instant(date, clock, h); }});
+  EXPECT_NEAR(sequence.keyframes[0].camera.altitude_m, 40e3, kRounding);
+}
+
 TEST(Sequence, BetweenKeyframes) {
   const Sequence sequence = of_keyframes(
       R"({"time_s": 0, "camera": {"altitude_m": 10, "azimuth_deg": 170, "view_zenith_deg": 90},

@@ -13,7 +13,7 @@ namespace skyfit {
 
 void GlContext::describe(const std::string& way) {
   const auto text = [](GLenum name) { return reinterpret_cast<const char*>(glGetString(name)); };
-  description_ = fmt::format("{}: {}, OpenGL {}", way, text(GL_RENDERER), text(GL_VERSION));
+  description_ = fmt::format("{}, OpenGL {}, by {}", text(GL_RENDERER), text(GL_VERSION), way);
 }
 
 std::unique_ptr<GlContext> make_context(GraphicsDevice device) {

@@ -22,7 +22,7 @@ class GlContext {
   // turn, not at once.
   virtual void make_current() = 0;
 
-  // What draws, for statistics: the way to it, the renderer and the version of OpenGL.
+  // What draws, for users: the renderer, the version of OpenGL and the way to it.
   const std::string& description() const { return description_; }
 
  protected:

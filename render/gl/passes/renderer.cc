@@ -42,6 +42,8 @@ class GlRenderer final : public FrameDrawer {
         materials_(scene.textures, cache_.get()),
         atmosphere_(device) {}
 
+  std::string device() const override { return context_->description(); }
+
   void set_ground(const Atmosphere<double>& atmosphere, const ColorRule& color) override {
     context_->make_current();
     const double bottom = atmosphere.bottom_radius_m;
@@ -169,6 +171,7 @@ class GlRenderer final : public FrameDrawer {
     atmosphere_.add_sky_view(options, graph_);
     const std::int64_t begin_ns = device_clock_ns();
     FrameStatistics statistics;
+    statistics.device = device();
     prepare_scene(options, statistics);
     report(0.7);
     return {statistics, begin_ns, graph_.run(passes(options, read))};
