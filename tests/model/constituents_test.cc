@@ -243,6 +243,51 @@ TEST(Layers, AsATableTheyAreAsBright) {
   for (std::size_t i = 0; i < a.value.size(); ++i) EXPECT_NEAR(b.value[i] / a.value[i], 1, 5e-3);
 }
 
+TEST(Layers, InTwoHalvesTheyAreTheSameSky) {
+  constexpr double kRounding = 1e-9;
+  for (const char* name : {"overcast", "thin-cloud"}) {
+    const Atmosphere<double> a = parse_preset(refs::shipped_preset_json(name), name).atmosphere;
+    const SkyValues whole = sky_of(a), halves = sky_of(split(a, "cloud"));
+    for (std::size_t i = 0; i < whole.value.size(); ++i)
+      EXPECT_NEAR(halves.value[i] / whole.value[i], 1, kRounding) << name << ' ' << i;
+  }
+}
+
+// Aerosol of an optical depth of 5 alone, with a profile.
+Atmosphere<double> thick_aerosol(const std::string& profile) {
+  return parse_preset(R"({"skyfit_preset": 2, "name": "thick", "constituents": [{"name": "mie",
+      "optical_depth": {"wavelength_nm": 550, "value": 5, "exponent": 0},
+      "phase": {"type": "henyey-greenstein", "g": 0.7}, "profile": )" +
+                          profile + "}]}",
+                      "thick")
+      .atmosphere;
+}
+
+// Where the levels of clear air are too few: the sky was too dark by 4, 18 and 26 %.
+TEST(Levels, FollowThickAerosolOfEveryProfile) {
+  ReferenceOptions options, fine;
+  options.transfer = fine.transfer = Transfer::kScalar;
+  fine.levels = 5 * kDefaultLevels;
+  const auto nodes = spectral_nodes(refs::standard_spectral_data(), {550});
+  std::vector<SkyPoint> directions;
+  for (const double sun : {20.0, 60.0}) {
+    for (const double view : {0.0, 40.0, 75.0})
+      directions.push_back({0, sun * kDegree, view * kDegree, 2});
+  }
+  for (const char* profile : {R"({"type": "exponential", "scale_height_m": 2000})",
+                              R"({"type": "mixed-layer", "mixed_m": 1500, "end_m": 2500})",
+                              R"({"type": "tent", "peak_m": 2000, "half_width_m": 1500})"}) {
+    const Atmosphere<double> a = thick_aerosol(profile);
+    const SkyValues found = ReferenceModel(options).radiance(a, nodes, directions, {}),
+                    expected = ReferenceModel(fine).radiance(a, nodes, directions, {});
+    double worst = 0;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      worst = std::max(worst, std::abs(found.value[i] / expected.value[i] - 1));
+    std::cout << "[ worst ] " << profile << ' ' << 100 * worst << " %\n";
+    EXPECT_LT(worst, 0.01) << profile;
+  }
+}
+
 // The diffuse field has a kink at a cloud's top. What an eye in the clear air above, short of the
 // next level, sees of the cloud is what it sees with three times the levels.
 TEST(Layers, SeenFromAboveAreAsWithThreeTimesTheLevels) {
