@@ -75,9 +75,10 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells);
 
 // The coupling of the suns of `grid` that are solved (solved[i] >= 0 is the place of grid node i
 // among them), from the node `first` on; it and those after it, and the two before it, must be
-// solved.
+// solved. `moments` are those of the fields.
 HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
-                                const std::vector<int>& solved, const Streams& streams, int first);
+                                const std::vector<int>& solved, const Streams& streams, int first,
+                                int moments);
 
 // The fields of several wavelengths, in parallel over wavelengths and modes on the calling arena's
 // threads; results do not depend on their number.

@@ -122,9 +122,10 @@ void StreamLight::add_shares(const HorizontalCoupling& coupling, const LightOfMo
   const std::size_t p_count = kind == kValues ? 1 : medium_->parameters,
                     count = static_cast<std::size_t>(width);
   std::vector<OfMode> of_mode;
-  for (int mode = 0; mode < kShiftedModes; ++mode) of_mode.push_back(light_of(mode));
+  const auto shifted = static_cast<int>(coupling.shares.front().size());
+  for (int mode = 0; mode < shifted; ++mode) of_mode.push_back(light_of(mode));
   for (std::size_t lane = 0; lane + count <= kBatchWidth; lane += count) {
-    if (modes_[lane] >= kShiftedModes) break;
+    if (modes_[lane] >= shifted) break;
     const auto m = static_cast<std::size_t>(modes_[lane]);
     for (std::size_t side = 0; side < 2; ++side) {
       std::vector<Batch>& source = side == 0 ? down_source : up_source;

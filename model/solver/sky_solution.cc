@@ -35,7 +35,7 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
                         field_grid(shells_, options.levels, deep_twilight).limb_rays);
   fields_ = solve_diffuse_fields<N>(
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
-      sun_coupling(grid_, shells_, solved_, streams, first),
+      sun_coupling(grid_, shells_, solved_, streams, first, options.moments),
       {options.moments, options.tolerance, std::max(options.order - 1, 0), deep_twilight,
        options.transfer == Transfer::kVector, levels_.asked()});
 }

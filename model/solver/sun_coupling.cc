@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,16 +12,15 @@
 namespace skyfit {
 namespace {
 
-constexpr std::size_t kModes = kShiftedModes;
-using OfModes = std::array<double, kModes>;
+using OfModes = std::vector<double>;
 
 // cos and sin of m phi.
 struct Waves {
   OfModes cosine, sine;
 };
-Waves waves(double phi) {
-  Waves w;
-  for (std::size_t m = 0; m < kModes; ++m) {
+Waves waves(double phi, std::size_t modes) {
+  Waves w{OfModes(modes), OfModes(modes)};
+  for (std::size_t m = 0; m < modes; ++m) {
     w.cosine[m] = std::cos(static_cast<double>(m) * phi);
     w.sine[m] = std::sin(static_cast<double>(m) * phi);
   }
@@ -31,28 +29,33 @@ Waves waves(double phi) {
 
 // docs/theory (7.7): for one layer and ray, the modes of one sun's light. [from sun][m][from mode]
 struct Shift {
-  std::vector<std::array<OfModes, kModes>> cosine, sine;
+  std::vector<std::vector<OfModes>> cosine, sine;
 };
 Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t suns,
-               double sun_zenith, double psi, double highest_mu) {
-  constexpr int kAzimuths = 32;
-  Shift shift{std::vector<std::array<OfModes, kModes>>(suns),
-              std::vector<std::array<OfModes, kModes>>(suns)};
+               double sun_zenith, double psi, double highest_mu, std::size_t modes) {
+  constexpr std::size_t kBeside = 5;  // modes on either side that a mode's light goes to
+  // The products of two modes are summed exactly.
+  const int azimuths = 2 * static_cast<int>(modes) + 4;
+  const std::vector<OfModes> none(modes, OfModes(modes));
+  Shift shift{{suns, none}, {suns, none}};
   const double mu = std::cos(sun_zenith), s = std::sin(sun_zenith);
-  for (int k = 0; k < kAzimuths; ++k) {
-    const double phi = std::numbers::pi * (k + 0.5) / kAzimuths;
-    const Waves here = waves(phi),
+  for (int k = 0; k < azimuths; ++k) {
+    const double phi = std::numbers::pi * (k + 0.5) / azimuths;
+    const Waves here = waves(phi, modes),
                 far = waves(std::atan2(s * std::sin(phi),
-                                       s * std::cos(phi) * std::cos(psi) - mu * std::sin(psi)));
+                                       s * std::cos(phi) * std::cos(psi) - mu * std::sin(psi)),
+                            modes);
     const SunStencil stencil =
         grid.stencil(std::min(mu * std::cos(psi) + s * std::sin(psi) * std::cos(phi), highest_mu));
     for (std::size_t q = 0; q < stencil.index.size(); ++q) {
       const auto sun = static_cast<std::size_t>(solved[static_cast<std::size_t>(stencil.index[q])]);
-      for (std::size_t from = 0; from < kModes; ++from) {
-        const double weight = (from % 2 == 0 ? stencil.even[q] : stencil.odd[q]) / kAzimuths,
+      for (std::size_t from = 0; from < modes; ++from) {
+        const double weight = (from % 2 == 0 ? stencil.even[q] : stencil.odd[q]) / azimuths,
                      cosine = weight * (from == 0 ? 1 : 2) * far.cosine[from],
                      sine = weight * 2 * far.sine[from];
-        for (std::size_t m = 0; m < kModes; ++m) {
+        const std::size_t first = from < kBeside ? 0 : from - kBeside,
+                          end = std::min(from + kBeside + 1, modes);
+        for (std::size_t m = first; m < end; ++m) {
           shift.cosine[sun][m][from] += cosine * here.cosine[m];
           shift.sine[sun][m][from] += sine * here.sine[m];
         }
@@ -62,7 +65,8 @@ Shift shift_of(const SunGrid& grid, const std::vector<int>& solved, std::size_t 
   return shift;
 }
 
-void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalCoupling& c) {
+void set_shares(const SunGrid& grid, const std::vector<int>& solved, std::size_t modes,
+                HorizontalCoupling& c) {
   constexpr double kDusk = 92 * kRadiansPerDegree;  // above it, first order does as well
   constexpr double kSmall = 3e-4;                   // of a sun's light, as twilight decays
   const std::size_t suns = c.suns.size();
@@ -81,15 +85,16 @@ void set_shares(const SunGrid& grid, const std::vector<int>& solved, HorizontalC
   }
   c.shares.resize(c.step.size());
   tbb::parallel_for(std::size_t{0}, c.step.size(), [&](std::size_t at) {
-    c.shares[at].resize(kModes);
+    c.shares[at].resize(modes);
     if (c.step[at] == 0) return;
     for (int i = 0; i < grid.size(); ++i) {
       if (solved[i] < 0 || !c.shifted[solved[i]]) continue;
       const auto sun = static_cast<std::size_t>(solved[i]);
-      const Shift shift = shift_of(grid, solved, suns, grid.zenith(i), c.step[at], highest_mu);
-      for (std::size_t m = 0; m < kModes; ++m) {
+      const Shift shift =
+          shift_of(grid, solved, suns, grid.zenith(i), c.step[at], highest_mu, modes);
+      for (std::size_t m = 0; m < modes; ++m) {
         for (std::size_t from_sun = 0; from_sun < suns; ++from_sun) {
-          for (std::size_t from = 0; from < kModes; ++from) {
+          for (std::size_t from = 0; from < modes; ++from) {
             const double own = m == from && from_sun == sun ? 1 : 0,
                          cosine = shift.cosine[from_sun][m][from] - own,
                          sine = shift.sine[from_sun][m][from] - own;
@@ -130,7 +135,8 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
 }
 
 HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
-                                const std::vector<int>& solved, const Streams& streams, int first) {
+                                const std::vector<int>& solved, const Streams& streams, int first,
+                                int moments) {
   constexpr double kThick = 0.05;
   HorizontalCoupling c;
   c.converges = top_over_radius(shells) < kThick;
@@ -155,7 +161,8 @@ HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
                                             : 0.0);
     }
   }
-  if (c.converges && std::ranges::count(c.coupled, 1) > 0) set_shares(grid, solved, c);
+  if (c.converges && std::ranges::count(c.coupled, 1) > 0)
+    set_shares(grid, solved, static_cast<std::size_t>(shifted_modes(moments)), c);
   return c;
 }
 

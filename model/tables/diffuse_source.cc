@@ -74,7 +74,7 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   const Streams streams(shells.bottom_radius, levels_.heights(), options.streams,
                         field_grid(shells, options.levels, kDeepTwilight).limb_rays);
   const HorizontalCoupling coupling =
-      sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells));
+      sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells), options.moments);
   const auto fields_of = [&](int order) {
     return solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams, coupling,
                                    {.moments = options.moments,

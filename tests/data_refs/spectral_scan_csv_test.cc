@@ -14,6 +14,7 @@
 namespace skyfit::refs {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 

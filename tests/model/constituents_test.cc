@@ -255,12 +255,13 @@ TEST(Layers, InTwoHalvesTheyAreTheSameSky) {
 
 // Aerosol of an optical depth of 5 alone, with a profile.
 Atmosphere<double> thick_aerosol(const std::string& profile) {
-  return parse_preset(R"({"skyfit_preset": 2, "name": "thick", "constituents": [{"name": "mie",
-      "optical_depth": {"wavelength_nm": 550, "value": 5, "exponent": 0},
-      "phase": {"type": "henyey-greenstein", "g": 0.7}, "profile": )" +
-                          profile + "}]}",
-                      "thick")
-      .atmosphere;
+  const std::string text = R"({"skyfit_preset": 2, "name": "thick", "ground": {"albedo": 0.2},
+      "planet": {"bottom_radius_m": 6360000, "top_radius_m": 6460000},
+      "constituents": [{"name": "mie", "profile": )" +
+                           profile +
+                           R"(, "optical_depth": {"wavelength_nm": 550, "value": 5, "exponent": 0},
+      "phase": {"type": "henyey-greenstein", "g": 0.7}}]})";
+  return parse_preset(text, "thick").atmosphere;
 }
 
 // Where the levels of clear air are too few: the sky was too dark by 4, 18 and 26 %.
