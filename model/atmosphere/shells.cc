@@ -10,32 +10,37 @@
 namespace skyfit {
 namespace {
 
-double depth_at_550(const Constituent<double>& c, const Profile& profile) {
+struct Depths {
+  double extinction = 0, scattering = 0;
+};
+
+Depths depths_at_550(const Constituent<double>& c, const Profile& profile) {
   const double column = profile.vertical_column().value;
-  return coefficients_at<0>(with_scalar<Dual<0>>(c), Dual<0>(column), {550, 0}).extinction.v *
-         column;
+  const auto at = coefficients_at<0>(with_scalar<Dual<0>>(c), Dual<0>(column), {550, 0});
+  return {at.extinction.v * column, at.scattering.v * column};
 }
 
 // Which profiles are layers, and the optical depths. Constituents with the same profile count
 // together, whether by kSameAs or by the same numbers: a constituent may stand in two halves.
 void set_layers(const Atmosphere<double>& a, Shells& shells) {
   const std::size_t count = shells.profiles.size();
-  std::vector<double> depth(count), scattering(count);
+  std::vector<double> depth(count), of_scatterers(count), scattering(count);
   for (std::size_t i = 0; i < a.constituents.size(); ++i) {
     if (shells.profile_of[i] == Shells::kNone) continue;
     const auto own = static_cast<std::size_t>(shells.profile_of[i]);
-    const double of_constituent = depth_at_550(a.constituents[i], shells.profiles[own]);
+    const Depths of = depths_at_550(a.constituents[i], shells.profiles[own]);
     for (std::size_t k = 0; k < count; ++k) {
       if (shells.profiles[k] != shells.profiles[own]) continue;
-      depth[k] += of_constituent;
-      if (scatters(a.constituents[i])) scattering[k] += of_constituent;
+      depth[k] += of.extinction;
+      scattering[k] += of.scattering;
+      if (scatters(a.constituents[i])) of_scatterers[k] += of.extinction;
     }
   }
   // Thick and in a small part of the atmosphere: a cloud, which the levels of clear air miss.
   constexpr double kThick = 0.5, kNarrow = 0.055;
   for (std::size_t k = 0; k < count; ++k) {
     Profile& profile = shells.profiles[k];
-    if (!profile.is_exponential() && !profile.is_layer() && scattering[k] > kThick &&
+    if (!profile.is_exponential() && !profile.is_layer() && of_scatterers[k] > kThick &&
         profile.bulk_thickness() < kNarrow * shells.top)
       profile.take_as_layer();
     shells.layer_depth.push_back(profile.is_layer() ? depth[k] : 0);

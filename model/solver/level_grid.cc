@@ -28,11 +28,12 @@ double bulk_depth_between(const Shells& shells, double low, double high) {
 // docs/theory (3.1).
 LevelGrid::LevelGrid(const Shells& shells, int count) : asked_(count) {
   const auto height = [&](double i) { return shells.top * std::pow(i / (count - 1), 3); };
+  // The source is linear in optical depth between two levels. Of the thickest, few hundred levels.
+  constexpr double kMostDepth = 0.15, kMostSteps = 100;
+  const double most = std::max(kMostDepth, bulk_depth_between(shells, 0, shells.top) / kMostSteps);
   for (int i = 0; i + 1 < count; ++i) {
-    // The source is linear in optical depth between two levels.
-    constexpr double kMostDepth = 0.15;
     const double depth = bulk_depth_between(shells, height(i), height(i + 1));
-    const double parts = std::exp2(std::ceil(std::log2(std::max(depth / kMostDepth, 1.0))));
+    const double parts = std::exp2(std::ceil(std::log2(std::max(depth / most, 1.0))));
     for (double k = 0; k < parts; ++k) heights_.push_back(height(i + k / parts));
   }
   heights_.push_back(shells.top);
