@@ -46,8 +46,8 @@ struct Shells {
   double sun_radius;          // of the star's disc, rad
   std::vector<Profile> profiles;
   std::vector<char> breaks;  // per profile: whether quadratures along a ray begin anew at it
-  // Per profile, at 550 nm: vertical optical depth of all layers that are like it, or, of one that is
-  // no layer, the scattering part of that; the other is 0.
+  // Per profile, at 550 nm: vertical optical depth of all layers that are like it, or, of one that
+  // is no layer, the scattering part of that; the other is 0.
   std::vector<double> layer_depth, bulk_depth;
   // Per constituent of the atmosphere: which of the profiles is its own, or kNone of one that is
   // left out because it neither weakens light nor is differentiated by its amount.
