@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "model/geometry/map_projection.h"
 #include "model/polarisation.h"
 #include "model/sky_model.h"
 #include "render/color_space.h"
-#include "model/geometry/map_projection.h"
 
 namespace skyfit {
 

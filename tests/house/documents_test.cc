@@ -12,13 +12,13 @@
 #include "data_refs/measured_formats.h"
 #include "data_refs/references.h"
 #include "fit/exchange/programs.h"
+#include "model/geometry/map_projection.h"
 #include "model/registry.h"
 #include "model/tables/table_precision.h"
 #include "render/engine/table_files.h"
 #include "render/features/render_features.h"
 #include "render/panels.h"
 #include "render/plot/measured_figures.h"
-#include "model/geometry/map_projection.h"
 
 namespace skyfit {
 namespace {
