@@ -59,7 +59,8 @@ class Fit {
     result_.reference = without_sun(as_stated, as_stated.state(found));
     result_.reference.notes.insert(result_.reference.notes.end(), as_stated.assumptions.begin(),
                                    as_stated.assumptions.end());
-    const Problem problem = make_problem(result_.reference, spectra_, model_, as_pointed(options_));
+    const Problem problem =
+        make_problem(result_.reference, spectra_, model_, without_sun_exclusion(options_));
     Evaluations evaluations(problem, problem.fitted);
     const Eigen::VectorXd scaled = refine(problem, evaluations, found);
     describe_problem(problem);
@@ -374,7 +375,8 @@ const UnknownRow& Result::unknown(std::string_view name) const {
 Result fit_atmosphere(const refs::Reference& reference, const SpectralData& spectra,
                       const SkyModel& model, const FitOptions& options) {
   validate(options);
-  const FitOptions used = refs::is_irradiance(reference.quantity) ? as_pointed(options) : options;
+  const FitOptions used =
+      refs::is_irradiance(reference.quantity) ? without_sun_exclusion(options) : options;
   return Fit(reference, spectra, model, used).run();
 }
 

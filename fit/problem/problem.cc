@@ -349,7 +349,7 @@ std::vector<double> reference_values(const Problem& problem, const SkyState& sta
   return result;
 }
 
-FitOptions as_pointed(FitOptions options) {
+FitOptions without_sun_exclusion(FitOptions options) {
   options.exclude_sun = 0;
   return options;
 }

@@ -80,6 +80,6 @@ std::vector<double> reference_values(const Problem& problem, const SkyState& sta
                                      std::size_t samples);
 
 // The options for a reference whose samples near the sun have weight 0 already.
-FitOptions as_pointed(FitOptions options);
+FitOptions without_sun_exclusion(FitOptions options);
 
 }  // namespace skyfit::fit

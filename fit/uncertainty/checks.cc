@@ -256,7 +256,8 @@ Profile profile_likelihood(const SpectralData& spectra, const SkyModel& model,
                            const FitOptions& options, const Result& result, std::string_view name) {
   const auto index = static_cast<std::size_t>(&result.unknown(name) - result.unknowns.data());
   const Eigen::VectorXd solution = scaled_solution(result);
-  const Problem whole = make_problem(result.reference, spectra, model, as_pointed(options));
+  const Problem whole =
+      make_problem(result.reference, spectra, model, without_sun_exclusion(options));
   const Unknown unknown = whole.unknowns[index];
   const auto at = static_cast<Eigen::Index>(index);
   Problem others = whole;
@@ -283,7 +284,8 @@ Profile profile_likelihood(const SpectralData& spectra, const SkyModel& model,
 
 Bootstrap bootstrap(const SpectralData& spectra, const SkyModel& model, const FitOptions& options,
                     const Result& result, int repetitions, std::uint64_t seed) {
-  const Problem problem = make_problem(result.reference, spectra, model, as_pointed(options));
+  const Problem problem =
+      make_problem(result.reference, spectra, model, without_sun_exclusion(options));
   const Eigen::VectorXd solution = scaled_solution(result);
   const std::size_t count = problem.unknowns.size();
   std::mt19937_64 generator(seed);
@@ -323,15 +325,15 @@ std::vector<HoldOut> leave_one_scan_out(const SpectralData& spectra, const SkyMo
         "fit.hold_out: {} scan: must be at least 2 to leave one out", result.scans.size()));
   }
   const std::optional<double> noise_of_all =
-      medium_noise_of_all(spectra, model, as_pointed(options), result);
+      medium_noise_of_all(spectra, model, without_sun_exclusion(options), result);
   std::vector<HoldOut> outcomes;
   for (const ScanOutcome& scan : result.scans) {
     if (scan.directions == 0 && result.reference.irradiance_quantity) continue;
     Marks marked;
     for (const refs::Sample& sample : result.reference.samples)
       marked.push_back(sample.scan == scan.info.number);
-    outcomes.push_back(held_out(spectra, model, as_pointed(options), result, noise_of_all, marked,
-                                scan.info.name));
+    outcomes.push_back(held_out(spectra, model, without_sun_exclusion(options), result,
+                                noise_of_all, marked, scan.info.name));
   }
   return outcomes;
 }
@@ -349,7 +351,7 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
   auto next = dealt.begin();
   for (auto& [direction, part] : part_of) part = *next++;
   const std::optional<double> noise_of_all =
-      medium_noise_of_all(spectra, model, as_pointed(options), result);
+      medium_noise_of_all(spectra, model, without_sun_exclusion(options), result);
   std::vector<HoldOut> outcomes;
   for (int part = 0; part < parts; ++part) {
     Marks marked;
@@ -357,7 +359,8 @@ std::vector<HoldOut> hold_out_directions(const SpectralData& spectra, const SkyM
       const auto of = part_of.find(refs::direction_from_sun(s));
       marked.push_back(of != part_of.end() && of->second == part);
     }
-    outcomes.push_back(held_out(spectra, model, as_pointed(options), result, noise_of_all, marked,
+    outcomes.push_back(held_out(spectra, model, without_sun_exclusion(options), result,
+                                noise_of_all, marked,
                                 fmt::format("directions, part {} of {}", part + 1, parts)));
   }
   return outcomes;

@@ -110,8 +110,8 @@ TEST(IrradianceFit, BeamAndSkyGiveBackOpticalDepthAndSingleScatteringAlbedo) {
   FitOptions options;
   options.use_priors = false;
   refs::Reference reference = reference_of("direct=80000lx,diffuse=15000lx");
-  const Problem problem =
-      make_problem(reference, refs::standard_spectral_data(), *model, as_pointed(options));
+  const Problem problem = make_problem(reference, refs::standard_spectral_data(), *model,
+                                       without_sun_exclusion(options));
   ASSERT_EQ(problem.unknowns.size(), 2u);
   EXPECT_EQ(problem.unknowns[0].name(), "mie.optical_depth");
   EXPECT_EQ(problem.unknowns[1].name(), "mie.single_scattering_albedo");
@@ -146,8 +146,8 @@ TEST(IrradianceFit, TheBeamOfTheStandardSpectrumComesOutWithinTwoPercent) {
                  {Parameter::kMieAngstromExponent, kRuralExponent}};
   const refs::Reference reference = refs::irradiance_reference(
       "direct=900.1W/m2,precipitable_water=14.16mm", std::acos(1 / 1.5), {});
-  const Problem problem =
-      make_problem(reference, refs::standard_spectral_data(), *model, as_pointed(options));
+  const Problem problem = make_problem(reference, refs::standard_spectral_data(), *model,
+                                       without_sun_exclusion(options));
   SkyState state = problem.start;
   set_parameter(state.atmosphere[0], kOpticalDepth, 0.084 * std::pow(550.0 / 500, -kRuralExponent));
   const double beam = sky_values(*model, problem.fitted, state, {}).value(0);
@@ -156,8 +156,9 @@ TEST(IrradianceFit, TheBeamOfTheStandardSpectrumComesOutWithinTwoPercent) {
 
 TEST(IrradianceFit, TheBeamAloneTellsTheOpticalDepthAlone) {
   const ToySky model;
-  const Problem problem = make_problem(reference_of("direct=80000lx,direct_horizontal=61000lx"),
-                                       refs::standard_spectral_data(), model, as_pointed({}));
+  const Problem problem =
+      make_problem(reference_of("direct=80000lx,direct_horizontal=61000lx"),
+                   refs::standard_spectral_data(), model, without_sun_exclusion({}));
   ASSERT_EQ(problem.unknowns.size(), 1u);
   EXPECT_EQ(problem.unknowns[0].name(), "mie.optical_depth");
 }
