@@ -111,7 +111,7 @@ ScanSun sun_of_scan(const ImportOptions& facts, std::string_view place, bool azi
          fmt::format(
              "sun_zenith_deg = {:.6g}{}: expected a sun above the horizon{}",
              result.zenith / kRadiansPerDegree, result.time ? " at " + iso_text(*result.time) : "",
-             result.site ? mends_above_horizon(*result.time, *result.site, clock_offset_h(facts))
+             result.site ? mends_above_horizon(*result.time, *result.site, facts.utc_offset_h)
                          : ""));
   }
   return result;

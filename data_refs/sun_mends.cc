@@ -91,7 +91,8 @@ std::vector<Mend> mends_of_time_and_place(Instant time, const Site& site, const 
   return Mends(time, site, angle).all();
 }
 
-std::string mends_above_horizon(Instant time, const Site& site, double utc_offset_h) {
+std::string mends_above_horizon(Instant time, const Site& site,
+                                std::optional<double> utc_offset_h) {
   std::vector<std::string> texts;
   const auto add = [&](std::string text, Instant then, const Site& there) {
     const double zenith = solar_position(then, there).zenith;
@@ -105,7 +106,7 @@ std::string mends_above_horizon(Instant time, const Site& site, double utc_offse
   // Clocks are ahead of the sun's mean time by up to two hours.
   constexpr double kMost = 2;
   const double of_longitude = std::round(std::remainder(longitude, 360) / 15),
-               off = utc_offset_h - of_longitude;
+               off = utc_offset_h.value_or(of_longitude) - of_longitude;
   if (std::abs(off) > kMost)
     add(fmt::format("utc_offset_h = {:.9g}", of_longitude),
         time + std::chrono::seconds(std::lround(3600 * off)), site);

@@ -31,7 +31,7 @@ std::vector<Mend> mends_of_time_and_place(Instant time, const Site& site, const 
 // Of a sun below the horizon, by which of the usual mistakes it would stand above: the longitude's
 // sign, or hours between the clock and UTC that are not the longitude's. "; longitude_deg = -76
 // would put it at 41.2 deg", or empty.
-std::string mends_above_horizon(Instant time, const Site& site, double utc_offset_h);
+std::string mends_above_horizon(Instant time, const Site& site, std::optional<double> utc_offset_h);
 
 // "it would be mended by ..": the best of those that leave less than 0.4 of `apart`, at most three
 // that are within `alike` of the best; or that no single change would.
