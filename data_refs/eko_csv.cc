@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -154,9 +155,8 @@ class EkoReader {
     PatchScan scan;
     scan.name = date + " " + fields[kStart];
     std::ranges::replace(scan.name, '/', '-');  // no path of files
-    // A clock of UTC from here on.
-    facts.local_time = iso_text(start + (end - start) / 2).substr(0, 19);
-    facts.utc_offset_h = 0;
+    const auto ahead = std::chrono::seconds(std::lround(3600 * *facts.utc_offset_h));
+    facts.local_time = iso_text(start + (end - start) / 2 + ahead).substr(0, 19);
     scan.sun = sun_of_scan(facts, fmt::format("{}:{}", source_, line));
     expect_altitude(number(fields, kAltitude, "altitude of the sun", line), scan.sun, line);
     scan.stated_sun_azimuth =

@@ -103,11 +103,11 @@ std::string mends_above_horizon(Instant time, const Site& site,
   const double longitude = site.longitude * kDegreesPerRadian;
   add(fmt::format("longitude_deg = {:.9g}", -longitude), time,
       Site{site.latitude, -site.longitude, site.elevation_m});
-  // Clocks are ahead of the sun's mean time by up to two hours.
+  // Clocks are ahead of the sun's mean time by up to two hours; formats with times in UTC have 0.
   constexpr double kMost = 2;
   const double of_longitude = std::round(std::remainder(longitude, 360) / 15),
                off = utc_offset_h.value_or(of_longitude) - of_longitude;
-  if (std::abs(off) > kMost)
+  if (utc_offset_h != 0 && std::abs(off) > kMost)
     add(fmt::format("utc_offset_h = {:.9g}", of_longitude),
         time + std::chrono::seconds(std::lround(3600 * off)), site);
   return texts.empty() ? "" : "; " + fmt::format("{}", fmt::join(texts, ", "));
