@@ -85,7 +85,8 @@ ordered_json json_of(const FrameOptions& frame) {
   ordered_json json = {{"size", {frame.width, frame.height}},
                        {"samples_per_side", frame.samples_per_side},
                        {"samples_per_quad", frame.samples_per_quad},
-                       {"primaries", static_cast<int>(frame.primaries)}};
+                       {"primaries", static_cast<int>(frame.primaries)},
+                       {"field_of_view", frame.field_of_view.value_or(0)}};
   for (const RenderFeature& feature : render_features())
     json[std::string(feature.name)] = feature_key(feature, frame);
   return json;

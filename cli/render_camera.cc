@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/arguments.h"
+#include "cli/feature_options.h"
 #include "cli/render_arguments.h"
 #include "cli/table_options.h"
 #include "data_refs/civil_time.h"
@@ -46,6 +47,7 @@ void require_place(const CameraPose& pose, const CLI::App& command, const std::s
 CameraPose parse_camera(const RenderOptions& options, const CLI::App& command,
                         const NamedView& view, double bottom_radius_m) {
   const auto given = [&](const char* option) { return command.count(option) > 0; };
+  const bool is_flat = frame_with_features(command).projection == PictureProjection::kPerspective;
   CameraPose pose = pose_of(view, bottom_radius_m);
   parse_camera_place(options, command, pose);
   for (const char* option : {"--heading-deg", "--look-at", "--sun-azimuth-deg", "--date"})
@@ -67,7 +69,7 @@ CameraPose parse_camera(const RenderOptions& options, const CLI::App& command,
       throw UsageError("--look-at", options.look_at, "expected an altitude from 0 to 1e9 m");
     pose.look_at = Target{parse_place("--look-at", options.look_at, values), values[2]};
   }
-  if (given("--field-of-view-deg"))
+  if (given("--field-of-view-deg") && is_flat)
     pose.vertical_fov = parse_angle("--field-of-view-deg", options.field_of_view, 1, 150);
   if (given("--overview-m"))
     pose.overview_m =

@@ -57,7 +57,9 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
                "Zenith angle of the picture's centre, 90 = the horizon");
   group.option("--look-at", options.look_at, "LAT,LON,ALT",
                "Point (degrees, metres above sea level) in the picture's centre; needs a place");
-  group.option("--field-of-view-deg", options.field_of_view, "ANGLE", "Angle from bottom to top");
+  group.option("--field-of-view-deg", options.field_of_view, "ANGLE",
+               "Angle from bottom to top, 1 to 150; of --projection fisheye (180) and angular "
+               "(360) across\nthe disc, 1 to 360");
 }
 
 void add_sun_options(CLI::App& command, RenderOptions& options) {

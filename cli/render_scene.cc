@@ -13,6 +13,7 @@
 #include "data_refs/table_csv.h"
 #include "model/base/input_file.h"
 #include "render/scene/material_file.h"
+#include "render/sky_map/mapped_frame.h"
 
 namespace skyfit::cli {
 
@@ -150,6 +151,28 @@ void parse_sky_objects(const CLI::App& command, FrameOptions& frame) {
   frame.clouds = sheets.clouds;
 }
 
+// Of another projection than perspective: size and field of view, and what has no meaning there.
+void parse_map(const RenderOptions& options, const CLI::App& command, FrameOptions& frame) {
+  const MapProjectionEntry& entry = entry_of(frame.projection);
+  const auto refuse = [&](const char* option, const char* expected) {
+    if (command.count(option) > 0) throw UsageError(option, typed(command, option), expected);
+  };
+  if (!has_direction(frame.projection)) {
+    for (const char* option : {"--pitch-deg", "--view-zenith-deg", "--look-at"})
+      refuse(option, "expected with --projection perspective or angular; the others are upright");
+  }
+  if (entry.field_of_view <= 0) {
+    refuse("--field-of-view-deg",
+           "expected with --projection perspective, fisheye or angular; the others show all "
+           "directions");
+  } else if (command.count("--field-of-view-deg") > 0) {
+    frame.field_of_view = parse_angle("--field-of-view-deg", options.field_of_view, 1, 360);
+  }
+  if (command.count("--size") == 0)
+    frame.width = entry.make(frame.height, entry.field_of_view)->width();
+  expect_valid("--size", options.size, frame);
+}
+
 }  // namespace
 
 Scene parse_scene(const RenderOptions& options, const CLI::App& command) {
@@ -200,6 +223,7 @@ FrameOptions parse_frame(const RenderOptions& options, const CLI::App& command) 
   FrameOptions frame = frame_with_features(command);
   frame.width = size.width;
   frame.height = size.height;
+  if (frame.projection != PictureProjection::kPerspective) parse_map(options, command, frame);
   frame.samples_per_side = options.samples_per_side;
   frame.layers |= options.panels;
   frame.primaries = parse_primaries(options.primaries);

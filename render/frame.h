@@ -30,7 +30,7 @@ struct FrameLayers {
 };
 
 // Linear polarisation of the sky's diffuse light, [pixel], luminance in the meridian plane of the
-// pixel's centre; NaN where ground or an object is seen, 0 where there is no light.
+// pixel's centre; NaN where ground, an object or nothing is seen, 0 where there is no light.
 struct FramePolarisation {
   std::vector<float> q, u;       // cd/m^2
   std::vector<float> degree;     // 0 .. 1
@@ -44,6 +44,7 @@ struct DiscPixel {
   float cover;               // share of the pixel, above 0
   std::array<float, 3> rgb;  // cd/m^2: the discs' part of Frame::rgb
   float luminance;           // cd/m^2: of Frame::luminance
+  float solid_angle_sr = 0;  // of the pixel
 };
 
 // A pixel on the line between sky and ground. A display shows its parts apart, as those of a
@@ -81,11 +82,12 @@ struct Frame {
   // [pixel][3] red, green, blue or X, Y, Z, cd/m^2, not negative: light outside the gamut of the
   // primaries is less saturated, of the same luminance and hue
   std::vector<float> rgb;
-  std::vector<float> luminance;         // [pixel] cd/m^2
-  std::vector<float> view_zenith_deg;   // [pixel] of the pixel's centre
-  std::vector<float> view_azimuth_deg;  // [pixel] relative to the sun, -180 .. 180
-  std::vector<float>
-      depth_m;  // [pixel] nearest distance from the camera along the ray, infinite for sky
+  std::vector<float> luminance;  // [pixel] cd/m^2
+  // [pixel] of the pixel's centre; azimuths relative to the sun, -180 .. 180. Not a number where a
+  // projection shows nothing; there is no light then.
+  std::vector<float> view_zenith_deg, view_azimuth_deg;
+  // [pixel] nearest distance from the camera along the ray, infinite for sky and for nothing
+  std::vector<float> depth_m;
   std::vector<DiscPixel> discs;  // in the order of the pixels
   std::vector<EdgePixel> edges;  // in the order of the pixels
   std::vector<float> glare;      // [pixel][3] cd/m^2, or empty; not part of rgb

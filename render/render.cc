@@ -13,6 +13,7 @@
 #include "render/dem/dem_module.h"
 #include "render/module/module.h"
 #include "render/scene/second_light.h"
+#include "render/sky_map/mapped_frame.h"
 
 namespace skyfit {
 namespace {
@@ -32,9 +33,18 @@ void add_metadata(const std::string& preset, const FrameOptions& options, Frame&
   frame.metadata.emplace_back("skyfit:preset", preset);
   add("skyfit:sun_zenith_deg", options.sun_zenith * kDegreesPerRadian);
   add("skyfit:camera_altitude_m", camera.altitude_m);
-  add("skyfit:camera_view_zenith_deg", camera.view_zenith * kDegreesPerRadian);
   add("skyfit:camera_azimuth_deg", camera.azimuth * kDegreesPerRadian);
-  add("skyfit:camera_vertical_fov_deg", camera.vertical_fov * kDegreesPerRadian);
+  if (has_direction(options.projection))
+    add("skyfit:camera_view_zenith_deg", camera.view_zenith * kDegreesPerRadian);
+  if (options.projection == PictureProjection::kPerspective) {
+    add("skyfit:camera_vertical_fov_deg", camera.vertical_fov * kDegreesPerRadian);
+  } else {
+    const MapProjectionEntry& entry = entry_of(options.projection);
+    frame.metadata.emplace_back("skyfit:projection", entry.name);
+    if (entry.field_of_view > 0)
+      add("skyfit:field_of_view_deg",
+          options.field_of_view.value_or(entry.field_of_view) * kDegreesPerRadian);
+  }
   if (options.site) {
     add("skyfit:latitude_deg", options.site->latitude * kDegreesPerRadian);
     add("skyfit:longitude_deg", options.site->longitude * kDegreesPerRadian);
@@ -90,7 +100,13 @@ void Renderer::set_ground(const Atmosphere<double>& atmosphere, const ColorRule&
 
 void Renderer::prepare(const FrameOptions& options) {
   validate(options);
-  if (is_above_ground(options)) drawer_->prepare(raised(options));
+  if (!is_above_ground(options)) return;
+  const FrameOptions from_lowest = raised(options);
+  if (options.projection == PictureProjection::kPerspective) {
+    drawer_->prepare(from_lowest);
+  } else {
+    for (const FrameOptions& face : cube_faces(from_lowest)) drawer_->prepare(face);
+  }
 }
 
 std::vector<std::string> Renderer::warnings() const { return drawer_->warnings(); }
@@ -130,13 +146,27 @@ FrameOptions Renderer::above_lowest_ground(const FrameOptions& options) const {
 }
 
 FrameStatistics Renderer::submit(const FrameOptions& options) {
+  if (options.projection != PictureProjection::kPerspective)
+    throw std::invalid_argument("render.projection: must be perspective on a device");
   return drawer_->submit(above_lowest_ground(options));
 }
 
 FrameStatistics Renderer::wait() { return drawer_->wait(); }
 
 Frame Renderer::draw(const FrameOptions& options, const std::function<void(double)>& progress) {
-  Frame frame = drawer_->draw(above_lowest_ground(options), progress);
+  const FrameOptions from_lowest = above_lowest_ground(options);
+  Frame frame;
+  if (options.projection == PictureProjection::kPerspective) {
+    frame = drawer_->draw(from_lowest, progress);
+  } else {
+    frame = mapped_frame(
+        from_lowest,
+        [&](const FrameOptions& face, const std::function<void(double)>& report) {
+          return drawer_->draw(face, report);
+        },
+        progress);
+    if (options.glare == Glare::kEye) frame.glare = module().glare_of(frame);
+  }
   add_metadata(preset_, options, frame);
   return frame;
 }

@@ -157,7 +157,8 @@ inline constexpr int kMostCloudLayers = 4;
 enum class AerialPerspective {
   kPerPixel,  // two look-ups of every pixel
   // A volume of 32 x 32 x 16 before the ground, Bodare & Sandberg 2014, 6.4.2. With meshes, a moon
-  // or a second sun, from above 12 km and where ground may rise above the atmosphere, as above.
+  // or a second sun, in projections, from above 12 km and where ground may rise above the
+  // atmosphere, as above.
   kVolume,
 };
 
@@ -195,8 +196,23 @@ struct TerrainOptions {
   std::optional<Camera> eye = {};
 };
 
+// How directions become points of the picture: flat, or as one of map_projections()
+// (model/geometry/map_projection.h), which has the same name. Of these, north is the camera's
+// azimuth and the zenith above; angular alone is tilted by the camera's zenith angle.
+enum class PictureProjection {
+  kPerspective,
+  kEquirectangular,
+  kFisheye,
+  kCube,
+  kOctahedral,
+  kAngular,
+};
+
 struct FrameOptions {
   int width = 1280, height = 720;
+  PictureProjection projection = PictureProjection::kPerspective;
+  // Of fisheye and angular, across the disc: 1 to 360 degrees; without one, 180 and 360.
+  std::optional<double> field_of_view = {};
   Camera camera;
   std::optional<Site> site;  // without one: the coast
   double sun_zenith = 0.5;
@@ -281,7 +297,7 @@ class Renderer {
 
   // The same for frames that are shown one after another on the device. Waits for the frame before,
   // not for this one, which is drawn while the next is prepared. The statistics are those of the
-  // frame before, of this one when there is none. Errors as above.
+  // frame before, of this one when there is none. Errors as above, and for a projection.
   FrameStatistics submit(const FrameOptions& options);
   // For the last of these frames, whose statistics it returns; throws std::logic_error when nothing
   // has been drawn since the last draw().

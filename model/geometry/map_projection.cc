@@ -117,7 +117,7 @@ class Disc : public Square {
 
 class FisheyeMap final : public Disc {
  public:
-  explicit FisheyeMap(int side) : Disc(side, kPi / 2) {}
+  using Disc::Disc;
   std::optional<Axis> direction(double x, double y) const override {
     const auto p = polar(x, y);
     if (!p) return {};
@@ -130,7 +130,7 @@ class FisheyeMap final : public Disc {
 
 class AngularMap final : public Disc {
  public:
-  explicit AngularMap(int side) : Disc(side, kPi) {}
+  using Disc::Disc;
   std::optional<Axis> direction(double x, double y) const override {
     const auto p = polar(x, y);
     if (!p) return {};
@@ -225,21 +225,26 @@ class Cube final : public MapProjection {
 };
 
 template <class Projection>
-std::unique_ptr<MapProjection> make(int size) {
+std::unique_ptr<MapProjection> make(int size, double /*field_of_view*/) {
   return std::make_unique<Projection>(size);
 }
 
+template <class Projection>
+std::unique_ptr<MapProjection> make_disc(int size, double field_of_view) {
+  return std::make_unique<Projection>(size, field_of_view / 2);
+}
+
 constexpr std::array<MapProjectionEntry, 5> kProjections = {{
-    {"equirectangular", "2N x N: latitude-longitude, north in the middle, east to the right",
+    {"equirectangular", "2N x N: latitude-longitude, north in the middle, east to the right", 0,
      make<Equirectangular>},
-    {"fisheye", "N x N: the sky alone, equidistant, north up, east left as one looks up",
-     make<FisheyeMap>},
-    {"cube", "6N x N: faces side by side in OpenGL's order; its x is east, y up, z south",
+    {"fisheye", "N x N: the sky alone, equidistant, north up, east left as one looks up", kPi,
+     make_disc<FisheyeMap>},
+    {"cube", "6N x N: faces side by side in OpenGL's order; its x is east, y up, z south", 0,
      make<Cube>},
-    {"octahedral", "N x N: the zenith in the middle, north up, east to the right",
+    {"octahedral", "N x N: the zenith in the middle, north up, east to the right", 0,
      make<Octahedral>},
     {"angular", "N x N: a light probe that looks north; radius = angle from it over 180 deg",
-     make<AngularMap>},
+     2 * kPi, make_disc<AngularMap>},
 }};
 
 }  // namespace
@@ -249,7 +254,7 @@ std::span<const MapProjectionEntry> map_projections() { return kProjections; }
 std::unique_ptr<MapProjection> make_map_projection(std::string_view name, int size) {
   std::vector<std::string_view> names;
   for (const MapProjectionEntry& entry : kProjections) {
-    if (entry.name == name) return entry.make(size);
+    if (entry.name == name) return entry.make(size, entry.field_of_view);
     names.push_back(entry.name);
   }
   throw std::invalid_argument(

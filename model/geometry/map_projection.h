@@ -30,12 +30,14 @@ class MapProjection {
 
 struct MapProjectionEntry {
   std::string_view name, meaning;
-  // `size`: rows of equirectangular, the side of the others or of a face.
-  std::unique_ptr<MapProjection> (*make)(int size);
+  double field_of_view;  // usual angle across a picture that is a disc, rad; 0: all directions
+  // `size`: rows of equirectangular, the side of the others or of a face. `field_of_view` above 0
+  // and at most 2 pi; of use for discs.
+  std::unique_ptr<MapProjection> (*make)(int size, double field_of_view);
 };
 std::span<const MapProjectionEntry> map_projections();
 
-// Throws std::invalid_argument that lists the names.
+// With the usual field of view. Throws std::invalid_argument that lists the names.
 std::unique_ptr<MapProjection> make_map_projection(std::string_view name, int size);
 
 }  // namespace skyfit

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "model/geometry/map_projection.h"
 #include "render/features/feature_rows.h"
 
 namespace skyfit {
@@ -16,7 +17,8 @@ RenderFeature aerial() {
        .options = {{.name = "--aerial",
                     .meaning = "Light of the air before the ground: by pixel, or faster from a "
                                "volume of 32 x 32 x 16. It is by pixel with meshes, a moon or a "
-                               "second sun, above 12 km, where the ground may rise above the air, "
+                               "second sun, in projections, above 12 km, where the ground may rise "
+                               "above the air, "
                                "and under atmospheres with a dense layer, as of cloud"}},
        .caption = "aerial",
        .words = {word("pixel", AerialPerspective::kPerPixel),
@@ -51,8 +53,27 @@ RenderFeature layers() {
        }});
 }
 
+RenderFeature projection() {
+  std::vector<FeatureWord> words = {word("perspective", PictureProjection::kPerspective)};
+  for (const MapProjectionEntry& entry : map_projections())
+    words.push_back({entry.name, static_cast<int>(words.size())});
+  return with_value(
+      [](auto& options) -> auto& { return options.projection; },
+      {.name = "projection",
+       .group = kGroup,
+       .options = {{.name = "--projection",
+                    .meaning = "How directions become pixels: perspective, or all directions as "
+                               "skyfit sky-map lays them out, whose north is here the camera's "
+                               "azimuth or heading; fisheye, about the zenith, and angular, about "
+                               "the direction of view, take any --field-of-view-deg up to 360",
+                    .excludes = {"--overview-m"}}},
+       .words = words});
+}
+
 }  // namespace
 
-std::vector<RenderFeature> picture_features() { return {aerial(), glare(), layers()}; }
+std::vector<RenderFeature> picture_features() {
+  return {projection(), aerial(), glare(), layers()};
+}
 
 }  // namespace skyfit

@@ -24,18 +24,10 @@ glm::dvec3 direction_of(const Frame& frame, std::size_t pixel) {
           std::cos(zenith)};
 }
 
-// Half a pixel's diagonal seen from there, by its neighbour.
-double half_pixel_rad(const Frame& frame, std::size_t pixel) {
-  const std::size_t beside = pixel % frame.width > 0 ? pixel - 1 : pixel + 1;
-  if (frame.width < 2) return 0;
-  return glm::length(direction_of(frame, pixel) - direction_of(frame, beside)) /
-         std::numbers::sqrt2;
-}
-
 struct Source {
   glm::dvec3 direction{0};
   glm::dvec3 illuminance{0};  // lux, in the frame's primaries
-  double half_rad = 0;        // of its size
+  double solid_angle_sr = 0;
 };
 
 // Neighbouring pixels of discs as one source.
@@ -55,12 +47,10 @@ std::vector<Source> sources_of(const Frame& frame) {
   for (const DiscPixel& disc : frame.discs) {
     const auto [x, y] = place(disc);
     Source& source = sources[{(x - left) / side, (y - top) / side}];
-    const double half = half_pixel_rad(frame, disc.pixel);
-    const glm::dvec3 light(disc.rgb[0], disc.rgb[1], disc.rgb[2]);
-    // A pixel is a square whose half diagonal is `half`.
-    source.illuminance += 2 * half * half * light;
+    const double solid_angle = disc.solid_angle_sr;
+    source.illuminance += solid_angle * glm::dvec3(disc.rgb[0], disc.rgb[1], disc.rgb[2]);
     source.direction += double{disc.cover} * direction_of(frame, disc.pixel);
-    source.half_rad = half * side;
+    source.solid_angle_sr += solid_angle;
   }
   std::vector<Source> list;
   for (auto& [key, source] : sources) {
@@ -93,13 +83,15 @@ std::vector<float> glare_of(const Frame& frame) {
   tbb::parallel_for(0, frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * frame.width + x;
+      if (std::isnan(frame.view_zenith_deg[pixel])) continue;
       const glm::dvec3 ray = direction_of(frame, pixel);
       glm::dvec3 sum(0);
       for (const Source& source : sources) {
         const double away = 2 * std::asin(std::min(0.5 * glm::length(ray - source.direction), 1.0));
-        sum += source.illuminance *
-               glare_function(std::sqrt(away * away + source.half_rad * source.half_rad) /
-                              kRadiansPerDegree);
+        // Of a square half the diagonal's square is half its area.
+        sum +=
+            source.illuminance *
+            glare_function(std::sqrt(away * away + source.solid_angle_sr / 2) / kRadiansPerDegree);
       }
       for (int k = 0; k < 3; ++k)
         glare[3 * pixel + static_cast<std::size_t>(k)] = static_cast<float>(sum[k]);

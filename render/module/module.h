@@ -28,10 +28,11 @@ class FrameDrawer {
 };
 
 struct RenderModule {
-  static constexpr int kRevision = 15;
+  static constexpr int kRevision = 16;
   int revision;
   std::unique_ptr<FrameDrawer> (*make_drawer)(const Scene&, GraphicsDevice,
                                               std::shared_ptr<ContentCache>);
+  std::vector<float> (*glare_of)(const Frame&);
   void (*write_exr)(const Frame&, const std::filesystem::path&);
   void (*write_map)(const SkyMap&, Primaries, const std::filesystem::path&);
   void (*write_png)(const Frame&, const std::filesystem::path&, const ToneOptions&);

@@ -8,6 +8,7 @@
 #include "model/numerics/angles.h"
 #include "render/features/render_features.h"
 #include "render/render.h"
+#include "render/sky_map/mapped_frame.h"
 
 namespace skyfit {
 namespace {
@@ -148,8 +149,12 @@ void validate(const FrameOptions& options) {
   require(within(camera.view_zenith, 0, std::numbers::pi), "camera.view_zenith", camera.view_zenith,
           "0 to pi");
   require(std::isfinite(camera.azimuth), "camera.azimuth", camera.azimuth, "finite");
-  require(within(camera.vertical_fov, kRadiansPerDegree, 150 * kRadiansPerDegree),
-          "camera.vertical_fov", camera.vertical_fov, "1 to 150 degrees in radians");
+  if (projection_of(options) == nullptr) {
+    require(within(camera.vertical_fov, kRadiansPerDegree, 150 * kRadiansPerDegree),
+            "camera.vertical_fov", camera.vertical_fov, "1 to 150 degrees in radians");
+  } else if (options.terrain.eye) {
+    throw std::invalid_argument("render.projection: must be perspective with a terrain.eye");
+  }
   require(within(options.sun_zenith, 0, std::numbers::pi), "sun_zenith", options.sun_zenith,
           "0 to pi");
   if (options.site) {

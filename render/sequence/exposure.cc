@@ -37,13 +37,14 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-// Luminances without the suns' discs.
+// Luminances of what is shown, without the suns' discs.
 void add_without_discs(const Frame& frame, std::vector<double>& luminances) {
-  const std::size_t first = luminances.size();
-  luminances.insert(luminances.end(), frame.luminance.begin(), frame.luminance.end());
-  for (const DiscPixel& disc : frame.discs) {
-    double& luminance = luminances[first + disc.pixel];
-    luminance = std::max(luminance - disc.luminance, 0.0);
+  std::vector<double> all(frame.luminance.begin(), frame.luminance.end());
+  for (const DiscPixel& disc : frame.discs)
+    all[disc.pixel] = std::max(all[disc.pixel] - disc.luminance, 0.0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (frame.view_zenith_deg.empty() || !std::isnan(frame.view_zenith_deg[i]))
+      luminances.push_back(all[i]);
   }
 }
 

@@ -89,7 +89,7 @@ void add_polarisation(const SkyModel& model, const Atmosphere<double>& atmospher
   std::vector<std::size_t> pixels;
   std::vector<Direction> directions;
   for (std::size_t i = 0; i < frame.depth_m.size(); ++i) {
-    if (std::isfinite(frame.depth_m[i])) continue;
+    if (std::isfinite(frame.depth_m[i]) || std::isnan(frame.view_zenith_deg[i])) continue;
     pixels.push_back(i);
     directions.push_back({kRadiansPerDegree * double{frame.view_zenith_deg[i]},
                           kRadiansPerDegree * double{frame.view_azimuth_deg[i]}});

@@ -140,6 +140,26 @@ TEST(RenderRequest, SceneOptions) {
   EXPECT_EQ(r.tone.exposure, 1e-4);
 }
 
+TEST(RenderRequest, Projections) {
+  const RenderRequest cube = request({"--projection", "cube", "--out", "x.exr"});
+  EXPECT_EQ(cube.frame.width, 6 * cube.frame.height);  // where no size is typed
+  const RenderRequest wide = request({"--projection", "angular", "--field-of-view-deg", "200",
+                                      "--pitch-deg", "30", "--size", "64x64", "--out", "x.exr"});
+  EXPECT_NEAR(*wide.frame.field_of_view, 200 * kDegree, 1e-12);
+  EXPECT_NEAR(wide.sequence.keyframes[0].camera.view_zenith, 60 * kDegree, 1e-12);
+  const auto refused = [](std::vector<std::string> arguments, const char* text) {
+    arguments.insert(arguments.end(), {"--out", "x.exr"});
+    EXPECT_THAT([&] { request(arguments); },
+                testing::ThrowsMessage<std::exception>(testing::HasSubstr(text)));
+  };
+  refused({"--projection", "cube", "--size", "64x64"}, "must be 6:1 for the projection cube");
+  refused({"--projection", "cube", "--pitch-deg", "5"}, "perspective or angular");
+  refused({"--projection", "cube", "--field-of-view-deg", "5"}, "perspective, fisheye or angular");
+  refused({"--projection", "fisheye", "--field-of-view-deg", "361"}, "from 1 to 360");
+  refused({"--field-of-view-deg", "160"}, "from 1 to 150");
+  refused({"--projection", "fisheye", "--overview-m", "500"}, "expected without --overview-m");
+}
+
 // What frames are known by follows from every row of render_features(), and what the rows need or
 // exclude are options.
 TEST(RenderRequest, EveryFeatureIsAnOptionAndPartOfWhatAFrameIsKnownBy) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "render/sequence/exposure.h"
@@ -52,6 +53,16 @@ TEST(JoinedGrid, PixelsStandWhereTheyBelong) {
   }
   ASSERT_EQ(whole.metadata.size(), 2u);
   EXPECT_EQ(whole.metadata[1].first, "skyfit:rows");
+}
+
+TEST(Exposure, IsThatOfWhatAPictureShows) {
+  Frame disc = grey(8, 8, 3000);
+  const double whole = metered_exposure(disc);
+  for (std::size_t i = 0; i < 40; ++i) {
+    disc.view_zenith_deg[i] = std::numeric_limits<float>::quiet_NaN();
+    disc.luminance[i] = 0;
+  }
+  EXPECT_NEAR(metered_exposure(disc) / whole, 1, 1e-12);
 }
 
 TEST(JoinedGrid, DiscsEdgesAndGlareMoveWithTheirPixels) {

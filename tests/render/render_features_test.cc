@@ -12,6 +12,7 @@
 #include "data_refs/spectra.h"
 #include "model/photometry/photometry.h"
 #include "render/glsl/shader_text.h"
+#include "render/sky_map/mapped_frame.h"
 
 namespace skyfit {
 namespace {
@@ -38,6 +39,8 @@ TEST(RenderFeatures, WhatIsSetIsReadBackAndIsAnotherKey) {
       FrameOptions options;
       feature.set(options, value);
       EXPECT_EQ(feature.get(options), value) << feature.name;
+      if (options.projection != PictureProjection::kPerspective)
+        options.width = entry_of(options.projection).make(options.height, 1)->width();
       validate(options);
       const auto key = feature_key(feature, options);
       EXPECT_THAT(keys, testing::Not(testing::Contains(key))) << feature.name;

@@ -284,6 +284,14 @@ void add_directions(const Camera& camera, Frame& frame) {
       frame.view_azimuth_deg[i] = static_cast<float>(kDegreesPerRadian * std::atan2(-ray.y, ray.x));
     }
   });
+  const double pixel = 4 * tall * wide / static_cast<double>(pixels);  // in the plane at distance 1
+  for (DiscPixel& disc : frame.discs) {
+    const auto x = static_cast<int>(disc.pixel % frame.width),
+               y = static_cast<int>(disc.pixel / frame.width);
+    const double u = wide * ((2 * x + 1.0) / frame.width - 1),
+                 v = tall * (1 - (2 * y + 1.0) / frame.height);
+    disc.solid_angle_sr = static_cast<float>(pixel / std::pow(1 + u * u + v * v, 1.5));
+  }
 }
 
 }  // namespace skyfit

@@ -15,7 +15,7 @@ void resolve_light(const FrameGraph& graph, int samples_per_side, Frame& frame);
 // After resolve_light().
 FrameLayers resolve_layers(const FrameGraph& graph, int samples_per_side, const Frame& frame);
 
-// view_zenith_deg and view_azimuth_deg.
+// view_zenith_deg, view_azimuth_deg and, after resolve_light(), solid angles of discs' pixels.
 void add_directions(const Camera& camera, Frame& frame);
 
 }  // namespace skyfit
