@@ -81,6 +81,7 @@ Profile::Profile(const VerticalProfile<double>& profile) {
     case ProfileType::kLayer: {
       base_ = profile.base_m;
       top_ = profile.top_m;
+      edge_ = 0.5 * kLayerEdge * (top_ - base_);
       const std::vector<Corner> corners = layer_corners(base_, top_);
       table_ = layer_table(corners);
       for (std::size_t shape = 0; shape < 2; ++shape)
@@ -193,21 +194,22 @@ std::vector<double> Profile::quadrature_heights() const {
 std::vector<double> Profile::level_heights(double optical_depth) const {
   if (!is_layer()) return {};
   // The source of a level to the next is linear in optical depth: near both ends, where light falls
-  // in and out, a step has at most a sixth of one (within 0.5 % for depths of 2 and 10 and g =
-  // 0.85), then twice as much every eight levels.
+  // in and out, a step has at most a sixth of one, after eight levels twice as much, after
+  // eight more four times.
   constexpr double kFewest = 16, kMost = 512, kPerDepth = 6;
   constexpr int kEvery = 8;
+  constexpr long kLongest = 4;
   const double steps = std::clamp(
       std::exp2(std::ceil(std::log2(std::max(kPerDepth * optical_depth, 1.0)))), kFewest, kMost);
   const double step = std::exp2(std::floor(std::log2((top_ - base_) / steps)));  // m
-  const auto first = static_cast<long>(std::lround(base_ / step)),
-             last = static_cast<long>(std::lround(top_ / step));
+  const auto first = static_cast<long>(std::lround(std::max(base_ - edge_, 0.0) / step)),
+             last = static_cast<long>(std::lround((top_ + edge_) / step));
   std::set<long> levels;
   long stride = 1, inside = -1;
   for (int n = 0; first + inside <= (first + last) / 2; ++n) {
     levels.insert(first + inside);
     levels.insert(last - inside);
-    if (n > 0 && n % kEvery == 0) stride *= 2;
+    if (n > 0 && n % kEvery == 0) stride = std::min(2 * stride, kLongest);
     inside += stride;
   }
   std::vector<double> heights;

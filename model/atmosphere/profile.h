@@ -66,6 +66,7 @@ class Profile {
   TabulatedProfile table_;
   std::vector<TabulatedProfile> by_shape_;
   double base_ = 0, top_ = 0;  // of a layer
+  double edge_ = 0;            // how far beyond them its density falls to 0
 };
 
 }  // namespace skyfit
