@@ -164,7 +164,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
   int modes = 0;
   for (const Optics<N>& o : optics)
     modes = std::max(modes, mode_count(o, moments, options.tolerance));
-  if (!coupling.shifted.empty()) modes = std::max(modes, shifted_modes(moments));
+  if (!coupling.shifted.empty()) modes = std::max(modes, options.shifted_modes);
   for (DiffuseField& field : fields) {
     field.shape = shape;
     field.moments.resize(modes);
@@ -227,7 +227,7 @@ std::vector<DiffuseField> solve_diffuse_fields(
       std::vector<DiffuseField> more;
       if (options.deep_twilight)
         more = couple(coupling, twilight_couplings(options.levels) - kCouplings, kTwilightShare,
-                      shifted_modes(moments));
+                      options.shifted_modes);
       const auto found = [&](std::size_t w) {
         return more.empty() ? has_converged(result[w], result[w], coupling, kDarkByDay)
                             : has_converged(result[w], more[w], coupling, kDark);

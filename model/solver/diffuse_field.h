@@ -46,6 +46,13 @@ struct DiffuseField {
   LargeArray ground_irradiance;  // diffuse, on the ground, [sun][slice]
 };
 
+// What fields are solved for: how fine they are and how far suns are coupled.
+enum class FieldsOf {
+  kDay,
+  kLowSuns,       // below 80 deg at the eye, in an extended atmosphere
+  kDeepTwilight,  // below 94 deg along the ray
+};
+
 struct DiffuseOptions {
   int moments = 16;  // of the phase functions, as many as the optics keep
   // A mode is left out when a bound on what it adds to the field is below this share of mode 0.
@@ -55,6 +62,7 @@ struct DiffuseOptions {
   // Couples the suns in as many steps as a deep twilight takes, whose light all comes from far
   // places; in two where that does not converge.
   bool deep_twilight = false;
+  int shifted_modes = 6;        // those of the coupling, if any shifts
   bool polarised = true;        // with P of the light that air polarises
   int levels = kDefaultLevels;  // LevelGrid::asked()
 };
@@ -68,6 +76,9 @@ struct FieldGrid {
 };
 FieldGrid field_grid(const Shells& shells, int levels_by_day, bool deep_twilight);
 
+// Whether the atmosphere is thick against its planet.
+bool is_extended(const Shells& shells);
+
 // The first sun of the grid that has light from neighbouring places under their own sun. On a
 // planet whose atmosphere is thin against its radius, as the Earth's, that matters for low suns
 // only (below 0.15 % of the radiance to 80 deg, 0.7 % to 85 deg).
@@ -75,10 +86,10 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells);
 
 // The coupling of the suns of `grid` that are solved (solved[i] >= 0 is the place of grid node i
 // among them), from the node `first` on; it and those after it, and the two before it, must be
-// solved. `moments` are those of the fields.
+// solved.
 HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
                                 const std::vector<int>& solved, const Streams& streams, int first,
-                                int moments);
+                                int shifted_modes);
 
 // The fields of several wavelengths, in parallel over wavelengths and modes on the calling arena's
 // threads; results do not depend on their number.

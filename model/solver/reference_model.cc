@@ -169,9 +169,10 @@ struct Question {
 // The wanted Stokes parameters of points that take the same fields, in their order.
 template <int N>
 std::vector<SkyValues> solve_points(const Question<N>& question, std::span<const SkyPoint> points,
-                                    bool deep_twilight, const LightTurns* turns) {
+                                    FieldsOf kind, const LightTurns* turns) {
   const auto& [shells, optics, derivatives, options, wanted] = question;
-  const LevelGrid levels(shells, field_grid(shells, options.levels, deep_twilight).levels);
+  const LevelGrid levels(
+      shells, field_grid(shells, options.levels, kind == FieldsOf::kDeepTwilight).levels);
   const ViewRays rays = distinct_view_rays(shells, levels.heights(), points);
   const SunsAlongRays suns = suns_along_rays(shells, rays, points, turns);
   const bool first = options.order <= 1, further = options.order != 1;
@@ -181,7 +182,7 @@ std::vector<SkyValues> solve_points(const Question<N>& question, std::span<const
   tbb::parallel_invoke(
       [&] {
         if (suns.needed.empty()) return;
-        solution.emplace(shells, levels, optics, derivatives, suns.needed, options, deep_twilight);
+        solution.emplace(shells, levels, optics, derivatives, suns.needed, options, kind);
       },
       [&] {
         if (first) single = single_scattering_of(shells, optics, rays, suns.along, wanted);
@@ -249,16 +250,22 @@ std::vector<SkyValues> solve(const Atmosphere<double>& atmosphere,
                                 {static_cast<int>(points.size()), static_cast<int>(optics.size()),
                                  static_cast<int>(derivatives.size()), std::vector<double>(cells),
                                  std::vector<double>(cells * derivatives.size())});
-  for (const bool deep : {false, true}) {
+  const auto kind_of = [&](const SkyPoint& point) {
+    const FieldsOf kind = fields_of(shells, point, turns);
+    const bool is_same =
+        shifted_modes(options.moments, true) == shifted_modes(options.moments, false);
+    return kind == FieldsOf::kLowSuns && is_same ? FieldsOf::kDay : kind;
+  };
+  for (const FieldsOf kind : {FieldsOf::kDay, FieldsOf::kLowSuns, FieldsOf::kDeepTwilight}) {
     std::vector<std::size_t> places;
     std::vector<SkyPoint> some;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (is_deep_twilight(shells, points[i], turns) != deep) continue;
+      if (kind_of(points[i]) != kind) continue;
       places.push_back(i);
       some.push_back(points[i]);
     }
     if (some.empty()) continue;
-    const std::vector<SkyValues> values = solve_points(question, some, deep, turns);
+    const std::vector<SkyValues> values = solve_points(question, some, kind, turns);
     for (std::size_t k = 0; k < result.size(); ++k) scatter(values[k], places, result[k]);
   }
   expect_no_negative(result.front(), wavelengths, points);

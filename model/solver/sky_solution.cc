@@ -12,7 +12,7 @@ template <int N>
 SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
                             const std::vector<Optics<N>>& optics, std::size_t derivatives,
                             std::span<const SunRange> needed, const ReferenceOptions& options,
-                            bool deep_twilight)
+                            FieldsOf kind)
     : shells_(shells), levels_(levels), grid_(shells), solved_(grid_.size(), -1), optics_(optics) {
   for (const SunRange& range : needed) {
     const SunStencil high = grid_.stencil(range.highest), low = grid_.stencil(range.lowest);
@@ -31,12 +31,15 @@ SkySolution<N>::SkySolution(const Shells& shells, const LevelGrid& levels,
     solved_[i] = static_cast<int>(suns.size());
     suns.push_back(grid_.mu(i));
   }
+  const bool deep_twilight = kind == FieldsOf::kDeepTwilight;
+  const int shifted =
+      shifted_modes(options.moments, kind == FieldsOf::kDay && is_extended(shells_));
   const Streams streams(shells_.bottom_radius, levels_.heights(), options.streams,
                         field_grid(shells_, options.levels, deep_twilight).limb_rays);
   fields_ = solve_diffuse_fields<N>(
       shells_, optics_, 1 + static_cast<int>(derivatives), levels_.heights(), suns, streams,
-      sun_coupling(grid_, shells_, solved_, streams, first, options.moments),
-      {options.moments, options.tolerance, std::max(options.order - 1, 0), deep_twilight,
+      sun_coupling(grid_, shells_, solved_, streams, first, shifted),
+      {options.moments, options.tolerance, std::max(options.order - 1, 0), deep_twilight, shifted,
        options.transfer == Transfer::kVector, levels_.asked()});
 }
 

@@ -21,10 +21,10 @@ template <int N>
 class SkySolution {
  public:
   // Solves the diffuse field for every sun of the grid that the ranges touch. `optics` stay where
-  // they are; `deep_twilight` as in DiffuseOptions.
+  // they are.
   SkySolution(const Shells& shells, const LevelGrid& levels, const std::vector<Optics<N>>& optics,
               std::size_t derivatives, std::span<const SunRange> needed,
-              const ReferenceOptions& options, bool deep_twilight);
+              const ReferenceOptions& options, FieldsOf kind);
 
   MultipleScattering<N> multiple_scattering() const {
     return {levels_, grid_, solved_, optics_, fields_};

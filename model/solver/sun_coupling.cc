@@ -113,12 +113,12 @@ void set_shares(const SunGrid& grid, const std::vector<int>& solved, std::size_t
 
 double top_over_radius(const Shells& shells) { return shells.top / shells.bottom_radius; }
 
+}  // namespace
+
 bool is_extended(const Shells& shells) {
   constexpr double kThin = 0.02;
   return top_over_radius(shells) > kThin;
 }
-
-}  // namespace
 
 FieldGrid field_grid(const Shells& shells, int levels_by_day, bool deep_twilight) {
   if (is_extended(shells)) return {2 * levels_by_day, LimbRays::kOfExtended};
@@ -136,7 +136,7 @@ int first_coupled_sun(const SunGrid& grid, const Shells& shells) {
 
 HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
                                 const std::vector<int>& solved, const Streams& streams, int first,
-                                int moments) {
+                                int shifted_modes) {
   constexpr double kThick = 0.05;
   HorizontalCoupling c;
   c.converges = top_over_radius(shells) < kThick;
@@ -162,7 +162,7 @@ HorizontalCoupling sun_coupling(const SunGrid& grid, const Shells& shells,
     }
   }
   if (c.converges && std::ranges::count(c.coupled, 1) > 0)
-    set_shares(grid, solved, static_cast<std::size_t>(shifted_modes(moments)), c);
+    set_shares(grid, solved, static_cast<std::size_t>(shifted_modes), c);
   return c;
 }
 

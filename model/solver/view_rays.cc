@@ -50,18 +50,21 @@ SunsAlongRays suns_along_rays(const Shells& shells, const ViewRays& rays,
   return suns;
 }
 
-bool is_deep_twilight(const Shells& shells, const SkyPoint& point, const LightTurns* turns) {
-  static const double kLowest = std::cos(94 * kRadiansPerDegree);
+FieldsOf fields_of(const Shells& shells, const SkyPoint& point, const LightTurns* turns) {
+  static const double kDeep = std::cos(94 * kRadiansPerDegree);
+  constexpr double kLow = 80 * kRadiansPerDegree;
   constexpr int kPlaces = 16;  // along which the local sun moves by a degree or so
   const ViewRay ray =
       view_ray(shells.bottom_radius, shells.top, point.altitude_m, std::cos(point.view_zenith));
   const SunAlongRay sun(shells.bottom_radius, ray, point, turns);
   const PartOfRay part = part_with_own_suns(shells, ray);
+  double lowest = 1;
   for (int k = 0; k <= kPlaces; ++k) {
     const double s = part.begin + k * (part.end - part.begin) / kPlaces;
-    if (sun.mu_s(ray_point(ray, shells.bottom_radius, s)) < kLowest) return true;
+    lowest = std::min(lowest, sun.mu_s(ray_point(ray, shells.bottom_radius, s)));
   }
-  return false;
+  if (lowest < kDeep) return FieldsOf::kDeepTwilight;
+  return is_extended(shells) && point.sun_zenith > kLow ? FieldsOf::kLowSuns : FieldsOf::kDay;
 }
 
 }  // namespace skyfit

@@ -28,8 +28,8 @@ struct SunsAlongRays {
 SunsAlongRays suns_along_rays(const Shells& shells, const ViewRays& rays,
                               std::span<const SkyPoint> points, const LightTurns* turns);
 
-// Whether the sun goes down below 94 deg along the point's ray: such rays take the fields of deep
-// twilight, which are solved apart, so that a list of points gives what each gives alone.
-bool is_deep_twilight(const Shells& shells, const SkyPoint& point, const LightTurns* turns);
+// The fields that a point takes, by the lowest sun along its ray and the sun of its eye. They are
+// solved apart, so that a list of points gives what each gives alone.
+FieldsOf fields_of(const Shells& shells, const SkyPoint& point, const LightTurns* turns);
 
 }  // namespace skyfit

@@ -73,13 +73,15 @@ DiffuseSource::DiffuseSource(const Shells& shells, const NodeOptics& optics,
   std::iota(all.begin(), all.end(), 0);
   const Streams streams(shells.bottom_radius, levels_.heights(), options.streams,
                         field_grid(shells, options.levels, kDeepTwilight).limb_rays);
+  const int shifted = shifted_modes(options.moments, false);
   const HorizontalCoupling coupling =
-      sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells), options.moments);
+      sun_coupling(suns_, shells, all, streams, first_coupled_sun(suns_, shells), shifted);
   const auto fields_of = [&](int order) {
     return solve_diffuse_fields<0>(shells, optics, 1, levels_.heights(), sun_mu, streams, coupling,
                                    {.moments = options.moments,
                                     .order = order,
                                     .deep_twilight = kDeepTwilight,
+                                    .shifted_modes = shifted,
                                     .polarised = light.transfer == Transfer::kVector,
                                     .levels = levels_.asked()});
   };
