@@ -90,6 +90,13 @@ RenderRequest frame_request(const RenderOptions& options, const CLI::App& comman
   const Keyframe start = parse_start(options, command);
   if (is_file) {
     request.sequence = load_sequence(options.sequence, start);
+    // The heights of a named view follow the radius of the planet, which the file may name.
+    const Preset& first = request.sequence.keyframes.front().preset;
+    if (first.atmosphere.bottom_radius_m != start.preset.atmosphere.bottom_radius_m) {
+      RenderOptions on_planet = options;
+      on_planet.start = first;
+      request.sequence = load_sequence(options.sequence, parse_start(on_planet, command));
+    }
   } else if (is_day) {
     request.sequence = parse_day(options, command, start);
   } else {

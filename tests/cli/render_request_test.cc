@@ -140,6 +140,21 @@ TEST(RenderRequest, SceneOptions) {
   EXPECT_EQ(r.tone.exposure, 1e-4);
 }
 
+TEST(RenderRequest, TheViewOfASequenceFollowsThePlanetThatItsFileNames) {
+  const TemporaryDirectory directory;
+  const auto write = [&](const char* name, const char* text) {
+    std::ofstream(directory.path() / name) << text;
+  };
+  write("small.json",
+        R"({"skyfit_preset": 2, "name": "small", "constituents": [], "ground": {"albedo": 0.1},
+      "planet": {"bottom_radius_m": 1e6, "top_radius_m": 1.02e6}})");
+  write("day.json", R"({"skyfit_sequence": 1, "frames": 1,
+      "keyframes": [{"time_s": 0, "preset": "small.json"}]})");
+  const RenderRequest r = request({"--view", "space", "--out-dir", "x", "--sequence",
+                                   (directory.path() / "day.json").string()});
+  EXPECT_EQ(r.sequence.keyframes[0].camera, pose_of(find_view("space"), 1e6));
+}
+
 TEST(RenderRequest, Projections) {
   const RenderRequest cube = request({"--projection", "cube", "--out", "x.exr"});
   EXPECT_EQ(cube.frame.width, 6 * cube.frame.height);  // where no size is typed
