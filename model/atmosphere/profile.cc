@@ -194,11 +194,9 @@ std::vector<double> Profile::quadrature_heights() const {
 std::vector<double> Profile::level_heights(double optical_depth) const {
   if (!is_layer()) return {};
   // The source of a level to the next is linear in optical depth: near both ends, where light falls
-  // in and out, a step has at most a sixth of one, after eight levels twice as much, after
-  // eight more four times.
+  // in and out, a step has at most a sixth of one, then twice as much every twelve levels.
   constexpr double kFewest = 16, kMost = 512, kPerDepth = 6;
-  constexpr int kEvery = 8;
-  constexpr long kLongest = 4;
+  constexpr int kEvery = 12;
   const double steps = std::clamp(
       std::exp2(std::ceil(std::log2(std::max(kPerDepth * optical_depth, 1.0)))), kFewest, kMost);
   const double step = std::exp2(std::floor(std::log2((top_ - base_) / steps)));  // m
@@ -209,7 +207,7 @@ std::vector<double> Profile::level_heights(double optical_depth) const {
   for (int n = 0; first + inside <= (first + last) / 2; ++n) {
     levels.insert(first + inside);
     levels.insert(last - inside);
-    if (n > 0 && n % kEvery == 0) stride = std::min(2 * stride, kLongest);
+    if (n > 0 && n % kEvery == 0) stride *= 2;
     inside += stride;
   }
   std::vector<double> heights;
