@@ -108,14 +108,11 @@ json summary_of_sidecar(const std::string& file) {
       {"file", file}, {"kind", "sidecar"}, {"excluded_samples", options.exclude_samples.size()}};
 }
 
-// One entry per scan.
+// One entry per scan, with the sun of its begin, as its time and azimuth are.
 json scans_of(const refs::Reference& reference) {
   std::map<int, std::pair<std::size_t, double>> scans;  // samples and sun zenith
-  for (const refs::Sample& sample : reference.samples) {
-    auto& [samples, sun_zenith] = scans[sample.scan];
-    ++samples;
-    sun_zenith = sample.sun_zenith;
-  }
+  for (const refs::Sample& sample : reference.samples)
+    ++scans.try_emplace(sample.scan, 0, sample.sun_zenith).first->second.first;
   json list = json::array();
   for (const auto& [index, scan] : scans) {
     json entry = {{"samples", scan.first}, {"sun_zenith_deg", degrees(scan.second)}};

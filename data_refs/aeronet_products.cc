@@ -195,11 +195,12 @@ std::chrono::minutes reach_of(const AerosolRecord& record) {
              : std::chrono::minutes(120);
 }
 
+// What one of the two does not have is the other's.
 Spectrum between(const Spectrum& a, const Spectrum& b, double share) {
-  Spectrum result;
+  Spectrum result = b;
   for (const auto& [nm, value] : a) {
-    if (const auto other = b.find(nm); other != b.end())
-      result[nm] = value + share * (other->second - value);
+    const auto other = b.find(nm);
+    result[nm] = other != b.end() ? std::lerp(value, other->second, share) : value;
   }
   return result;
 }
@@ -278,7 +279,9 @@ std::vector<AerosolRecord> load_aerosol_records(const std::filesystem::path& fil
       const auto latitude = head_number(head, "lat"), longitude = head_number(head, "long");
       if (latitude && longitude)
         place = {*latitude * kRadiansPerDegree, *longitude * kRadiansPerDegree};
-    } else if (!columns_of(fields)) {
+    } else if (auto others = columns_of(fields)) {  // of another table below the first
+      columns = std::move(others);
+    } else {
       AerosolRecord record = RecordReader(*columns, fields, source, number).record(place);
       if (holds_values(record)) {
         records.push_back(std::move(record));

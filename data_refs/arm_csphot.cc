@@ -54,10 +54,38 @@ class Datastream {
     throw std::invalid_argument(fmt::format("{}: {}: expected numbers", source_, name));
   }
 
+  // The one number of a variable without dimensions.
+  double number(std::string_view name, double low, double high, std::string_view expected) const {
+    const double value = numbers(name, {}, "").front();
+    if (value >= low && value <= high) return value;
+    throw std::invalid_argument(fmt::format("{}: {} = {:.9g}: expected {} from {:.9g} to {:.9g}",
+                                            source_, name, value, expected, low, high));
+  }
+
+  // Of a variable that has one.
+  void require_unit(std::string_view name, bool (*holds)(std::string_view),
+                    std::string_view expected) const {
+    const auto found = std::ranges::find(content_.variables, name, &NetcdfVariable::name);
+    if (found == content_.variables.end() || found->units.empty() || holds(found->units)) return;
+    throw std::invalid_argument(
+        fmt::format("{}: {} in {}: expected {}", source_, name, in_quotes(found->units), expected));
+  }
+
  private:
   const NetcdfFile& content_;
   std::string_view source_;
 };
+
+bool is_seconds(std::string_view unit) {
+  return unit.starts_with("second") || unit == "s" || unit.starts_with("s since");
+}
+bool is_since_1970(std::string_view unit) {
+  return is_seconds(unit) &&
+         (unit.find("1970-1-1") != unit.npos || unit.find("1970-01-01") != unit.npos);
+}
+bool is_degrees(std::string_view unit) { return unit.starts_with("deg"); }
+
+constexpr double kLowestGround_m = -500, kHighestGround_m = 9000;
 
 // "2014-09-01T13:25:59"; throws where a number is no time of this age.
 std::string time_of(double seconds, const std::string& place) {
@@ -77,18 +105,26 @@ std::optional<double> present(double radiance) {
 
 struct Almucantars {
   std::vector<double> seconds, wavelength_um, sun_zenith_deg, azimuth_deg, radiance;
-  double latitude_deg, longitude_deg, elevation_m;
+  double latitude_deg, longitude_deg;
+  std::optional<double> elevation_m;
 };
 
 Almucantars almucantars_of(const Datastream& data) {
+  data.require_unit("base_time", is_since_1970, "seconds since 1970-01-01");
+  data.require_unit("time_offset", is_seconds, "seconds");
+  for (const char* name : {"lat", "lon"}) data.require_unit(name, is_degrees, "degrees");
   Almucantars read{data.numbers("time_offset", {"time"}, ""),
                    data.numbers("wavelength", {"time"}, "um"),
                    data.numbers("zenith", {"time"}, "degree"),
                    data.numbers("azimuth", {"azimuth"}, "degree"),
                    data.numbers("alm_rad", {"time", "azimuth"}, "microWatt/(cm^2 * nm * ster)"),
-                   data.numbers("lat", {}, "").front(),
-                   data.numbers("lon", {}, "").front(),
-                   data.numbers("alt", {}, "m").front()};
+                   data.number("lat", -90, 90, "a latitude in degrees"),
+                   data.number("lon", -360, 360, "a longitude in degrees"),
+                   {}};
+  constexpr double kNoHeight = -900;  // -999 and -9999 say that none is known
+  const double height = data.numbers("alt", {}, "m").front();
+  if (height > kNoHeight)
+    read.elevation_m = data.number("alt", kLowestGround_m, kHighestGround_m, "a height in m");
   const double base = data.numbers("base_time", {}, "").front();
   for (double& seconds : read.seconds) seconds += base;
   return read;

@@ -112,6 +112,33 @@ TEST_F(ArmFiles, OthersAreNamed) {
   EXPECT_THAT(error_of(file), StartsWith("time 0: "));
 }
 
+TEST_F(ArmFiles, UnitsOfTimeAndPlaceAreRead) {
+  NetcdfFile file = small();
+  file.variables[0].units = "seconds since 2000-1-1";
+  EXPECT_EQ(error_of(file),
+            "base_time in \"seconds since 2000-1-1\": expected seconds since 1970-01-01");
+  file = small();
+  file.variables[1].units = "hours since 2024-05-15";
+  EXPECT_EQ(error_of(file), "time_offset in \"hours since 2024-05-15\": expected seconds");
+  file = small();
+  file.variables[6].units = "radian";
+  EXPECT_EQ(error_of(file), "lat in \"radian\": expected degrees");
+  file = small();
+  file.variables[6].values = std::vector<double>{std::nan("")};
+  EXPECT_EQ(error_of(file), "lat = nan: expected a latitude in degrees from -90 to 90");
+}
+
+TEST_F(ArmFiles, AHeightThatIsNotKnownIsLeftOut) {
+  NetcdfFile file = small();
+  EXPECT_EQ(read(file).scans.at(0).elevation_m, 700);
+  for (const double none : {-9999.0, -999.0, std::nan("")}) {
+    file.variables[8].values = std::vector<double>{none};
+    EXPECT_FALSE(read(file).scans.at(0).elevation_m.has_value()) << none;
+  }
+  file.variables[8].values = std::vector<double>{70000};
+  EXPECT_EQ(error_of(file), "alt = 70000: expected a height in m from -500 to 9000");
+}
+
 TEST_F(ArmFiles, ADamagedOneIsAnError) {
   std::ofstream(file_, std::ios::binary) << "CDF\1 and nothing more";
   EXPECT_THROW(load_measured_sky(file_, {}), std::invalid_argument);

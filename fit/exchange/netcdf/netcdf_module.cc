@@ -10,7 +10,10 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace skyfit::fit {
 namespace {
@@ -186,6 +189,59 @@ std::string text_attribute(const OpenFile& file, int variable, const char* name)
 
 constexpr std::size_t kMostValues = std::size_t{1} << 28;  // of a variable
 
+std::optional<double> number_attribute(const OpenFile& file, int variable, const char* name) {
+  nc_type type = 0;
+  std::size_t length = 0;
+  if (nc_inq_att(file.id(), variable, name, &type, &length) != NC_NOERR) return {};
+  if (type == NC_CHAR) {
+    const std::string text = text_attribute(file, variable, name);
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0') return {};
+    return number;
+  }
+  if (length != 1 || type == NC_STRING) return {};
+  double value = 0;
+  file.check(nc_get_att_double(file.id(), variable, name, &value));
+  return value;
+}
+
+// What the numbers of a variable stand for, by the conventions of NetCDF: packed ones are unpacked,
+// and what is missing is NaN. Of the whole file's attributes ARM's `missing_value` counts.
+class Unpacking {
+ public:
+  Unpacking(const OpenFile& file, int variable, nc_type type)
+      : scale_(number_attribute(file, variable, "scale_factor")),
+        offset_(number_attribute(file, variable, "add_offset")) {
+    for (const auto& [of, name] : {std::pair{variable, "_FillValue"},
+                                   {variable, "missing_value"},
+                                   {NC_GLOBAL, "missing_value"}}) {
+      if (const auto value = number_attribute(file, of, name)) missing_.push_back(*value);
+    }
+    is_plain_ = !scale_ && !offset_ && missing_.empty();
+    if (type == NC_FLOAT) missing_.push_back(double{NC_FILL_FLOAT});
+    if (type == NC_DOUBLE) missing_.push_back(NC_FILL_DOUBLE);
+    if (type == NC_SHORT) missing_.push_back(NC_FILL_SHORT);
+    if (type == NC_INT) missing_.push_back(NC_FILL_INT);
+  }
+
+  bool is_plain() const { return is_plain_; }
+  void apply(std::vector<double>& values) const {
+    for (double& value : values) {
+      const bool is_missing = std::ranges::any_of(missing_, [&](double missing) {
+        return value == missing || value == double{static_cast<float>(missing)};
+      });
+      value = is_missing ? std::numeric_limits<double>::quiet_NaN()
+                         : value * scale_.value_or(1) + offset_.value_or(0);
+    }
+  }
+
+ private:
+  std::optional<double> scale_, offset_;
+  std::vector<double> missing_;
+  bool is_plain_;
+};
+
 NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& content) {
   char name[NC_MAX_NAME + 1];
   nc_type type = 0;
@@ -207,6 +263,7 @@ NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& con
       file.fail(fmt::format("{}: expected at most {} values", name, kMostValues));
     size *= length;
   }
+  const Unpacking unpacking(file, id, type);
   if (type == NC_CHAR) {
     // A text lies along the last dimension.
     std::string letters(size, '\0');
@@ -219,9 +276,11 @@ NetcdfVariable read_variable(const OpenFile& file, int id, const NetcdfFile& con
       values.emplace_back(letters.substr(i, length).c_str());
     if (!variable.dimensions.empty()) variable.dimensions.pop_back();
     variable.values = std::move(values);
-  } else if (type == NC_DOUBLE || type == NC_FLOAT || type == NC_BYTE || type == NC_SHORT) {
+  } else if (type == NC_DOUBLE || type == NC_FLOAT || type == NC_BYTE || type == NC_SHORT ||
+             (type == NC_INT && !unpacking.is_plain())) {
     std::vector<double> values(size);
     file.check(nc_get_var_double(file.id(), id, values.data()));
+    unpacking.apply(values);
     variable.values = std::move(values);
   } else if (type == NC_INT) {
     std::vector<int> values(size);

@@ -12,8 +12,9 @@
 namespace skyfit::fit {
 
 // A variable over dimensions of the file, the last one fastest. A number that is not known is NaN,
-// its _FillValue. `units` is "1" of a number without, and empty of texts and where each value has
-// its own.
+// its _FillValue; of a file that is read also what missing_value or the default of NetCDF says.
+// What is packed by scale_factor and add_offset is read unpacked, as doubles. `units` is "1" of a
+// number without, and empty of texts and where each value has its own.
 struct NetcdfVariable {
   std::string name;  // letters, digits and _
   std::vector<std::string> dimensions;
