@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 #include <sstream>
+#include <string>
 
 #include "data_refs/csv.h"
 
@@ -24,10 +26,14 @@ class Parser {
       if (words_[at_].text.starts_with('!'))
         fail_at(source_, p.line, "a command: expected the scene that it writes");
       p.modifier = next("a modifier").text;
+      if (const auto alias = aliases_.find(p.modifier); alias != aliases_.end())
+        p.modifier = alias->second;
       p.type = next("a type").text;
       p.name = next("an identifier").text;
       if (p.type == "alias") {  // a further name of a modifier
-        next("the name of a modifier");
+        const std::string target = next("the name of a modifier").text;
+        const auto alias = aliases_.find(target);
+        aliases_[p.name] = alias != aliases_.end() ? alias->second : target;
         continue;
       }
       for (int i = count("strings"); i > 0; --i) p.strings.push_back(next("a string").text);
@@ -65,6 +71,7 @@ class Parser {
 
   const std::vector<Word>& words_;
   std::string_view source_;
+  std::map<std::string, std::string> aliases_;
   std::size_t at_ = 0;
 };
 

@@ -2,12 +2,10 @@
 #include "render/sky_map/mapped_frame.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -15,175 +13,15 @@
 #include <utility>
 
 #include "model/numerics/angles.h"
+#include "render/sky_map/face_samples.h"
 
 namespace skyfit {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::int64_t kMostSamples = std::int64_t{1} << 25;  // of the picture, and of a face
 
-// Of a face: pixels as wide as a sun's disc of 0.5 degrees, whose light is wrong in wider ones.
-constexpr double kLeastSide = 256;
-
-// Axes of the frame: x to the right of the camera's azimuth, y along it, z up.
-struct Face {
-  Axis forward, right, up;
-  double zenith, turn;  // of the camera that draws it; turn: from the picture's azimuth
-};
-constexpr std::array<Face, 6> kFaces = {{
-    {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, kPi / 2, 0},
-    {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, kPi / 2, kPi / 2},
-    {{0, -1, 0}, {-1, 0, 0}, {0, 0, 1}, kPi / 2, kPi},
-    {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, kPi / 2, -kPi / 2},
-    {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}, 0, 0},
-    {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, kPi, 0},
-}};
-
-double dot(const Axis& a, const Axis& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-// Between a picture's points and directions in the frame's axes.
-class Layout {
- public:
-  explicit Layout(const FrameOptions& options) : map_(projection_of(options)) {
-    const double pitch =
-        has_direction(options.projection) ? kPi / 2 - options.camera.view_zenith : 0;
-    forward_ = {0, std::cos(pitch), std::sin(pitch)};
-    up_ = {0, -std::sin(pitch), std::cos(pitch)};
-  }
-
-  std::optional<Axis> direction(double x, double y) const {
-    const auto d = map_->direction(x, y);
-    if (!d) return {};
-    return Axis{(*d)[0], (*d)[1] * forward_[1] + (*d)[2] * up_[1],
-                (*d)[1] * forward_[2] + (*d)[2] * up_[2]};
-  }
-  std::optional<std::array<double, 2>> point(const Axis& d) const {
-    return map_->point({d[0], dot(d, forward_), dot(d, up_)});
-  }
-  double solid_angle_sr(int x, int y) const { return map_->solid_angle_sr(x, y); }
-
- private:
-  std::unique_ptr<MapProjection> map_;
-  Axis forward_, up_;
-};
-
-// The largest angle across the middle of a pixel.
-double widest_pixel_rad(const Layout& layout, int width, int height) {
-  constexpr int kTried = 64;
-  double widest = 0;
-  for (int j = 0; j < kTried; ++j) {
-    for (int i = 0; i < kTried; ++i) {
-      const double x = std::floor((i + 0.5) / kTried * width) + 0.5,
-                   y = std::floor((j + 0.5) / kTried * height) + 0.5;
-      const auto across = [&](double dx, double dy) {
-        const auto a = layout.direction(x - dx, y - dy), b = layout.direction(x + dx, y + dy);
-        if (a && b) widest = std::max(widest, 2 * std::acos(std::clamp(dot(*a, *b), -1.0, 1.0)));
-      };
-      across(0.25, 0);
-      across(0, 0.25);
-    }
-  }
-  return widest;
-}
-
-// Where each sample of a picture is on the faces.
-class Samples {
- public:
-  explicit Samples(const FrameOptions& options)
-      : layout_(options), width_(options.width), height_(options.height) {
-    const std::int64_t pixels = std::int64_t{width_} * height_;
-    per_side_ = options.samples_per_side;
-    while (per_side_ > 1 && pixels * per_side_ * per_side_ > kMostSamples) --per_side_;
-    face_side_ =
-        side_of_faces(per_side_ * std::round(2 / widest_pixel_rad(layout_, width_, height_)));
-    place_samples();
-  }
-
-  const Layout& layout() const { return layout_; }
-  int face_side() const { return face_side_; }
-  bool shows(std::size_t face) const { return shown_[face]; }
-
-  // Calls f(pixel, sample of the face) for each sample on a face; those of a pixel on one thread.
-  template <class F>
-  void for_face(std::size_t face, F&& f) const {
-    const std::uint32_t first = static_cast<std::uint32_t>(face) * face_samples(),
-                        end = first + face_samples();
-    for_pixels([&](std::size_t pixel) {
-      for (const std::uint32_t sample : of_pixel(pixel))
-        if (sample >= first && sample < end) f(pixel, sample - first);
-    });
-  }
-  template <class F>
-  void for_pixels(F&& f) const {
-    tbb::parallel_for(0, height_, [&](int y) {
-      const std::size_t first = static_cast<std::size_t>(y) * width_;
-      for (std::size_t pixel = first; pixel < first + width_; ++pixel) f(pixel);
-    });
-  }
-  // Samples of a pixel that show a direction.
-  std::size_t shown_in(std::size_t pixel) const {
-    const auto samples = of_pixel(pixel);
-    return samples.size() - static_cast<std::size_t>(std::ranges::count(samples, kNothing));
-  }
-
- private:
-  // Samples are the middles of every, every third, every fifth .. of a face.
-  static int side_of_faces(double wanted) {
-    const double most = std::floor(std::sqrt(static_cast<double>(kMostSamples)));
-    double side = std::clamp(wanted, 1.0, most);
-    if (side < kLeastSide) side *= 2 * std::ceil((kLeastSide / side - 1) / 2) + 1;
-    return static_cast<int>(side);
-  }
-
-  static constexpr std::uint32_t kNothing = ~std::uint32_t{0};
-
-  std::uint32_t face_samples() const {
-    return static_cast<std::uint32_t>(face_side_) * static_cast<std::uint32_t>(face_side_);
-  }
-  std::span<const std::uint32_t> of_pixel(std::size_t pixel) const {
-    const auto count = static_cast<std::size_t>(per_side_ * per_side_);
-    return std::span(samples_).subspan(pixel * count, count);
-  }
-
-  std::uint32_t sample_at(const Axis& d) const {
-    const auto face = std::ranges::max_element(
-        kFaces, {}, [&](const Face& each) { return dot(d, each.forward); });
-    const double depth = dot(d, face->forward);
-    const auto cell = [&](double tangent) {
-      return static_cast<std::uint32_t>(
-          std::clamp(0.5 * (1 + tangent) * face_side_, 0.0, face_side_ - 1.0));
-    };
-    const std::uint32_t column = cell(dot(d, face->right) / depth),
-                        row = cell(-dot(d, face->up) / depth);
-    return static_cast<std::uint32_t>(face - kFaces.begin()) * face_samples() +
-           row * static_cast<std::uint32_t>(face_side_) + column;
-  }
-
-  void place_samples() {
-    const auto count = static_cast<std::size_t>(per_side_ * per_side_);
-    samples_.resize(count * width_ * height_);
-    for_pixels([&](std::size_t pixel) {
-      std::uint32_t* sample = &samples_[pixel * count];
-      for (int j = 0; j < per_side_; ++j) {
-        for (int i = 0; i < per_side_; ++i) {
-          const double x = static_cast<double>(pixel % width_) + (i + 0.5) / per_side_,
-                       y = static_cast<double>(pixel / width_) + (j + 0.5) / per_side_;
-          const auto d = layout_.direction(x, y);
-          *sample++ = d ? sample_at(*d) : kNothing;
-        }
-      }
-    });
-    for (const std::uint32_t sample : samples_)
-      if (sample != kNothing) shown_[sample / face_samples()] = true;
-  }
-
-  Layout layout_;
-  int width_, height_, per_side_, face_side_;
-  std::vector<std::uint32_t> samples_;  // [pixel][per_side^2] face, row, column
-  std::array<bool, kFaces.size()> shown_{};
-};
-
-FrameOptions face_options(const FrameOptions& options, const Samples& samples, const Face& face) {
+FrameOptions face_options(const FrameOptions& options, const FaceSamples& samples,
+                          const CubeView& face) {
   FrameOptions flat = options;
   flat.projection = PictureProjection::kPerspective;
   flat.width = flat.height = samples.face_side();
@@ -231,7 +69,7 @@ void add(const float* from, std::size_t channels, float weight, float* to) {
 // A frame to which face after face is added.
 class MappedFrame {
  public:
-  MappedFrame(const FrameOptions& options, const Samples& samples) : samples_(samples) {
+  MappedFrame(const FrameOptions& options, const FaceSamples& samples) : samples_(samples) {
     frame_.width = options.width;
     frame_.height = options.height;
     frame_.primaries = options.primaries;
@@ -257,7 +95,7 @@ class MappedFrame {
 
   void add_face(std::size_t number, Frame face) {
     for (const DiscPixel& disc : face.discs) {
-      add_disc(kFaces[number], disc);
+      add_disc(cube_views()[number], disc);
       for (std::size_t k = 0; k < 3; ++k) {
         float& light = face.rgb[3 * disc.pixel + k];
         light = std::max(light - disc.rgb[k], 0.0F);
@@ -267,21 +105,42 @@ class MappedFrame {
     }
     std::vector<const EdgePixel*> edge_at(face.luminance.size());
     for (const EdgePixel& edge : face.edges) edge_at[edge.pixel] = &edge;
-    samples_.for_face(number, [&](std::size_t pixel, std::uint32_t sample) {
+    const int side = samples_.face_side();
+    samples_.for_face(number, [&](std::size_t pixel, const FaceSamples::OnFace& on) {
+      const auto pixel_at = [&](int column, int row) {
+        return static_cast<std::size_t>(std::clamp(row, 0, side - 1)) * side +
+               static_cast<std::size_t>(std::clamp(column, 0, side - 1));
+      };
+      const auto is_sky = [&](std::size_t at) {
+        return edge_at[at] == nullptr && std::isinf(face.depth_m[at]);
+      };
+      // The sky is smooth: between four of its pixels it is interpolated, all else is the
+      // nearest's.
+      const int beside = on.column + (on.right < 0 ? -1 : 1),
+                below = on.row + (on.down < 0 ? -1 : 1);
+      const std::size_t nearest = pixel_at(on.column, on.row);
+      std::array<std::size_t, 4> from = {nearest, pixel_at(beside, on.row),
+                                         pixel_at(on.column, below), pixel_at(beside, below)};
+      const float u = std::abs(on.right), v = std::abs(on.down);
+      std::array<float, 4> part = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+      if (!std::ranges::all_of(from, is_sky)) part = {1, 0, 0, 0};
       const float weight = weight_[pixel];
-      const float* light = &face.rgb[3 * std::size_t{sample}];
-      add(light, 3, weight, &frame_.rgb[3 * pixel]);
-      frame_.luminance[pixel] += weight * face.luminance[sample];
-      frame_.depth_m[pixel] = std::min(frame_.depth_m[pixel], face.depth_m[sample]);
+      const auto add_part = [&](const std::vector<float>& values, float* to) {
+        for (std::size_t k = 0; k < 4; ++k) add(&values[3 * from[k]], 3, weight * part[k], to);
+      };
+      add_part(face.rgb, &frame_.rgb[3 * pixel]);
+      for (std::size_t k = 0; k < 4; ++k)
+        frame_.luminance[pixel] += weight * part[k] * face.luminance[from[k]];
+      frame_.depth_m[pixel] = std::min(frame_.depth_m[pixel], face.depth_m[nearest]);
       if (frame_.layers) {
         for (const auto layer : kLayers)
-          add(&((*face.layers).*layer)[3 * std::size_t{sample}], 3, weight,
-              &((*frame_.layers).*layer)[3 * pixel]);
+          add_part((*face.layers).*layer, &((*frame_.layers).*layer)[3 * pixel]);
       }
-      const EdgePixel* const edge = edge_at[sample];
-      const float sky = edge != nullptr                    ? edge->sky_share
-                        : std::isinf(face.depth_m[sample]) ? 1.0F
-                                                           : 0.0F;
+      const EdgePixel* const edge = edge_at[nearest];
+      const float* light = &face.rgb[3 * nearest];
+      const float sky = edge != nullptr                     ? edge->sky_share
+                        : std::isinf(face.depth_m[nearest]) ? 1.0F
+                                                            : 0.0F;
       sky_share_[pixel] += weight * sky;
       add(edge != nullptr ? edge->sky.data() : light, 3, weight * sky, &sky_[3 * pixel]);
       add(edge != nullptr ? edge->ground.data() : light, 3, weight * (1 - sky),
@@ -322,7 +181,7 @@ class MappedFrame {
   }
 
   // In parts, each to the pixel that shows it.
-  void add_disc(const Face& face, const DiscPixel& disc) {
+  void add_disc(const CubeView& face, const DiscPixel& disc) {
     constexpr int kParts = 4;
     const int side = samples_.face_side();
     const auto column = static_cast<int>(disc.pixel) % side,
@@ -379,7 +238,7 @@ class MappedFrame {
     }
   }
 
-  const Samples& samples_;
+  const FaceSamples& samples_;
   Frame frame_;
   std::vector<float> weight_;                    // [pixel] of each of its samples
   std::vector<float> sky_share_, sky_, ground_;  // [pixel], [pixel][3] times their shares
@@ -412,23 +271,23 @@ std::unique_ptr<MapProjection> projection_of(const FrameOptions& options) {
 }
 
 std::vector<FrameOptions> cube_faces(const FrameOptions& options) {
-  const Samples samples(options);
+  const FaceSamples samples(options);
   std::vector<FrameOptions> faces;
-  for (std::size_t i = 0; i < kFaces.size(); ++i)
-    if (samples.shows(i)) faces.push_back(face_options(options, samples, kFaces[i]));
+  for (std::size_t i = 0; i < kCubeFaces; ++i)
+    if (samples.shows(i)) faces.push_back(face_options(options, samples, cube_views()[i]));
   return faces;
 }
 
 Frame mapped_frame(const FrameOptions& options, const DrawFace& draw,
                    const std::function<void(double)>& progress) {
-  const Samples samples(options);
+  const FaceSamples samples(options);
   MappedFrame mapped(options, samples);
-  for (std::size_t i = 0; i < kFaces.size(); ++i) {
+  for (std::size_t i = 0; i < kCubeFaces; ++i) {
     if (!samples.shows(i)) continue;
     const auto report = [&](double done) {
-      if (progress) progress((static_cast<double>(i) + done) / kFaces.size());
+      if (progress) progress((static_cast<double>(i) + done) / kCubeFaces);
     };
-    mapped.add_face(i, draw(face_options(options, samples, kFaces[i]), report));
+    mapped.add_face(i, draw(face_options(options, samples, cube_views()[i]), report));
   }
   return std::move(mapped).finished();
 }

@@ -29,10 +29,11 @@ std::vector<FrameOptions> cube_faces(const FrameOptions& options);
 using DrawFace =
     std::function<Frame(const FrameOptions& face, const std::function<void(double)>& progress)>;
 
-// A pixel is the mean of samples_per_side^2 samples, each the nearest of a face, which in its
-// middle are as wide as the picture's widest: narrower on a face of less than 256 x 256, wider on
-// one of more than 2^25. A sun's disc keeps the illuminance that it has on the faces. Without glare
-// and metadata. Progress in 0..1; may be empty. Throws what `draw` throws.
+// A pixel is the mean of samples_per_side^2 samples, each of the sky interpolated on a face, of all
+// else the nearest there; samples of a face are in its middle as wide as the picture's widest:
+// narrower on a face of less than 256 x 256, wider on one of more than 2^25. A sun's disc keeps the
+// illuminance that it has on the faces. Without glare and metadata. Progress in 0..1; may be empty.
+// Throws what `draw` throws.
 Frame mapped_frame(const FrameOptions& options, const DrawFace& draw,
                    const std::function<void(double)>& progress);
 

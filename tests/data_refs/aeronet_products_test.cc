@@ -67,6 +67,21 @@ TEST(AeronetProducts, TheExponentsErrorIsThatOfTwoDepths) {
   EXPECT_NEAR(known.angstrom_exponent->mean, std::log(2.5) / std::log(870.0 / 440), 1e-9);
 }
 
+TEST(AeronetProducts, WhatTheNeighbourLacksIsTakenAlone) {
+  const std::string head = "Date(dd:mm:yyyy),Time(hh:mm:ss),AOD_870nm,AOD_440nm\n";
+  const auto list = records(head + "15:05:2024,06:28:00,0.1,0.25\n15:05:2024,06:32:00,0.1,-999.\n");
+  const AerosolKnowledge known = aerosol_at(list, {at("2024-05-15T06:30:00")}, "site");
+  EXPECT_NEAR(known.angstrom_exponent->mean, std::log(2.5) / std::log(870.0 / 440), 1e-9);
+}
+
+TEST(AeronetProducts, ATableBelowAnotherHasItsOwnColumns) {
+  const auto list = records(
+      "Date(dd:mm:yyyy),Time(hh:mm:ss),AOD_870nm,AOD_440nm\n15:05:2024,06:30:00,0.1,0.25\n"
+      "Date(dd:mm:yyyy),Time(hh:mm:ss),AOD_440nm,AOD_870nm\n15:05:2024,07:30:00,0.25,0.1\n");
+  ASSERT_THAT(list, SizeIs(2));
+  EXPECT_EQ(list[0].optical_depth, list[1].optical_depth);
+}
+
 TEST(AeronetProducts, InterpolatesInTimeAndAveragesScans) {
   const auto list = records(kHead + optical_depths("06:50:00", 3) + optical_depths("06:30:00", 1) +
                             optical_depths("12:00:00", 5));

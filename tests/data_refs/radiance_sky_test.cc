@@ -165,7 +165,8 @@ TEST(RadianceSky, AGlowColoursTheSkyAndOutputTwoIsLuminance) {
                     ground =
                         "skyfunc glow soil\n0\n0\n4 1.4 0.9 0.6 0\nsoil source ground\n0\n0\n"
                         "4 0 0 -1 180\n";
-  for (const std::string& lights : {sky, sky + ground, ground + sky})
+  const std::string by_alias = "void alias air skyfunc\nair glow" + sky.substr(sky.find(" sky\n"));
+  for (const std::string& lights : {sky, sky + ground, ground + sky, by_alias})
     EXPECT_NEAR(luminance(scene + lights), 0.5 * plain, kRounding * plain) << lights;
   EXPECT_NEAR(luminance(scene + ground), plain, kRounding * plain);
   EXPECT_NEAR(luminance("# gendaylit -ang 55 -60 -W 800 100 -O 2\n" + scene) * kLumenPerWatt, plain,
