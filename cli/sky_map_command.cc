@@ -86,13 +86,15 @@ void add_metadata(const Preset& preset, const SkyMapArguments& arguments,
 }
 
 void print_summary(const SkyMap& map, const std::string& file) {
-  const std::size_t shown = map.is_xyz ? 1 : 0;
-  const std::string what = map.is_xyz ? "illuminance" : "irradiance at " + map.channels[shown],
-                    unit = map.is_xyz ? "lx" : "W m-2 nm-1";
   print(fmt::format("{}: {} x {} pixels\n", file, map.width, map.height));
-  print(fmt::format("{}, diffuse horizontal: {:.6g} {} ({:.6g} as the sum over the pixels)\n", what,
-                    map.diffuse_horizontal[shown], unit, map.map_horizontal[shown]));
-  print(fmt::format("{}, direct normal: {:.6g} {}\n", what, map.direct_normal[shown], unit));
+  for (std::size_t c = 0; c < map.channels.size(); ++c) {
+    if (map.is_xyz && map.channels[c] != "Y") continue;
+    const std::string what = map.is_xyz ? "illuminance" : "irradiance at " + map.channels[c],
+                      unit = map.is_xyz ? "lx" : "W m-2 nm-1";
+    print(fmt::format("{}, diffuse horizontal: {:.6g} {} ({:.6g} as the sum over the pixels)\n",
+                      what, map.diffuse_horizontal[c], unit, map.map_horizontal[c]));
+    print(fmt::format("{}, direct normal: {:.6g} {}\n", what, map.direct_normal[c], unit));
+  }
 }
 
 void require_formats(const SkyMapArguments& arguments) {
