@@ -18,6 +18,7 @@
 #include "data_refs/sample_csv_columns.h"
 #include "data_refs/sun_mends.h"
 #include "data_refs/units.h"
+#include "model/base/text.h"
 #include "model/numerics/angles.h"
 
 namespace skyfit::refs {
@@ -37,14 +38,14 @@ const ValueColumn& value_column(const CsvTable& table) {
 void expect_columns(const CsvTable& table) {
   for (const std::string& column : table.columns()) {
     if (std::find(kColumns.begin(), kColumns.end(), column) == kColumns.end()) {
-      table.fail_header(
-          fmt::format("{}: unknown column, expected one of {}", column, fmt::join(kColumns, ", ")));
+      table.fail_header(fmt::format("{}: unknown column, expected one of {}", excerpt(column),
+                                    fmt::join(kColumns, ", ")));
     }
   }
   const auto expect = [&](bool holds, std::string_view what) {
     if (!holds)
-      table.fail_header(
-          fmt::format("expected {}, got the columns {}", what, fmt::join(table.columns(), ",")));
+      table.fail_header(fmt::format("expected {}, got the columns {}", what,
+                                    excerpt(fmt::format("{}", fmt::join(table.columns(), ",")))));
   };
   expect(table.has(kSunZenith), "a column sun_zenith_deg");
   expect(table.has(kViewZenith), "a column view_zenith_deg");
