@@ -20,7 +20,7 @@ struct OtherFormat {
 };
 
 // The first that matches; a line of columns of AERONET tells the product.
-constexpr std::array<OtherFormat, 29> kFormats = {{
+constexpr std::array<OtherFormat, 30> kFormats = {{
     {R"(^\x89png|^\xff\xd8\xff|^(ii\*|mm\x00\*)|^gif8)",
      "is an image of colours for a screen (PNG, JPEG, TIFF or GIF), whose light is not known; "
      "skyfit "
@@ -42,6 +42,9 @@ constexpr std::array<OtherFormat, 29> kFormats = {{
      "is an inversion of AERONET; skyfit reads the sky radiances that it came from, and takes it "
      "as "
      "a prior by fit --aeronet-inversion"},
+    {R"((fine|coarse)_mode_aod|\bmonth,aod_)",
+     "is fine and coarse modes or monthly means of AERONET; skyfit reads its sky radiances, and as "
+     "a prior, by fit --aeronet-aod, its optical depths by wavelength and time"},
     {R"(aod_\d+nm|aot_\d+|[,_]aod_)",
      "is aerosol optical depths of AERONET; skyfit reads AERONET's sky radiances, and takes these "
      "as "

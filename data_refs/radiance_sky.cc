@@ -298,7 +298,7 @@ bool is_radiance_sky_file(std::string_view name) {
   if (!std::filesystem::is_regular_file(file, none) ||
       std::filesystem::file_size(file, none) > kMostBytes)
     return false;
-  return is_radiance_sky(read_text_file(file, "a scene of Radiance"));
+  return is_radiance_sky(read_text_file(file, "a measured sky or a scene of Radiance"));
 }
 
 RadianceSky parse_radiance_sky(std::string_view text, std::string_view source) {
