@@ -108,12 +108,14 @@ void FaceSamples::place_samples() {
   samples_.assign(count * width_ * height_, kNothing);
   offsets_.resize(samples_.size());
   for_pixels([&](std::size_t pixel) {
+    const auto left = static_cast<double>(pixel % width_),
+               top = static_cast<double>(pixel / width_);
+    // On the rim of a disc a pixel whose centre shows nothing has no direction, and no light.
+    if (!layout_.direction(left + 0.5, top + 0.5)) return;
     std::size_t sample = pixel * count;
     for (int j = 0; j < per_side_; ++j) {
       for (int i = 0; i < per_side_; ++i) {
-        const double x = static_cast<double>(pixel % width_) + (i + 0.5) / per_side_,
-                     y = static_cast<double>(pixel / width_) + (j + 0.5) / per_side_;
-        const auto d = layout_.direction(x, y);
+        const auto d = layout_.direction(left + (i + 0.5) / per_side_, top + (j + 0.5) / per_side_);
         if (d) std::tie(samples_[sample], offsets_[sample]) = sample_at(*d);
         ++sample;
       }

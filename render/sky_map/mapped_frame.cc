@@ -171,11 +171,10 @@ class MappedFrame {
       if (weight_[pixel] <= 0) return;
       const auto x = static_cast<double>(pixel % frame_.width) + 0.5,
                  y = static_cast<double>(pixel / frame_.width) + 0.5;
-      const auto d = samples_.layout().direction(x, y);
-      if (!d) return;
-      const double turned = std::remainder(azimuth + std::atan2((*d)[0], (*d)[1]), 2 * kPi);
+      const Axis d = samples_.layout().direction(x, y).value();
+      const double turned = std::remainder(azimuth + std::atan2(d[0], d[1]), 2 * kPi);
       frame_.view_zenith_deg[pixel] =
-          static_cast<float>(kDegreesPerRadian * std::atan2(std::hypot((*d)[0], (*d)[1]), (*d)[2]));
+          static_cast<float>(kDegreesPerRadian * std::atan2(std::hypot(d[0], d[1]), d[2]));
       frame_.view_azimuth_deg[pixel] = static_cast<float>(kDegreesPerRadian * turned);
     });
   }
@@ -198,11 +197,12 @@ class MappedFrame {
         if (!point) continue;
         const int x = std::clamp(static_cast<int>((*point)[0]), 0, frame_.width - 1),
                   y = std::clamp(static_cast<int>((*point)[1]), 0, frame_.height - 1);
+        const std::size_t pixel = static_cast<std::size_t>(y) * frame_.width + x;
+        if (weight_[pixel] <= 0) continue;
         const double solid_angle = samples_.layout().solid_angle_sr(x, y);
-        if (!(solid_angle > 0)) continue;
         const auto share =
             static_cast<float>(double{disc.solid_angle_sr} / (kParts * kParts) / solid_angle);
-        auto& to = discs_[static_cast<std::size_t>(y) * frame_.width + x];
+        auto& to = discs_[pixel];
         if (!to) {
           to = DiscPixel{};
           to->solid_angle_sr = static_cast<float>(solid_angle);
