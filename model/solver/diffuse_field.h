@@ -49,8 +49,8 @@ struct DiffuseField {
 // What fields are solved for: how fine they are and how far suns are coupled.
 enum class FieldsOf {
   kDay,
-  kLowSuns,       // below 80 deg at the eye, in an extended atmosphere
-  kDeepTwilight,  // below 94 deg along the ray
+  kLowSuns,       // more than 80 deg from the eye's zenith, in an extended atmosphere
+  kDeepTwilight,  // more than 94 deg from a zenith along the ray
 };
 
 struct DiffuseOptions {
@@ -76,7 +76,7 @@ struct FieldGrid {
 };
 FieldGrid field_grid(const Shells& shells, int levels_by_day, bool deep_twilight);
 
-// Whether the atmosphere is thick against its planet.
+// Whether its top is above 0.02 of the planet's radius, as on Mars and Titan.
 bool is_extended(const Shells& shells);
 
 // The first sun of the grid that has light from neighbouring places under their own sun. On a

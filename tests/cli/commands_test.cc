@@ -85,6 +85,10 @@ TEST_F(CommandsTest, SkyMapIsWrittenWithItsSun) {
               HasSubstr("diffuse horizontal: "));
   EXPECT_THAT(files(), UnorderedElementsAre("sky.hdr", "sun.json"));
   EXPECT_NEAR(json::parse(read("sun.json"))["zenith_deg"].get<double>(), 40, 1e-9);
+  const std::string two = output({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--size",
+                                  "16", "--wavelength-nm", "450,700", "--out", "two.npy"});
+  for (const char* wavelength : {"irradiance at 450nm, diffuse", "irradiance at 700nm, diffuse"})
+    EXPECT_THAT(two, HasSubstr(wavelength));
   const Outcome no_layers =
       run({"sky-map", "earth-clear", "--sun-zenith-deg", "40", "--stokes", "--out", "sky.hdr"});
   EXPECT_EQ(no_layers.status, 2);

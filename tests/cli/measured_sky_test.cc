@@ -42,6 +42,15 @@ TEST_F(MeasuredSkyTest, CheckSaysWhatAScanHolds) {
               HasSubstr("valid sidecar, 1 excluded samples"));
 }
 
+// The lines of an almucantar follow the sun; the summary has time, zenith angle and azimuth of the
+// first, by NOAA's formula.
+TEST_F(MeasuredSkyTest, CheckHasTheSunOfAScansBegin) {
+  const json scan = summary(kExamples + "aeronet_almucantar.csv").at("scan_list")[0];
+  EXPECT_EQ(scan.at("time_utc"), "2024-05-15T06:30:00Z");
+  EXPECT_NEAR(scan.at("sun_zenith_deg").get<double>(), 63.112, 0.02);
+  EXPECT_NEAR(scan.at("sun_azimuth_deg").get<double>(), 90.754, 0.02);
+}
+
 // Every example, printed as a CSV of samples, is read back as the same sky.
 TEST_F(MeasuredSkyTest, ReferencesPrintEveryFormatForTheOtherCommands) {
   for (const char* name :
